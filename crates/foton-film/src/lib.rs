@@ -1,0 +1,1 @@
+//! Linear images, tone mapping, PNG and EXR files with metadata.

@@ -1,0 +1,1 @@
+//! Progressive photon mapping: eye pass, photon passes, refinement.

@@ -1,0 +1,18 @@
+//! Values for light transport: colours, rays, frames, boxes, keyed random streams, and warps beside their densities.
+//!
+//! Nothing here knows what a scene is. Everything is `Copy`, single precision unless said otherwise, and free of state.
+
+mod aabb;
+mod frame;
+pub mod octahedral;
+mod ray;
+mod rgb;
+mod stream;
+pub mod warp;
+
+pub use aabb::Aabb;
+pub use frame::Frame;
+pub use glam;
+pub use ray::Ray;
+pub use rgb::Rgb;
+pub use stream::{Purpose, Stream};

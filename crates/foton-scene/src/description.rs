@@ -1,0 +1,246 @@
+//! A scene as a person or a file states it: world units, double precision, nothing derived.
+//!
+//! An editor changes a description and builds the next [`Scene`](crate::Scene) from it. Meanings follow Mitsuba 3, so
+//! that one file renders alike in both. Nothing is validated here: building a scene does that.
+
+use std::sync::Arc;
+
+use foton_math::Rgb;
+use foton_math::glam::{DAffine3, DVec3};
+
+/// Everything that a scene consists of.
+#[derive(Clone, Debug, Default)]
+pub struct SceneDescription {
+    /// Cameras; the first is used unless another is asked for by name.
+    pub sensors: Vec<SensorDescription>,
+    /// Materials, referred to by index.
+    pub materials: Vec<Material>,
+    /// Surfaces, in the order of the file. The index is the shape's identity in every output.
+    pub shapes: Vec<ShapeDescription>,
+    /// Emitters that are not surfaces.
+    pub emitters: Vec<EmitterDescription>,
+    /// The longest path in edges, as Mitsuba counts them (1: emitters seen directly, 2: one bounce); `None`: no bound.
+    pub max_depth: Option<u32>,
+}
+
+/// A camera.
+#[derive(Clone, Debug)]
+pub struct SensorDescription {
+    /// The id in the file, or `sensor`, `sensor-2`, …
+    pub name: String,
+    /// Camera to world. The camera looks along its +z; +y is up in the image and +x points to the image's *left*.
+    pub to_world: DAffine3,
+    /// Field of view in degrees along `fov_axis`, in (0, 180).
+    pub fov_degrees: f64,
+    /// What `fov_degrees` spans.
+    pub fov_axis: FovAxis,
+    /// Image width in pixels, at least 1.
+    pub width: u32,
+    /// Image height in pixels, at least 1.
+    pub height: u32,
+    /// How eye samples spread around a pixel's centre.
+    pub filter: Filter,
+    /// Nothing nearer than this depth along the camera's z is seen, in world units. `None`: no bound.
+    pub near_clip: Option<f64>,
+    /// Nothing farther than this depth along the camera's z is seen, in world units. `None`: no bound.
+    pub far_clip: Option<f64>,
+}
+
+/// The image axis that a field of view spans.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FovAxis {
+    /// Horizontal.
+    #[default]
+    X,
+    /// Vertical.
+    Y,
+    /// Corner to corner.
+    Diagonal,
+    /// The shorter side.
+    Smaller,
+    /// The longer side.
+    Larger,
+}
+
+/// A separable reconstruction filter, sampled in proportion to its height. Widths in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Filter {
+    /// Constant over `|x| ≤ radius`; 0.5 covers the pixel exactly.
+    Box {
+        /// Half the width.
+        radius: f64,
+    },
+    /// A triangle that falls to zero at `radius`.
+    Tent {
+        /// Half the base.
+        radius: f64,
+    },
+    /// A Gaussian cut off, and lowered to zero, at four standard deviations.
+    Gaussian {
+        /// Standard deviation.
+        stddev: f64,
+    },
+}
+
+/// A surface with its material.
+#[derive(Clone, Debug)]
+pub struct ShapeDescription {
+    /// The id in the file, or `shape-N` with its number in the file, from 1.
+    pub name: String,
+    /// The surface in object space.
+    pub geometry: Geometry,
+    /// Object to world.
+    pub to_world: DAffine3,
+    /// Turns all normals around: what was outside is inside.
+    pub flip_normals: bool,
+    /// Index into [`SceneDescription::materials`].
+    pub material: usize,
+    /// Emitted radiance on the side that the normal points to (W·m⁻²·sr⁻¹), where the surface is an area emitter.
+    pub radiance: Option<Rgb>,
+}
+
+/// A surface in object space.
+#[derive(Clone, Debug)]
+pub enum Geometry {
+    /// Triangles.
+    Mesh(Arc<Mesh>),
+    /// A sphere, its normal outwards. A transform may turn, move and scale it evenly, nothing else.
+    Sphere {
+        /// The centre.
+        centre: DVec3,
+        /// The radius, above zero.
+        radius: f64,
+    },
+    /// The unit disc in the xy plane, its normal +z. A transform must keep it circular.
+    Disc,
+}
+
+/// Triangles over shared vertices.
+///
+/// Where there are vertex normals, they say which side of a triangle is outside; without them the winding does
+/// (counter-clockwise seen from outside).
+#[derive(Clone, Debug, Default)]
+pub struct Mesh {
+    /// Vertex positions.
+    pub positions: Vec<DVec3>,
+    /// Vertex normals, need not be of unit length: one a position, or none for flat faces.
+    pub normals: Vec<DVec3>,
+    /// Vertex indices of each triangle.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// How a surface scatters, on each side.
+#[derive(Clone, Debug)]
+pub struct Material {
+    /// The id in the file, or a name made from the type.
+    pub name: String,
+    /// On the side that the normal points to. A dielectric describes both sides by itself.
+    pub front: Bsdf,
+    /// On the other side. `None`: a reflector is black there.
+    pub back: Option<Bsdf>,
+}
+
+/// A bidirectional scattering distribution function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bsdf {
+    /// Lambertian reflection.
+    Diffuse {
+        /// Share of light reflected, in [0, 1].
+        reflectance: Rgb,
+    },
+    /// A smooth boundary of two transparent media.
+    Dielectric {
+        /// Index of refraction on the side away from the normal.
+        int_ior: f32,
+        /// Index of refraction on the side that the normal points to.
+        ext_ior: f32,
+        /// Factor on reflected light, physically 1.
+        specular_reflectance: Rgb,
+        /// Factor on refracted light, physically 1.
+        specular_transmittance: Rgb,
+    },
+    /// A smooth mirror that reflects the same share at every angle (Mitsuba's material `none`).
+    Mirror {
+        /// Share of light reflected, in [0, 1].
+        reflectance: Rgb,
+    },
+}
+
+/// An emitter that is not a surface.
+#[derive(Clone, Debug)]
+pub struct EmitterDescription {
+    /// The id in the file, or a name made from the type.
+    pub name: String,
+    /// What it emits.
+    pub kind: EmitterKind,
+}
+
+/// Kinds of emitters that are not surfaces.
+#[derive(Clone, Debug)]
+pub enum EmitterKind {
+    /// The same radiant intensity (W·sr⁻¹) in all directions.
+    Point {
+        /// Where it is.
+        position: DVec3,
+        /// Radiant intensity.
+        intensity: Rgb,
+    },
+    /// A point emitter that shines along its +z, fading linearly in the angle between two cones.
+    Spot {
+        /// Emitter to world.
+        to_world: DAffine3,
+        /// Radiant intensity inside the inner cone (W·sr⁻¹).
+        intensity: Rgb,
+        /// Half angle beyond which nothing is emitted, in degrees.
+        cutoff_degrees: f64,
+        /// Half angle within which the intensity is full, in degrees, at most the cutoff.
+        beam_degrees: f64,
+    },
+    /// The same radiance (W·m⁻²·sr⁻¹) from every direction, from infinitely far away.
+    Constant {
+        /// Radiance.
+        radiance: Rgb,
+    },
+}
+
+impl Mesh {
+    /// The square [−1, 1]² in the xy plane, its normal +z.
+    #[must_use]
+    pub fn rectangle() -> Self {
+        let corner = |x, y| DVec3::new(x, y, 0.0);
+        Self {
+            positions: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)],
+            normals: Vec::new(),
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+        }
+    }
+
+    /// The cube [−1, 1]³ with flat faces, normals outwards.
+    #[must_use]
+    pub fn cube() -> Self {
+        let positions = (0..8)
+            .map(|i| {
+                let side = |bit: i32| if i & bit == 0 { -1.0 } else { 1.0 };
+                DVec3::new(side(1), side(2), side(4))
+            })
+            .collect();
+        let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+        let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        Self { positions, normals: Vec::new(), triangles }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faces_of_the_cube_point_outwards() {
+        let cube = Mesh::cube();
+        for t in &cube.triangles {
+            let [a, b, c] = t.map(|i| cube.positions[i as usize]);
+            assert!((b - a).cross(c - a).dot(a + b + c) > 0.0, "{t:?}");
+        }
+        assert_eq!(cube.triangles.len(), 12);
+    }
+}

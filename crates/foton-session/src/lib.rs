@@ -1,0 +1,1 @@
+//! Runs the integrator: stop rules, stage clocks, snapshots on the way.

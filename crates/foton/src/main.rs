@@ -1,0 +1,3 @@
+//! The foton binary.
+
+fn main() {}

@@ -1,0 +1,2 @@
+//! Developer tasks: test, conformance, ci.
+fn main() {}
