@@ -3,4 +3,28 @@
 //! [`SceneDescription`] is what a person or a file says, in world units; [`Scene`] is what rays meet, rescaled and
 //! indexed. No files here, no integration: the format crate reads the one, the integrator asks the other.
 
+mod accel;
+pub mod bsdf;
+mod build;
+mod census;
 pub mod description;
+mod discrete;
+mod emitter;
+mod filter;
+mod fresnel;
+mod normalise;
+mod primitive;
+mod scene;
+mod sensor;
+mod surface;
+
+pub use bsdf::{BsdfSample, DeltaLobe, Lobe, Transport};
+pub use build::BuildError;
+pub use census::Census;
+pub use description::SceneDescription;
+pub use emitter::{Emission, Emitter, Illumination};
+pub use filter::FilterSampler;
+pub use normalise::Normalisation;
+pub use scene::{Scene, Shape};
+pub use sensor::Sensor;
+pub use surface::Surface;

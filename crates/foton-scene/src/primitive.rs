@@ -1,0 +1,171 @@
+//! What rays are tested against: triangles, spheres and discs in scene units. No acceleration, no shading.
+
+use foton_math::glam::{DVec3, Vec2, Vec3};
+use foton_math::{Aabb, Ray};
+
+/// A surface element in scene units. 40 bytes, kept in the order of the tree's leaves.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Primitive {
+    /// Counter-clockwise seen from outside.
+    Triangle([Vec3; 3]),
+    /// Normal outwards, or inwards when `inward`.
+    Sphere {
+        /// The centre.
+        centre: Vec3,
+        /// The radius.
+        radius: f32,
+        /// Whether the normal points to the centre.
+        inward: bool,
+    },
+    /// A flat disc.
+    Disc {
+        /// The centre.
+        centre: Vec3,
+        /// Unit normal.
+        normal: Vec3,
+        /// The radius.
+        radius: f32,
+    },
+}
+
+/// A ray prepared for the watertight triangle test of Woop, Benthin and Wald (2013): axes permuted so that the direction's
+/// largest component is z, and the shear that turns the direction into +z. `[WBW13]`
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShearedRay {
+    ray: Ray,
+    axes: [usize; 3],
+    shear: Vec3,
+}
+
+/// Where a primitive was hit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PrimitiveHit {
+    /// Distance in scene units.
+    pub(crate) t: f32,
+    /// Weights of a triangle's second and third vertex; zero for other primitives.
+    pub(crate) barycentric: Vec2,
+}
+
+impl ShearedRay {
+    /// Prepares a ray. The winding of triangles is not looked at, so axes are not swapped to preserve it.
+    #[must_use]
+    pub(crate) fn new(ray: Ray) -> Self {
+        let d = ray.direction.abs();
+        let z = if d.x >= d.y && d.x >= d.z { 0 } else { usize::from(d.z > d.y) + 1 };
+        let (x, y) = ((z + 1) % 3, (z + 2) % 3);
+        let inverse = 1.0 / ray.direction[z];
+        Self {
+            ray,
+            axes: [x, y, z],
+            shear: Vec3::new(ray.direction[x] * inverse, ray.direction[y] * inverse, inverse),
+        }
+    }
+
+    fn permuted(&self, v: Vec3) -> [f32; 3] {
+        self.axes.map(|axis| v[axis])
+    }
+
+    /// Watertight: of the triangles around an edge or a vertex at least one is hit by a ray through it.
+    fn hit_triangle(&self, vertices: &[Vec3; 3]) -> Option<PrimitiveHit> {
+        let [a, b, c] = vertices.map(|v| self.permuted(v - self.ray.origin));
+        let s = self.shear;
+        let [ax, bx, cx] = [a, b, c].map(|v| v[0] - s.x * v[2]);
+        let [ay, by, cy] = [a, b, c].map(|v| v[1] - s.y * v[2]);
+        let mut u = cx * by - cy * bx;
+        let mut v = ax * cy - ay * cx;
+        let mut w = bx * ay - by * ax;
+        if u == 0.0 || v == 0.0 || w == 0.0 {
+            // On an edge in single precision: the products are exact in double precision, so the sign is right.
+            let cross = |x0: f32, y0: f32, x1: f32, y1: f32| {
+                (f64::from(x0) * f64::from(y0) - f64::from(x1) * f64::from(y1)) as f32
+            };
+            u = cross(cx, by, cy, bx);
+            v = cross(ax, cy, ay, cx);
+            w = cross(bx, ay, by, ax);
+        }
+        if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
+            return None;
+        }
+        let determinant = u + v + w;
+        if determinant == 0.0 {
+            return None;
+        }
+        let inverse = 1.0 / determinant;
+        let t = (u * a[2] + v * b[2] + w * c[2]) * s.z * inverse;
+        self.accepts(t).then(|| PrimitiveHit { t, barycentric: Vec2::new(v, w) * inverse })
+    }
+
+    /// Roots as in Haines et al., "Precision Improvements for Ray/Sphere Intersection" (2019): the discriminant from the
+    /// distance of the centre to the ray, which does not cancel for a small sphere far away. `[HGA19]`
+    fn hit_sphere(&self, centre: Vec3, radius: f32) -> Option<PrimitiveHit> {
+        let f = self.ray.origin - centre;
+        let d = self.ray.direction;
+        let b = -f.dot(d);
+        let discriminant = radius * radius - (f + d * b).length_squared();
+        if discriminant < 0.0 {
+            return None;
+        }
+        let q = b + discriminant.sqrt().copysign(b);
+        // (|f| − r)(|f| + r) keeps its sign for an origin just off the surface, where |f|² − r² may not.
+        let length = f.length();
+        let c = (length - radius) * (length + radius);
+        let (t0, t1) = (c / q, q);
+        let (near, far) = (t0.min(t1), t0.max(t1));
+        let t = if self.accepts(near) { near } else { far };
+        self.accepts(t).then_some(PrimitiveHit { t, barycentric: Vec2::ZERO })
+    }
+
+    fn hit_disc(&self, centre: Vec3, normal: Vec3, radius: f32) -> Option<PrimitiveHit> {
+        let t = (centre - self.ray.origin).dot(normal) / self.ray.direction.dot(normal);
+        let inside = self.accepts(t) && (self.ray.at(t) - centre).length_squared() <= radius * radius;
+        inside.then_some(PrimitiveHit { t, barycentric: Vec2::ZERO })
+    }
+
+    fn accepts(&self, t: f32) -> bool {
+        t > self.ray.t_min && t <= self.ray.t_max
+    }
+
+    /// The nearest point of the primitive on the ray, if any lies in the ray's interval.
+    pub(crate) fn hit(&self, primitive: &Primitive) -> Option<PrimitiveHit> {
+        match primitive {
+            Primitive::Triangle(vertices) => self.hit_triangle(vertices),
+            Primitive::Sphere { centre, radius, .. } => self.hit_sphere(*centre, *radius),
+            Primitive::Disc { centre, normal, radius } => self.hit_disc(*centre, *normal, *radius),
+        }
+    }
+}
+
+impl Primitive {
+    /// The smallest box around the primitive.
+    #[must_use]
+    pub(crate) fn bounds(&self) -> Aabb {
+        match *self {
+            Self::Triangle(vertices) => vertices.into_iter().fold(Aabb::EMPTY, Aabb::with),
+            Self::Sphere { centre, radius, .. } => Aabb::around(centre, radius),
+            Self::Disc { centre, normal, radius } => {
+                let extent = (Vec3::ONE - normal * normal).max(Vec3::ZERO).map(f32::sqrt) * radius;
+                Aabb { min: centre - extent, max: centre + extent }
+            }
+        }
+    }
+
+    /// Area in square scene units.
+    #[must_use]
+    pub(crate) fn area(&self) -> f32 {
+        use std::f32::consts::PI;
+        match *self {
+            Self::Triangle([a, b, c]) => 0.5 * (b - a).cross(c - a).length(),
+            Self::Sphere { radius, .. } => 4.0 * PI * radius * radius,
+            Self::Disc { radius, .. } => PI * radius * radius,
+        }
+    }
+}
+
+/// The unit normal of a triangle by its winding, or `None` when it has no area.
+///
+/// In double precision: a sliver of 10^6 : 1 still gets the normal of its plane.
+pub(crate) fn triangle_normal([a, b, c]: [Vec3; 3]) -> Option<Vec3> {
+    let [a, b, c]: [DVec3; 3] = [a, b, c].map(Vec3::as_dvec3);
+    let n = (b - a).cross(c - a).try_normalize()?.as_vec3();
+    n.is_finite().then_some(n)
+}

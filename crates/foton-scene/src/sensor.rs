@@ -1,0 +1,137 @@
+//! The perspective camera: film positions to rays, and what a pixel covers.
+
+use foton_math::Ray;
+use foton_math::glam::{DVec3, Vec2, Vec3};
+
+use crate::description::{FovAxis, SensorDescription};
+use crate::filter::FilterSampler;
+use crate::normalise::Normalisation;
+
+/// A camera in scene units.
+#[derive(Clone, Debug)]
+pub struct Sensor {
+    /// The name in the scene file.
+    pub name: String,
+    /// Image width in pixels.
+    pub width: u32,
+    /// Image height in pixels.
+    pub height: u32,
+    /// How eye samples spread around a pixel's centre.
+    pub filter: FilterSampler,
+    origin: Vec3,
+    /// Outer vectors of half the image's width and height at depth 1, and of the view axis.
+    right: Vec3,
+    up: Vec3,
+    forward: Vec3,
+    /// Depth bounds in scene units.
+    near: f32,
+    far: f32,
+}
+
+impl Sensor {
+    pub(crate) fn new(description: &SensorDescription, normalisation: &Normalisation) -> Self {
+        let (width, height) = (f64::from(description.width), f64::from(description.height));
+        let half = (description.fov_degrees.to_radians() * 0.5).tan();
+        // Tangent of half the horizontal field of view.
+        let tan_x = match description.fov_axis {
+            FovAxis::X => half,
+            FovAxis::Y => half * width / height,
+            FovAxis::Diagonal => half * width / width.hypot(height),
+            FovAxis::Smaller => half * width / width.min(height),
+            FovAxis::Larger => half * width / width.max(height),
+        };
+        let m = description.to_world.matrix3;
+        let axis = DVec3::normalize;
+        // A camera's +x points to the image's left, as in Mitsuba.
+        let (left, up, forward) = (axis(m.x_axis), axis(m.y_axis), axis(m.z_axis));
+        let depth = |d: Option<f64>, default: f32| d.map_or(default, |d| normalisation.length(d));
+        Self {
+            name: description.name.clone(),
+            width: description.width,
+            height: description.height,
+            filter: FilterSampler::new(description.filter),
+            origin: normalisation.point(description.to_world.translation),
+            right: (-left * tan_x).as_vec3(),
+            up: (up * (tan_x * height / width)).as_vec3(),
+            forward: forward.as_vec3(),
+            near: depth(description.near_clip, 0.0),
+            far: depth(description.far_clip, f32::INFINITY),
+        }
+    }
+
+    /// The ray through a film position in pixels, (0, 0) being the image's top left corner.
+    #[must_use]
+    pub fn ray(&self, film: Vec2) -> Ray {
+        let x = 2.0 * film.x / self.width as f32 - 1.0;
+        let y = 1.0 - 2.0 * film.y / self.height as f32;
+        let v = self.forward + self.right * x + self.up * y;
+        let length = v.length();
+        Ray {
+            origin: self.origin,
+            direction: v / length,
+            t_min: self.near * length,
+            t_max: self.far * length,
+        }
+    }
+
+    /// Area of a pixel per square distance, perpendicular to a ray of unit `direction` (steradians).
+    #[must_use]
+    pub fn pixel_solid_angle(&self, direction: Vec3) -> f32 {
+        let pixel = 4.0 * self.right.cross(self.up).length() / (self.width as f32 * self.height as f32);
+        // A pixel at depth 1 is 1/cos θ away and seen under the angle θ.
+        pixel * direction.dot(self.forward).powi(3)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::description::Filter;
+    use foton_math::glam::DAffine3;
+
+    fn sensor(axis: FovAxis) -> Sensor {
+        // Looks along world −z from (0, 0, 5): camera x to world −x, camera z to world −z.
+        let to_world = DAffine3::from_cols(-DVec3::X, DVec3::Y, -DVec3::Z, DVec3::new(0.0, 0.0, 5.0));
+        let description = SensorDescription {
+            name: "camera".into(),
+            to_world,
+            fov_degrees: 90.0,
+            fov_axis: axis,
+            width: 200,
+            height: 100,
+            filter: Filter::Box { radius: 0.5 },
+            near_clip: None,
+            far_clip: None,
+        };
+        Sensor::new(&description, &Normalisation::IDENTITY)
+    }
+
+    #[test]
+    fn the_right_edge_of_the_image_looks_right_at_half_the_field_of_view() {
+        let ray = sensor(FovAxis::X).ray(Vec2::new(200.0, 50.0));
+        assert!(ray.direction.distance(Vec3::new(1.0, 0.0, -1.0).normalize()) < 1e-6);
+        assert_eq!(ray.origin, Vec3::new(0.0, 0.0, 5.0));
+        let up = sensor(FovAxis::Y).ray(Vec2::new(100.0, 0.0));
+        assert!(up.direction.distance(Vec3::new(0.0, 1.0, -1.0).normalize()) < 1e-6);
+        assert_eq!(sensor(FovAxis::Larger).ray(Vec2::ZERO).direction, sensor(FovAxis::X).ray(Vec2::ZERO).direction);
+        assert_eq!(sensor(FovAxis::Smaller).ray(Vec2::ZERO).direction, sensor(FovAxis::Y).ray(Vec2::ZERO).direction);
+        let corner = sensor(FovAxis::Diagonal).ray(Vec2::new(200.0, 0.0)).direction;
+        assert!((corner.dot(-Vec3::Z) - 45f32.to_radians().cos()).abs() < 1e-6);
+    }
+
+    #[test]
+    fn pixels_cover_the_solid_angle_of_the_image() {
+        // The pyramid of half angles whose tangents are 1 and 1/2.
+        let (a, b) = (1f64, 0.5f64);
+        let expected = 4.0 * (a * b / (1.0 + a * a + b * b).sqrt()).atan();
+        let s = sensor(FovAxis::X);
+        let mut sum = 0.0;
+        for y in 0..100 {
+            for x in 0..200 {
+                let ray = s.ray(Vec2::new(x as f32 + 0.5, y as f32 + 0.5));
+                sum += f64::from(s.pixel_solid_angle(ray.direction));
+            }
+        }
+        assert!((sum / expected - 1.0).abs() < 1e-4, "{sum} {expected}");
+    }
+}
