@@ -1,1 +1,34 @@
-//! Progressive photon mapping: eye pass, photon passes, refinement.
+//! Progressive photon mapping: an eye pass collects hit points once, photon passes refine them for ever after.
+//!
+//! [`Ppm`] is the algorithm in one screen; each stage has a file of its own. There are no files, windows or clocks here: a
+//! caller that wants to time stages is told when they begin.
+
+mod cancel;
+mod direct_light;
+mod eye_pass;
+mod gather;
+mod grid;
+mod hit_point;
+mod layers;
+mod ledger;
+mod light;
+mod memory;
+mod packet;
+mod photon;
+mod photon_map;
+mod photon_pass;
+mod ppm;
+mod radiance;
+mod radius;
+mod refine;
+mod sampling;
+mod settings;
+
+pub use cancel::{Cancel, Cancelled};
+pub use layers::LayerKind;
+pub use ledger::Ledger;
+pub use memory::MemoryEstimate;
+pub use photon::PathClass;
+pub use ppm::{PassReport, Ppm, Stage, Start};
+pub use refine::Statistics;
+pub use settings::{Alpha, Change, DirectLight, Settings};

@@ -1,0 +1,139 @@
+//! What can go wrong with an image file. Every message is one line and names the file.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use crate::MetadataError;
+
+/// Why a file was not written; the file that was there before is untouched.
+#[derive(Debug, Error)]
+pub enum WriteError {
+    /// The folder to write in is missing.
+    #[error("cannot write {}: the folder {} does not exist", path.display(), folder.display())]
+    NoFolder {
+        /// The file asked for.
+        path: PathBuf,
+        /// Its folder.
+        folder: PathBuf,
+    },
+    /// The file is there and marked read-only.
+    #[error("cannot write {}: the file is read-only", path.display())]
+    ReadOnly {
+        /// The file asked for.
+        path: PathBuf,
+    },
+    /// The operating system refused.
+    #[error("cannot write {}: {cause}", path.display())]
+    Io {
+        /// The file asked for.
+        path: PathBuf,
+        /// What it said.
+        cause: io::Error,
+    },
+    /// The image, a layer or the metadata cannot be stored; nothing on the disk was touched.
+    #[error("cannot write {}: {reason}", path.display())]
+    Content {
+        /// The file asked for.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: ContentError,
+    },
+}
+
+impl WriteError {
+    /// For `map_err`: an I/O failure while writing `path`.
+    pub(crate) fn io(path: &Path) -> impl Fn(io::Error) -> Self {
+        move |cause| Self::Io { path: path.into(), cause }
+    }
+
+    /// For `map_err`: content that `path` cannot hold.
+    pub(crate) fn content(path: &Path) -> impl Fn(ContentError) -> Self {
+        move |reason| Self::Content { path: path.into(), reason }
+    }
+}
+
+/// What makes an image, its layers or its metadata impossible to store.
+#[derive(Debug, Error, PartialEq, Eq)]
+pub enum ContentError {
+    /// There is no pixel.
+    #[error("an image of {width} × {height} pixels has nothing to store")]
+    Empty {
+        /// Its width.
+        width: u32,
+        /// Its height.
+        height: u32,
+    },
+    /// The pixels do not fill the size.
+    #[error("an image of {width} × {height} pixels holds {found} of them")]
+    PixelCount {
+        /// Its width.
+        width: u32,
+        /// Its height.
+        height: u32,
+        /// How many pixels it has.
+        found: usize,
+    },
+    /// A layer is not of the image's size.
+    #[error("the layer {name:?} is {width} × {height} with {found} values, the image {} × {}", expected.0, expected.1)]
+    LayerSize {
+        /// The layer.
+        name: String,
+        /// Its width.
+        width: u32,
+        /// Its height.
+        height: u32,
+        /// How many values each of its channels has.
+        found: usize,
+        /// Width and height of the image.
+        expected: (u32, u32),
+    },
+    /// A layer's name is empty, holds a NUL or is longer than 200 bytes.
+    #[error("the layer name {name:?} cannot name a channel")]
+    LayerName {
+        /// The name.
+        name: String,
+    },
+    /// Two layers have the same name.
+    #[error("two layers are called {name:?}")]
+    LayerTwice {
+        /// The name.
+        name: String,
+    },
+    /// The metadata cannot be carried.
+    #[error(transparent)]
+    Metadata(#[from] MetadataError),
+    /// The encoder refused.
+    #[error("{0}")]
+    Encoder(String),
+}
+
+/// Why a file was not read.
+#[derive(Debug, Error)]
+pub enum ReadError {
+    /// The operating system refused.
+    #[error("cannot read {}: {cause}", path.display())]
+    Io {
+        /// The file asked for.
+        path: PathBuf,
+        /// What it said.
+        cause: io::Error,
+    },
+    /// It is no EXR file, or a broken one.
+    #[error("cannot read {} as EXR: {reason}", path.display())]
+    Malformed {
+        /// The file asked for.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// No layer has the channels R, G and B.
+    #[error("cannot read {}: it has no channels R, G and B, only {channels}", path.display())]
+    NoRgb {
+        /// The file asked for.
+        path: PathBuf,
+        /// The channels of its first layer, separated by commas.
+        channels: String,
+    },
+}

@@ -1,0 +1,86 @@
+//! From linear radiance to 8-bit sRGB: exposure, tone map, transfer function, rounding. Pure functions of one pixel.
+//!
+//! The preview's shader computes the same and must agree to 1/255, so each step is public and has one definition.
+
+use foton_math::Rgb;
+
+/// What a pixel with a NaN or infinite channel is shown as: magenta, so that a mistake is seen and not taken for black.
+pub const NOT_FINITE: [u8; 3] = [255, 0, 255];
+
+/// Radiance above this counts as this: the largest half-precision number, where every map has long reached white.
+pub const BRIGHTEST: f32 = 65504.0;
+
+/// How linear radiance is brought into [0, 1].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ToneMap {
+    /// Each channel is clipped to [0, 1].
+    Linear,
+    /// Khronos PBR Neutral: faithful up to 0.8, then compressed and desaturated toward white.
+    #[default]
+    PbrNeutral,
+}
+
+impl ToneMap {
+    /// The mapped colour, linear in [0, 1]³, of a colour in [0, [`BRIGHTEST`]]³.
+    #[must_use]
+    pub fn apply(self, c: Rgb) -> Rgb {
+        match self {
+            Self::Linear => c.map(|v| v.clamp(0.0, 1.0)),
+            Self::PbrNeutral => pbr_neutral(c),
+        }
+    }
+}
+
+/// The 8-bit sRGB pixel that shows the radiance `c` at an exposure of `stops` (each doubles the light).
+///
+/// A pixel that is not finite becomes [`NOT_FINITE`]; a negative channel counts as zero.
+#[must_use]
+pub fn display(c: Rgb, tone_map: ToneMap, stops: f32) -> [u8; 3] {
+    if !c.is_finite() {
+        return NOT_FINITE;
+    }
+    tone_map.apply(expose(c, stops)).to_array().map(|v| quantise(srgb_encode(v)))
+}
+
+/// `c · 2^stops`, each channel clamped to [0, [`BRIGHTEST`]].
+#[must_use]
+pub fn expose(c: Rgb, stops: f32) -> Rgb {
+    (c * stops.exp2()).map(|v| v.clamp(0.0, BRIGHTEST))
+}
+
+/// The Khronos PBR Neutral tone mapper \[KPN24\] of a colour in [0, [`BRIGHTEST`]]³, linear with sRGB primaries.
+///
+/// With x the smallest channel, F₉₀ = 0.04, K_s = 0.8 − F₉₀ and K_d = 0.15:
+///
+/// - toe: f = x − x²/(4·F₉₀) if x ≤ 2·F₉₀, else F₉₀; it takes away the glare of a dielectric under white light;
+/// - peak p = max(c) − f; up to p = K_s the result is c − f;
+/// - above: p_n = 1 − (1 − K_s)²/(p + 1 − 2·K_s) and g = 1/(K_d·(p − p_n) + 1), and the result is
+///   (c − f)·(p_n/p)·g + p_n·(1 − g), below 1 in every channel and toward white as p grows.
+#[must_use]
+pub fn pbr_neutral(c: Rgb) -> Rgb {
+    const F90: f32 = 0.04;
+    const K_S: f32 = 0.8 - F90;
+    const K_D: f32 = 0.15;
+    let x = c.r.min(c.g).min(c.b);
+    let f = if x <= 2.0 * F90 { x - x * x / (4.0 * F90) } else { F90 };
+    let c = c - Rgb::splat(f);
+    let p = c.max_component();
+    if p <= K_S {
+        return c;
+    }
+    let p_n = 1.0 - (1.0 - K_S) * (1.0 - K_S) / (p + 1.0 - 2.0 * K_S);
+    let g = 1.0 / (K_D * (p - p_n) + 1.0);
+    c * (p_n / p * g) + Rgb::splat(p_n * (1.0 - g))
+}
+
+/// The transfer function of sRGB (IEC 61966-2-1), exact and piecewise, from linear to encoded, on [0, 1].
+#[must_use]
+pub fn srgb_encode(v: f32) -> f32 {
+    if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// The nearest of the 256 steps of [0, 1]; values outside are clamped.
+#[must_use]
+pub fn quantise(v: f32) -> u8 {
+    (255.0 * v).round() as u8
+}

@@ -1,0 +1,66 @@
+//! Direct light by shadow rays: one a hit point and pass, to an emitter chosen by power.
+//!
+//! Anything in between blocks, glass too: light through glass comes as photons.
+
+use foton_math::{Purpose, Ray, Rgb, Stream};
+use foton_scene::Scene;
+use rayon::prelude::*;
+
+use crate::hit_point::{HitPoints, Irradiance, ShadowOrigin};
+use crate::packet::LANES;
+use crate::photon::PathClass;
+
+/// Shadow rays end this share before a sampled point on a surface, which must not shadow itself.
+const SHORTENED: f32 = 1e-4;
+
+/// Slots that one task looks after.
+const BLOCK: usize = 256 * LANES;
+
+/// Adds this pass's estimate of direct irradiance, times `photons` so that it can join sums that are divided by the number of
+/// photons. Returns the number of rays.
+pub(crate) fn add<const LAYERS: usize>(
+    scene: &Scene,
+    hit_points: &HitPoints,
+    irradiance_slots: &mut [Irradiance<LAYERS>],
+    (seed, pass, photons): (u64, u64, u64),
+) -> u64 {
+    let layer = if LAYERS == 1 { 0 } else { PathClass::Direct as usize };
+    irradiance_slots
+        .par_chunks_mut(BLOCK)
+        .enumerate()
+        .map(|(block, irradiance)| {
+            let mut rays = 0;
+            for (i, irradiance) in irradiance.iter_mut().enumerate() {
+                let slot = block * BLOCK + i;
+                let packet = &hit_points.packets[slot / LANES];
+                // A path of two edges: one to the hit point, one to the emitter.
+                if packet.radius2[slot % LANES] < 0.0 || packet.budget[slot % LANES] < 1 {
+                    continue;
+                }
+                let mut stream = Stream::new(seed, Purpose::ShadowRay, pass, slot as u64);
+                if let Some(light) = estimate(scene, &hit_points.shadow_slots[slot], &mut stream, &mut rays) {
+                    irradiance[layer] += light * photons as f32;
+                }
+            }
+            rays
+        })
+        .sum()
+}
+
+fn estimate(scene: &Scene, at: &ShadowOrigin, stream: &mut Stream, rays: &mut u64) -> Option<Rgb> {
+    let (emitter, probability) = scene.choose_emitter(f64::from(stream.next_1d()))?;
+    let emitter = &scene.emitters()[emitter];
+    let light = emitter.illuminate(at.origin, at.shading_normal, stream.next_1d(), stream.next_2d())?;
+    let cosine = light.direction.dot(at.shading_normal);
+    if cosine <= 0.0 {
+        return None;
+    }
+    *rays += 1;
+    let ray = Ray {
+        origin: at.origin,
+        direction: light.direction,
+        t_min: 0.0,
+        t_max: light.distance * (1.0 - SHORTENED),
+    };
+    (!scene.occluded(ray)).then(|| light.radiance_over_pdf * (cosine / probability as f32))
+}

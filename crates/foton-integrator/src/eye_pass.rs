@@ -1,0 +1,274 @@
+//! The eye pass: from the sensor through mirrors and glass to the surfaces that spread light, once.
+//!
+//! At glass a path splits, weighted by Fresnel, while its weight and depth are worth it and the sample's share of hit points
+//! lasts; after that it follows one side by chance. Light seen by specular bounces only is added up here.
+
+use foton_math::glam::Vec3;
+use foton_math::{Frame, Purpose, Ray, Rgb, Stream};
+use foton_scene::description::Bsdf;
+use foton_scene::{Scene, Sensor, Surface, Transport};
+use rayon::prelude::*;
+use std::f32::consts::FRAC_1_PI;
+
+use crate::cancel::{Cancel, Cancelled};
+use crate::hit_point::HitPoint;
+use crate::radius::{RadiusRule, slab2};
+use crate::sampling::PixelSamples;
+use crate::settings::Settings;
+
+/// Paths lighter than this are not split any more.
+const SPLIT_WEIGHT: f32 = 1e-3;
+/// Paths with more edges than this are not split any more.
+const SPLIT_EDGES: u32 = 8;
+/// From this many edges on, paths end by roulette, with this chance to go on.
+const ROULETTE_EDGES: u32 = 16;
+const SURVIVAL: f32 = 0.9;
+/// Pixels that one task looks after.
+const CHUNK: usize = 1024;
+/// What the shape-id layer says where a pixel sees nothing.
+pub(crate) const NO_SHAPE: u32 = u32::MAX;
+
+/// What the eye pass finds in some pixels.
+#[derive(Default)]
+pub(crate) struct EyePaths {
+    pub(crate) hit_points: Vec<HitPoint>,
+    /// Hit points of each pixel.
+    pub(crate) counts: Vec<u32>,
+    /// Mean emitted light that each pixel sees directly or by specular bounces.
+    pub(crate) emission: Vec<Rgb>,
+    /// Shape that each pixel's first sample meets first; [`NO_SHAPE`] for none.
+    pub(crate) shapes: Vec<u32>,
+    /// Rays traced.
+    pub(crate) rays: u64,
+}
+
+impl EyePaths {
+    /// Where each pixel's hit points begin, and one entry more.
+    pub(crate) fn pixel_start(&self) -> Vec<u32> {
+        let mut start = Vec::with_capacity(self.counts.len() + 1);
+        let mut sum = 0;
+        start.push(0);
+        for &count in &self.counts {
+            sum += count;
+            start.push(sum);
+        }
+        start
+    }
+}
+
+/// Everything the eye pass needs to know.
+pub(crate) struct EyePass<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) settings: &'a Settings,
+    pub(crate) max_depth: u32,
+    pub(crate) purpose: Purpose,
+}
+
+/// An eye path that goes on.
+#[derive(Clone, Copy)]
+struct Branch {
+    ray: Ray,
+    weight: Rgb,
+    /// Edges up to the end of `ray`.
+    edges: u32,
+    /// Length of the edges before `ray`.
+    distance: f32,
+}
+
+impl EyePass<'_> {
+    fn sensor(&self) -> &Sensor {
+        &self.scene.sensors()[self.settings.sensor]
+    }
+
+    /// Follows all samples of all pixels.
+    pub(crate) fn run(&self, cancel: &Cancel) -> Result<EyePaths, Cancelled> {
+        let pixels = self.sensor().width as usize * self.sensor().height as usize;
+        let parts: Vec<EyePaths> = (0..pixels.div_ceil(CHUNK))
+            .into_par_iter()
+            .map(|chunk| {
+                cancel.check()?;
+                Ok(self.follow((chunk * CHUNK..pixels.min((chunk + 1) * CHUNK)).map(|p| p as u32)))
+            })
+            .collect::<Result<_, _>>()?;
+        let mut all = EyePaths::default();
+        all.hit_points.reserve_exact(parts.iter().map(|p| p.hit_points.len()).sum());
+        for part in parts {
+            all.hit_points.extend(part.hit_points);
+            all.counts.extend(part.counts);
+            all.emission.extend(part.emission);
+            all.shapes.extend(part.shapes);
+            all.rays += part.rays;
+        }
+        Ok(all)
+    }
+
+    /// Follows all samples of some pixels.
+    pub(crate) fn follow(&self, pixels: impl Iterator<Item = u32>) -> EyePaths {
+        let mut paths = EyePaths::default();
+        let radius = RadiusRule::new(self.scene, self.settings.radius);
+        let samples = self.settings.samples_per_pixel.get();
+        let mut branches = Vec::new();
+        for pixel in pixels {
+            let before = paths.hit_points.len();
+            let mut emission = Rgb::BLACK;
+            let scramble = Stream::new(self.settings.seed, self.purpose, 0, u64::from(pixel));
+            let places = PixelSamples::new(&mut scramble.clone());
+            paths.shapes.push(NO_SHAPE);
+            for sample in 0..samples {
+                let index = u64::from(pixel) * u64::from(samples) + u64::from(sample);
+                let mut walk = Walk {
+                    pass: self,
+                    radius,
+                    stream: Stream::new(self.settings.seed, self.purpose, 1, index),
+                    solid_angle: 0.0,
+                    first: sample == 0,
+                    paths: &mut paths,
+                    branches: &mut branches,
+                    emission: Rgb::BLACK,
+                    leaves: 1,
+                };
+                walk.follow(pixel, places.point(sample));
+                emission += walk.emission;
+            }
+            paths.counts.push((paths.hit_points.len() - before) as u32);
+            paths.emission.push(emission / samples as f32);
+        }
+        paths
+    }
+}
+
+/// One eye sample on its way.
+struct Walk<'a, 'b> {
+    pass: &'a EyePass<'b>,
+    radius: RadiusRule,
+    stream: Stream,
+    solid_angle: f32,
+    /// Whether the pixel's shape is still to be noted.
+    first: bool,
+    paths: &'a mut EyePaths,
+    branches: &'a mut Vec<Branch>,
+    emission: Rgb,
+    /// Ends that this sample may still come to: hit points stored, and branches under way.
+    leaves: u32,
+}
+
+impl Walk<'_, '_> {
+    fn follow(&mut self, pixel: u32, place: foton_math::glam::Vec2) {
+        let sensor = self.pass.sensor();
+        let corner = foton_math::glam::Vec2::new((pixel % sensor.width) as f32, (pixel / sensor.width) as f32);
+        let ray = sensor.ray(corner + 0.5 + sensor.filter.offset(place));
+        self.solid_angle = sensor.pixel_solid_angle(ray.direction);
+        self.branches.push(Branch { ray, weight: Rgb::WHITE, edges: 1, distance: 0.0 });
+        while let Some(branch) = self.branches.pop() {
+            self.step(branch);
+        }
+    }
+
+    fn step(&mut self, branch: Branch) {
+        let scene = self.pass.scene;
+        self.paths.rays += 1;
+        let surface = scene.nearest(branch.ray);
+        let visible = branch.edges <= self.pass.max_depth;
+        let Some(surface) = surface else {
+            if visible {
+                self.emission += branch.weight * scene.escaped_radiance();
+            }
+            return;
+        };
+        if std::mem::take(&mut self.first)
+            && let Some(shape) = self.paths.shapes.last_mut()
+        {
+            *shape = surface.shape;
+        }
+        let wo = -branch.ray.direction;
+        if visible {
+            self.emission += branch.weight * scene.emitted(&surface, wo);
+        }
+        let outward = wo.dot(surface.normal) > 0.0;
+        let Some(bsdf) = scene.bsdf(surface.shape, outward) else { return };
+        if branch.edges >= self.pass.max_depth {
+            return;
+        }
+        let distance = branch.distance + (surface.position - branch.ray.origin).length();
+        if bsdf.is_delta() {
+            self.scatter(&branch, &surface, bsdf, distance);
+        } else {
+            self.store(&branch, &surface, bsdf, distance);
+        }
+    }
+
+    fn store(&mut self, branch: &Branch, surface: &Surface, bsdf: &Bsdf, distance: f32) {
+        let weight = branch.weight * bsdf.albedo() * FRAC_1_PI;
+        if weight.is_black() {
+            return;
+        }
+        let wo = -branch.ray.direction;
+        let side = 1f32.copysign(wo.dot(surface.normal));
+        let normal = surface.normal * side;
+        self.paths.hit_points.push(HitPoint {
+            position: surface.position,
+            normal,
+            shading_normal: surface.shading_normal * side,
+            origin: surface.ray_origin(normal),
+            weight,
+            radius2: self.radius.radius2(self.solid_angle, distance, wo.dot(normal)),
+            slab2: slab2(surface),
+            budget: (self.pass.max_depth - branch.edges).min(255) as u8,
+        });
+    }
+
+    fn scatter(&mut self, branch: &Branch, surface: &Surface, bsdf: &Bsdf, distance: f32) {
+        let mut weight = branch.weight;
+        if branch.edges >= ROULETTE_EDGES {
+            if self.stream.next_1d() >= SURVIVAL {
+                return;
+            }
+            weight = weight / SURVIVAL;
+        }
+        let wo = -branch.ray.direction;
+        let normal = shading_normal_towards(surface, wo);
+        let frame = Frame::from_normal(normal);
+        let local = frame.to_local(wo);
+        let lobes = bsdf.delta_lobes(local, Transport::Radiance);
+        let split = branch.edges <= SPLIT_EDGES
+            && weight.max_component() > SPLIT_WEIGHT
+            && self.leaves < self.pass.settings.hit_points_per_sample.get();
+        let single;
+        let chosen: &[_] = if split || lobes.iter().flatten().count() < 2 {
+            self.leaves += u32::from(lobes.iter().flatten().count() == 2);
+            &lobes
+        } else {
+            let u = self.stream.next_1d();
+            let lobe = bsdf.choose_delta_lobe(local, Transport::Radiance, u);
+            single = [lobe.map(|mut l| {
+                l.weight = l.weight / l.probability;
+                l
+            })];
+            &single
+        };
+        for lobe in chosen.iter().flatten() {
+            let direction = frame.to_outer(lobe.wi).normalize();
+            if leaves_wrongly(surface, wo, direction, lobe.wi.z * local.z > 0.0) {
+                continue;
+            }
+            self.branches.push(Branch {
+                ray: Ray::new(surface.ray_origin(direction), direction),
+                weight: weight * lobe.weight,
+                edges: branch.edges + 1,
+                distance,
+            });
+        }
+    }
+}
+
+/// The shading normal, outside, or the geometric one where the shading normal turns away from a direction that the geometry
+/// does see (or sees one that it does not): a smooth silhouette is not black.
+pub(crate) fn shading_normal_towards(surface: &Surface, wo: Vec3) -> Vec3 {
+    let agrees = wo.dot(surface.normal) * wo.dot(surface.shading_normal) > 0.0;
+    if agrees { surface.shading_normal } else { surface.normal }
+}
+
+/// Whether a direction made with the shading normal lies on the wrong side of the true surface.
+pub(crate) fn leaves_wrongly(surface: &Surface, wo: Vec3, wi: Vec3, reflects: bool) -> bool {
+    (wo.dot(surface.normal) * wi.dot(surface.normal) > 0.0) != reflects
+}

@@ -1,0 +1,120 @@
+//! Hit points: where eye paths end on surfaces that spread light, laid out for the gather.
+//!
+//! Three orders meet here. *Sample order* is that of the eye pass: a pixel's hit points are neighbours in it. *Slot order* is
+//! that of the packets, 16 slots each, some empty. Statistics have slots of their own, apart from the query records.
+
+use foton_math::Rgb;
+use foton_math::glam::Vec3;
+
+use crate::packet::{self, LANES, Packet};
+use crate::refine::Statistics;
+
+/// A hit point as the eye pass finds it. Scene units.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HitPoint {
+    pub(crate) position: Vec3,
+    /// Unit geometric normal on the eye's side.
+    pub(crate) normal: Vec3,
+    /// Unit shading normal on the same side.
+    pub(crate) shading_normal: Vec3,
+    /// An origin for shadow rays, certainly on the eye's side.
+    pub(crate) origin: Vec3,
+    /// Eye throughput times the BSDF's value: radiance at the eye per irradiance here (sr⁻¹).
+    pub(crate) weight: Rgb,
+    /// First squared radius.
+    pub(crate) radius2: f32,
+    /// Squared half-thickness of the slab in which photons count, over the squared radius.
+    pub(crate) slab2: f32,
+    /// The most edges that a photon's path may have here.
+    pub(crate) budget: u8,
+}
+
+/// Light that arrives at a hit point, per path class or in all: Σ Φ/(π r²) over the photons of one pass (W·m⁻²).
+pub(crate) type Irradiance<const LAYERS: usize> = [Rgb; LAYERS];
+
+/// What shadow rays need of a slot.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShadowOrigin {
+    pub(crate) origin: Vec3,
+    pub(crate) shading_normal: Vec3,
+}
+
+/// All hit points. Vectors whose names end in `_slots` have [`LANES`] entries a packet.
+pub(crate) struct HitPoints {
+    pub(crate) packets: Vec<Packet>,
+    /// Shading normals by packet, as three rows of lanes; empty when the scene has none that matter.
+    pub(crate) shading_normals: Vec<[[f32; LANES]; 3]>,
+    /// Empty unless direct light comes by shadow rays.
+    pub(crate) shadow_slots: Vec<ShadowOrigin>,
+    pub(crate) statistics_slots: Vec<Statistics>,
+    /// In sample order: where the hit point is.
+    pub(crate) slot_of: Vec<u32>,
+    /// In sample order: [`HitPoint::weight`].
+    pub(crate) weights: Vec<Rgb>,
+    /// The hit points of pixel p are `pixel_start[p]..pixel_start[p + 1]` in sample order.
+    pub(crate) pixel_start: Vec<u32>,
+}
+
+impl HitPoints {
+    /// Lays hit points out. `pixel_start` is as in [`HitPoints`].
+    pub(crate) fn new(
+        found: &[HitPoint],
+        pixel_start: Vec<u32>,
+        shading_normals: bool,
+        shadow_rays: bool,
+    ) -> Self {
+        let groups = packet::group(found);
+        let mut packets = Vec::with_capacity(groups.len());
+        let mut normals = Vec::with_capacity(if shading_normals { groups.len() } else { 0 });
+        let mut slot_of = vec![0u32; found.len()];
+        let slots = groups.len() * LANES;
+        let mut statistics_slots = vec![Statistics::EMPTY_SLOT; slots];
+        let nowhere = ShadowOrigin { origin: Vec3::ZERO, shading_normal: Vec3::ZERO };
+        let mut shadow_slots = vec![nowhere; if shadow_rays { slots } else { 0 }];
+        for (p, group) in groups.iter().enumerate() {
+            let members = || group.iter().map(|&i| &found[i as usize]);
+            packets.push(Packet::new(members()));
+            if shading_normals {
+                normals.push(packet::rows(members().map(|h| h.shading_normal)));
+            }
+            for (lane, &i) in group.iter().enumerate() {
+                let slot = p * LANES + lane;
+                let h = &found[i as usize];
+                slot_of[i as usize] = slot as u32;
+                statistics_slots[slot] = Statistics::new(h.radius2);
+                if let Some(shadow) = shadow_slots.get_mut(slot) {
+                    *shadow = ShadowOrigin { origin: h.origin, shading_normal: h.shading_normal };
+                }
+            }
+        }
+        Self {
+            packets,
+            shading_normals: normals,
+            shadow_slots,
+            statistics_slots,
+            slot_of,
+            weights: found.iter().map(|h| h.weight).collect(),
+            pixel_start,
+        }
+    }
+
+    /// How many there are.
+    pub(crate) const fn len(&self) -> usize {
+        self.slot_of.len()
+    }
+
+    /// Statistics of all hit points, in sample order.
+    pub(crate) fn statistics(&self) -> impl Iterator<Item = &Statistics> {
+        self.slot_of.iter().map(|&slot| &self.statistics_slots[slot as usize])
+    }
+
+    /// Bytes held.
+    pub(crate) const fn bytes(&self) -> usize {
+        size_of::<Packet>() * self.packets.len()
+            + size_of::<[[f32; LANES]; 3]>() * self.shading_normals.len()
+            + size_of::<ShadowOrigin>() * self.shadow_slots.len()
+            + size_of::<Statistics>() * self.statistics_slots.len()
+            + (size_of::<u32>() + size_of::<Rgb>()) * self.slot_of.len()
+            + size_of::<u32>() * self.pixel_start.len()
+    }
+}

@@ -1,0 +1,59 @@
+//! What can be put beside the image, pixel by pixel.
+
+/// A layer of output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LayerKind {
+    /// Reflected light that came straight from emitters. Needs [`Settings::layers`](crate::Settings::layers).
+    Direct,
+    /// Reflected light that came by mirrors and glass only. Needs [`Settings::layers`](crate::Settings::layers).
+    Caustic,
+    /// Reflected light that came by diffuse surfaces. Needs [`Settings::layers`](crate::Settings::layers).
+    Indirect,
+    /// Emitters seen directly or by specular bounces.
+    Emission,
+    /// Mean radius of the pixel's hit points, in world units.
+    Radius,
+    /// Photons found by the pixel's hit points in all passes.
+    PhotonCount,
+    /// Index of the shape that the pixel's first sample meets first, from 0; 2³² − 1 for none.
+    ShapeId,
+}
+
+impl LayerKind {
+    /// All kinds.
+    pub const ALL: [Self; 7] = [
+        Self::Direct,
+        Self::Caustic,
+        Self::Indirect,
+        Self::Emission,
+        Self::Radius,
+        Self::PhotonCount,
+        Self::ShapeId,
+    ];
+
+    /// The name in files and on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Direct => "direct",
+            Self::Caustic => "caustic",
+            Self::Indirect => "indirect",
+            Self::Emission => "emission",
+            Self::Radius => "radius",
+            Self::PhotonCount => "photon_count",
+            Self::ShapeId => "shape_id",
+        }
+    }
+
+    /// The kind of a name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|k| k.name() == name)
+    }
+
+    /// Whether path classes must be kept apart for it.
+    #[must_use]
+    pub const fn needs_classes(self) -> bool {
+        matches!(self, Self::Direct | Self::Caustic | Self::Indirect)
+    }
+}

@@ -1,0 +1,104 @@
+//! Light as it is summed: in one, or by path class where someone asked for layers.
+
+use foton_math::Rgb;
+use foton_scene::Scene;
+
+use crate::gather::{self, Rule, Tally};
+use crate::grid::Grid;
+use crate::hit_point::{HitPoints, Irradiance};
+use crate::packet::LANES;
+use crate::photon::PathClass;
+use crate::photon_map::PhotonMap;
+use crate::radiance::Radiance;
+use crate::{direct_light, settings::Settings};
+
+/// Light of one pass at the hit points, and of all passes in the pixels.
+pub(crate) struct Sums<const LAYERS: usize> {
+    irradiance_slots: Vec<Irradiance<LAYERS>>,
+    radiance: Radiance<LAYERS>,
+}
+
+/// Picks at start what is summed, so that a render without layers neither stores nor moves them.
+pub(crate) enum Light {
+    /// All classes in one.
+    Whole(Sums<1>),
+    /// Direct, caustic, indirect.
+    ByClass(Sums<3>),
+}
+
+impl<const LAYERS: usize> Sums<LAYERS> {
+    fn new(emission: Vec<Rgb>, hit_points: &HitPoints, samples: u32) -> Self {
+        Self {
+            irradiance_slots: vec![[Rgb::BLACK; LAYERS]; hit_points.packets.len() * LANES],
+            radiance: Radiance::new(emission, samples),
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        self.irradiance_slots.len() * size_of::<Irradiance<LAYERS>>() + self.radiance.bytes()
+    }
+}
+
+/// The same expression for either arm.
+macro_rules! each {
+    ($light:expr, $sums:ident => $body:expr) => {
+        match $light {
+            Light::Whole($sums) => $body,
+            Light::ByClass($sums) => $body,
+        }
+    };
+}
+
+impl Light {
+    pub(crate) fn new(emission: Vec<Rgb>, hit_points: &HitPoints, settings: &Settings) -> Self {
+        let samples = settings.samples_per_pixel.get();
+        if settings.layers {
+            Self::ByClass(Sums::new(emission, hit_points, samples))
+        } else {
+            Self::Whole(Sums::new(emission, hit_points, samples))
+        }
+    }
+
+    /// Gathers a pass and refines the hit points.
+    pub(crate) fn gather(&mut self, hit_points: &mut HitPoints, map: &PhotonMap, grid: &Grid, rule: Rule) -> Tally {
+        each!(self, s => gather::all(hit_points, map, grid, rule, &mut s.irradiance_slots))
+    }
+
+    /// Adds direct light by shadow rays to the pass; returns the number of rays.
+    pub(crate) fn add_direct(&mut self, scene: &Scene, hit_points: &HitPoints, key: (u64, u64, u64)) -> u64 {
+        each!(self, s => direct_light::add(scene, hit_points, &mut s.irradiance_slots, key))
+    }
+
+    /// Adds the pass to the pixels.
+    pub(crate) fn add_pass(&mut self, hit_points: &HitPoints) {
+        each!(self, s => s.radiance.add(hit_points, &s.irradiance_slots));
+    }
+
+    /// All radiance after `photons`, emission included.
+    pub(crate) fn total(&self, photons: u64) -> Vec<Rgb> {
+        each!(self, s => s.radiance.total(photons))
+    }
+
+    /// Reflected radiance of one class; `None` where classes are not kept apart.
+    pub(crate) fn class(&self, class: PathClass, photons: u64) -> Option<Vec<Rgb>> {
+        match self {
+            Self::Whole(_) => None,
+            Self::ByClass(s) => Some(s.radiance.layer(class as usize, photons)),
+        }
+    }
+
+    /// The last pass's own estimate of reflected radiance, times the photons it emitted.
+    pub(crate) fn last_pass(&self) -> Vec<Rgb> {
+        each!(self, s => s.radiance.last.iter().map(|l| l.iter().copied().sum()).collect())
+    }
+
+    /// Radiance of emitters, seen directly or by specular bounces.
+    pub(crate) fn emission(&self) -> &[Rgb] {
+        each!(self, s => &s.radiance.emission)
+    }
+
+    /// Bytes held.
+    pub(crate) fn bytes(&self) -> usize {
+        each!(self, s => s.bytes())
+    }
+}

@@ -1,0 +1,97 @@
+//! The photon as it is stored: 32 bytes.
+
+use foton_math::glam::Vec3;
+use foton_math::{Rgb, octahedral};
+
+/// How a photon came to where it was stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum PathClass {
+    /// Straight from an emitter: LD.
+    Direct = 0,
+    /// By mirrors and glass only: LS⁺D.
+    Caustic = 1,
+    /// By at least one diffuse surface: L(S|D)*DS*D.
+    Indirect = 2,
+}
+
+impl PathClass {
+    /// All classes, in the order of their numbers.
+    pub const ALL: [Self; 3] = [Self::Direct, Self::Caustic, Self::Indirect];
+
+    /// The class after one more scattering.
+    pub(crate) const fn scattered(self, delta: bool) -> Self {
+        match (self, delta) {
+            (Self::Direct | Self::Caustic, true) => Self::Caustic,
+            _ => Self::Indirect,
+        }
+    }
+}
+
+/// Octahedral bits an axis of a stored direction: an error of at most 10⁻⁴ radians.
+const DIRECTION_BITS: u32 = 15;
+
+/// A photon where it met a surface that spreads light.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub(crate) struct Photon {
+    pub(crate) position: Vec3,
+    /// Geometric normal on the side of arrival, in 127ths.
+    pub(crate) normal: [i8; 3],
+    /// Edges from the emitter to here, at least 1.
+    pub(crate) edges: u8,
+    /// Power per channel, not divided by the number of photons (W).
+    pub(crate) power: Rgb,
+    /// Where it came from, and its class in the two highest bits.
+    code: u32,
+}
+
+impl Photon {
+    /// A place holder for buffers.
+    pub(crate) const NONE: Self =
+        Self { position: Vec3::ZERO, normal: [0; 3], edges: 0, power: Rgb::BLACK, code: 0 };
+
+    /// A photon of `power` that arrives from the unit direction `from` on the side of the unit `normal`.
+    pub(crate) fn new(position: Vec3, normal: Vec3, from: Vec3, power: Rgb, class: PathClass, edges: u8) -> Self {
+        Self {
+            position,
+            normal: (normal * 127.0).round().to_array().map(|n| n as i8),
+            edges,
+            power,
+            code: octahedral::encode::<DIRECTION_BITS>(from) | ((class as u32) << 30),
+        }
+    }
+
+    pub(crate) fn from_direction(&self) -> Vec3 {
+        octahedral::decode::<DIRECTION_BITS>(self.code & ((1 << 30) - 1))
+    }
+
+    pub(crate) const fn class_index(&self) -> usize {
+        (self.code >> 30) as usize
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stored_photon_takes_32_bytes_and_keeps_its_class_and_direction() {
+        assert_eq!(size_of::<Photon>(), 32);
+        for class in PathClass::ALL {
+            let from = Vec3::new(-0.6, 0.0, -0.8);
+            let p = Photon::new(Vec3::ONE, -Vec3::Z, from, Rgb::WHITE, class, 3);
+            assert_eq!((p.class_index(), p.normal, p.edges), (class as usize, [0, 0, -127], 3));
+            assert!(p.from_direction().distance(from) < 1e-4);
+        }
+    }
+
+    #[test]
+    fn classes_follow_the_path() {
+        use PathClass::{Caustic, Direct, Indirect};
+        assert_eq!(Direct.scattered(true), Caustic);
+        assert_eq!(Caustic.scattered(true), Caustic);
+        assert_eq!(Caustic.scattered(false), Indirect);
+        assert_eq!(Direct.scattered(false).scattered(true), Indirect);
+    }
+}

@@ -1,0 +1,195 @@
+//! One pass of photons: from emitters, from surface to surface, stored wherever light spreads near a hit point.
+
+use foton_math::glam::Vec3;
+use foton_math::{Frame, Purpose, Ray, Rgb, Stream};
+use foton_scene::{Lobe, Scene, Surface, Transport};
+use rayon::prelude::*;
+
+use crate::cancel::{Cancel, Cancelled};
+use crate::eye_pass::{leaves_wrongly, shading_normal_towards};
+use crate::grid::Grid;
+use crate::ledger::{Ledger, energy, lost};
+use crate::photon::{PathClass, Photon};
+use crate::settings::DirectLight;
+
+/// Photons that one task emits.
+const CHUNK: u64 = 4096;
+
+/// Numbers that each edge of a path may draw, and that come before the first.
+const DIMENSIONS: u64 = 8;
+
+/// |ω·n_g| counts as at least this in the shading normals' correction.
+pub(crate) const SMALLEST_COSINE: f32 = 1e-2;
+
+/// Everything a photon pass needs to know.
+pub(crate) struct PhotonPass<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) grid: &'a Grid,
+    pub(crate) direct_light: DirectLight,
+    /// Longest whole path in edges; a photon path is at least one shorter.
+    pub(crate) max_depth: u32,
+    pub(crate) seed: u64,
+    pub(crate) pass: u64,
+    pub(crate) photons: u64,
+}
+
+/// What one task emits. Kept between passes, so that no pass allocates once they have grown.
+#[derive(Default)]
+pub(crate) struct Chunk {
+    pub(crate) photons: Vec<Photon>,
+    /// Number of the cell of each photon.
+    pub(crate) cells: Vec<u32>,
+    pub(crate) ledger: Ledger,
+    pub(crate) rays: u64,
+}
+
+/// A photon on its way.
+#[derive(Clone, Copy)]
+struct Flight {
+    ray: Ray,
+    power: Rgb,
+    class: PathClass,
+    /// Edges up to the end of `ray`.
+    edges: u32,
+}
+
+impl PhotonPass<'_> {
+    /// Emits and follows all photons of the pass into `chunks`, the same ones for any number of threads.
+    pub(crate) fn shoot(&self, chunks: &mut Vec<Chunk>, cancel: &Cancel) -> Result<(), Cancelled> {
+        chunks.resize_with(self.photons.div_ceil(CHUNK) as usize, Chunk::default);
+        chunks.par_iter_mut().enumerate().try_for_each(|(i, chunk)| {
+            cancel.check()?;
+            let first = i as u64 * CHUNK;
+            chunk.photons.clear();
+            chunk.cells.clear();
+            chunk.ledger = Ledger::default();
+            chunk.rays = 0;
+            for index in first..self.photons.min(first + CHUNK) {
+                self.follow(index, chunk);
+            }
+            Ok(())
+        })
+    }
+
+    fn follow(&self, index: u64, chunk: &mut Chunk) {
+        let stream = Stream::new(self.seed, Purpose::Photon, self.pass, index);
+        let Some(mut flight) = self.emit(index, stream.clone()) else { return };
+        chunk.ledger.emitted += energy(flight.power);
+        loop {
+            if !flight.power.is_finite() {
+                chunk.ledger.dropped += 1;
+                return;
+            }
+            chunk.rays += 1;
+            let Some(surface) = self.scene.nearest(flight.ray) else {
+                chunk.ledger.escaped += energy(flight.power);
+                return;
+            };
+            let mut numbers = stream.from_dimension(u64::from(flight.edges) * DIMENSIONS);
+            match self.scatter(flight, &surface, &mut numbers, chunk) {
+                Some(next) => flight = next,
+                None => return,
+            }
+        }
+    }
+
+    fn emit(&self, index: u64, mut numbers: Stream) -> Option<Flight> {
+        // Stratified over the pass: each emitter gets its share of photons up to one.
+        let u = (index as f64 + f64::from(numbers.next_1d())) / self.photons as f64;
+        let (emitter, probability) = self.scene.choose_emitter(u)?;
+        let emitter = &self.scene.emitters()[emitter];
+        let start = emitter.emit(numbers.next_1d(), numbers.next_2d(), numbers.next_2d());
+        Some(Flight {
+            ray: Ray::new(start.origin, start.direction),
+            power: start.power / probability as f32,
+            class: PathClass::Direct,
+            edges: 1,
+        })
+    }
+
+    /// Stores the photon where light spreads, and sends it on.
+    fn scatter(&self, flight: Flight, surface: &Surface, numbers: &mut Stream, chunk: &mut Chunk) -> Option<Flight> {
+        let wo = -flight.ray.direction;
+        let outward = wo.dot(surface.normal) > 0.0;
+        let Some(bsdf) = self.scene.bsdf(surface.shape, outward) else {
+            chunk.ledger.absorbed += energy(flight.power);
+            return None;
+        };
+        if !bsdf.is_delta() {
+            self.store(&flight, surface, wo, chunk);
+        }
+        let normal = shading_normal_towards(surface, wo);
+        let frame = Frame::from_normal(normal);
+        let local = frame.to_local(wo);
+        let sample = bsdf.sample(local, Transport::Importance, numbers.next_1d(), numbers.next_2d());
+        let Some(sample) = sample else {
+            chunk.ledger.absorbed += energy(flight.power);
+            return None;
+        };
+        chunk.ledger.absorbed += lost(flight.power, sample.weight);
+        let scattered = flight.power * sample.weight;
+        let direction = frame.to_outer(sample.wi).normalize();
+        let reflects = sample.wi.z * local.z > 0.0;
+        let correction = if leaves_wrongly(surface, wo, direction, reflects) {
+            0.0
+        } else {
+            adjoint_correction(surface.normal, normal, wo, direction)
+        };
+        let corrected = scattered * correction;
+        if correction != 1.0 {
+            chunk.ledger.shading_normals += lost(scattered, Rgb::splat(correction));
+        }
+        if corrected.is_black() {
+            return None;
+        }
+        if flight.edges + 1 >= self.max_depth {
+            chunk.ledger.truncated += energy(corrected);
+            return None;
+        }
+        let power = roulette(corrected, flight.power, numbers.next_1d(), &mut chunk.ledger)?;
+        Some(Flight {
+            ray: Ray::new(surface.ray_origin(direction), direction),
+            power,
+            class: flight.class.scattered(sample.lobe == Lobe::Delta),
+            edges: flight.edges + 1,
+        })
+    }
+
+    fn store(&self, flight: &Flight, surface: &Surface, wo: Vec3, chunk: &mut Chunk) {
+        if flight.class == PathClass::Direct && self.direct_light == DirectLight::ShadowRays {
+            return;
+        }
+        if let Some(cell) = self.grid.number(surface.position) {
+            let normal = surface.normal * 1f32.copysign(wo.dot(surface.normal));
+            let edges = flight.edges.min(255) as u8;
+            chunk.photons.push(Photon::new(surface.position, normal, wo, flight.power, flight.class, edges));
+            chunk.cells.push(cell);
+        }
+    }
+}
+
+/// |ωi·n_s| |ωo·n_g| / (|ωi·n_g| |ωo·n_s|) for light from `wo` scattered to `wi`: photons see the adjoint of a BSDF with
+/// interpolated normals. `[V97]` section 5.3
+fn adjoint_correction(n_g: Vec3, n_s: Vec3, wo: Vec3, wi: Vec3) -> f32 {
+    if n_g == n_s {
+        return 1.0;
+    }
+    let upper = wo.dot(n_s).abs() * wi.dot(n_g).abs();
+    let lower = wo.dot(n_g).abs().max(SMALLEST_COSINE) * wi.dot(n_s).abs().max(SMALLEST_COSINE);
+    upper / lower
+}
+
+/// Survival in proportion to the power that is left, so that all photons carry about the same.
+fn roulette(power: Rgb, before: Rgb, u: f32, ledger: &mut Ledger) -> Option<Rgb> {
+    let chance = power.max_component() / before.max_component();
+    if chance >= 1.0 {
+        return Some(power);
+    }
+    ledger.roulette += energy(power);
+    if u >= chance {
+        return None;
+    }
+    let survivor = power / chance;
+    ledger.roulette -= energy(survivor);
+    Some(survivor)
+}

@@ -1,0 +1,378 @@
+//! Progressive photon mapping: `[PPM08]` with the running mean of every pass's own estimate.
+
+use std::sync::Arc;
+
+use foton_film::{Image, Layer, LayerData, Plane};
+use foton_math::{Purpose, Rgb};
+use foton_scene::Scene;
+
+use crate::cancel::{Cancel, Cancelled};
+use crate::eye_pass::EyePass;
+use crate::gather::{Rule, Tally};
+use crate::grid::Grid;
+use crate::hit_point::HitPoints;
+use crate::layers::LayerKind;
+use crate::ledger::Ledger;
+use crate::light::Light;
+use crate::photon::{PathClass, Photon};
+use crate::photon_map::PhotonMap;
+use crate::photon_pass::{Chunk, PhotonPass};
+use crate::radius::RadiusRule;
+use crate::refine::Statistics;
+use crate::settings::{Change, DirectLight, Settings};
+
+/// Longest path that is followed, whatever is asked for. What that cuts off stands in the ledger.
+const LONGEST_PATH: u32 = 250;
+
+/// Cells are marked anew when the mean r² has shrunk by this factor since the last time.
+const MARK_AGAIN: f64 = 0.7;
+
+/// The parts of a render, in the order in which they come. Those from `Trace` on come once a pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stage {
+    /// Following eye paths.
+    EyePass,
+    /// Laying hit points out.
+    Layout,
+    /// Tracing photons.
+    Trace,
+    /// Sorting photons by cell.
+    Sort,
+    /// Gathering photons and refining hit points.
+    Gather,
+    /// Direct light by shadow rays.
+    ShadowRays,
+    /// Adding the pass to the pixels.
+    Radiance,
+}
+
+impl Stage {
+    /// All stages.
+    pub const ALL: [Self; 7] = [
+        Self::EyePass,
+        Self::Layout,
+        Self::Trace,
+        Self::Sort,
+        Self::Gather,
+        Self::ShadowRays,
+        Self::Radiance,
+    ];
+
+    /// The name in output.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::EyePass => "eye_pass",
+            Self::Layout => "layout",
+            Self::Trace => "trace",
+            Self::Sort => "sort",
+            Self::Gather => "gather",
+            Self::ShadowRays => "shadow_rays",
+            Self::Radiance => "radiance",
+        }
+    }
+}
+
+/// What the start of a render found.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Start {
+    /// Hit points.
+    pub hit_points: u64,
+    /// Eye rays traced.
+    pub eye_rays: u64,
+}
+
+/// What one pass did, and how things stand after it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PassReport {
+    /// Passes so far.
+    pub pass: u64,
+    /// Photons emitted so far.
+    pub photons: u64,
+    /// Photons emitted in this pass.
+    pub photons_in_pass: u64,
+    /// Photons stored in this pass.
+    pub stored: u64,
+    /// Rays traced in this pass, shadow rays included.
+    pub rays: u64,
+    /// Photon–packet tests in this pass.
+    pub candidates: u64,
+    /// Photon–hit-point pairs that counted in this pass.
+    pub accepted: u64,
+    /// Share of hit points that have found no photon in any pass: unknown, not dark.
+    pub no_photon_share: f64,
+    /// Hit points whose radius is at the smallest that coordinates resolve.
+    pub floored: u64,
+}
+
+/// A render under way.
+pub struct Ppm {
+    scene: Arc<Scene>,
+    settings: Settings,
+    hit_points: HitPoints,
+    shapes: Vec<u32>,
+    light: Light,
+    grid: Grid,
+    marked_radius2: f64,
+    chunks: Vec<Chunk>,
+    map: PhotonMap,
+    ledger: Ledger,
+    passes: u64,
+    photons_emitted: u64,
+    changes: Vec<(u64, Change)>,
+    start: Start,
+}
+
+impl Ppm {
+    /// Collects hit points. `watch` is told each stage as it begins.
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub fn start(
+        scene: Arc<Scene>,
+        settings: Settings,
+        watch: &mut dyn FnMut(Stage),
+        cancel: &Cancel,
+    ) -> Result<Self, Cancelled> {
+        watch(Stage::EyePass);
+        let max_depth = Self::max_depth(&scene, &settings);
+        let eye = EyePass { scene: &scene, settings: &settings, max_depth, purpose: Purpose::Eye }.run(cancel)?;
+        watch(Stage::Layout);
+        let shadow_rays = settings.direct_light == DirectLight::ShadowRays;
+        let normals = scene.census().shading_normals;
+        let hit_points = HitPoints::new(&eye.hit_points, eye.pixel_start(), normals, shadow_rays);
+        let start = Start { hit_points: hit_points.len() as u64, eye_rays: eye.rays };
+        drop(eye.hit_points);
+        let grid = Grid::new(&hit_points.packets);
+        let light = Light::new(eye.emission, &hit_points, &settings);
+        cancel.check()?;
+        Ok(Self {
+            scene,
+            settings,
+            hit_points,
+            shapes: eye.shapes,
+            light,
+            grid,
+            marked_radius2: f64::INFINITY,
+            chunks: Vec::new(),
+            map: PhotonMap::default(),
+            ledger: Ledger::default(),
+            passes: 0,
+            photons_emitted: 0,
+            changes: Vec::new(),
+            start,
+        })
+    }
+
+    /// One pass: photons from the emitters, sorted into a map, gathered by every hit point, added to the image.
+    ///
+    /// # Errors
+    /// When cancelled while photons are traced; the pass then has not happened.
+    pub fn advance(&mut self, watch: &mut dyn FnMut(Stage), cancel: &Cancel) -> Result<PassReport, Cancelled> {
+        watch(Stage::Trace);
+        let photons = u64::from(self.settings.photons_per_pass.get());
+        let mut chunks = std::mem::take(&mut self.chunks);
+        let shot = self.photon_pass(photons).shoot(&mut chunks, cancel);
+        self.chunks = chunks;
+        shot?;
+        watch(Stage::Sort);
+        self.map.build(&self.chunks, self.grid.touched());
+        cancel.check()?;
+        watch(Stage::Gather);
+        let rule = Rule {
+            alpha: self.settings.alpha,
+            smallest2: RadiusRule::new(&self.scene, self.settings.radius).smallest2(),
+        };
+        let tally = self.light.gather(&mut self.hit_points, &self.map, &self.grid, rule);
+        let mut rays: u64 = self.chunks.iter().map(|c| c.rays).sum();
+        if self.settings.direct_light == DirectLight::ShadowRays {
+            watch(Stage::ShadowRays);
+            let key = (self.settings.seed, self.passes, photons);
+            rays += self.light.add_direct(&self.scene, &self.hit_points, key);
+        }
+        watch(Stage::Radiance);
+        self.light.add_pass(&self.hit_points);
+        self.mark_cells(&tally);
+        for chunk in &self.chunks {
+            self.ledger += chunk.ledger;
+        }
+        self.photons_emitted += photons;
+        self.passes += 1;
+        Ok(self.report(photons, rays, &tally))
+    }
+
+    fn photon_pass(&self, photons: u64) -> PhotonPass<'_> {
+        PhotonPass {
+            scene: &self.scene,
+            grid: &self.grid,
+            direct_light: self.settings.direct_light,
+            max_depth: Self::max_depth(&self.scene, &self.settings),
+            seed: self.settings.seed,
+            pass: self.passes,
+            // A path of one edge is an emitter seen directly: no photon can add to it.
+            photons: if Self::max_depth(&self.scene, &self.settings) > 1 { photons } else { 0 },
+        }
+    }
+
+    /// Photons that no disc can reach any more need not be stored: marks cells anew once discs are clearly smaller.
+    fn mark_cells(&mut self, tally: &Tally) {
+        if self.marked_radius2.is_infinite() {
+            self.marked_radius2 = tally.radius2;
+        } else if tally.radius2 < MARK_AGAIN * self.marked_radius2 {
+            self.grid.mark(&self.hit_points.packets);
+            self.marked_radius2 = tally.radius2;
+        }
+    }
+
+    fn report(&self, photons_in_pass: u64, rays: u64, tally: &Tally) -> PassReport {
+        PassReport {
+            pass: self.passes,
+            photons: self.photons_emitted,
+            photons_in_pass,
+            stored: self.map.len() as u64,
+            rays,
+            candidates: tally.candidates,
+            accepted: tally.accepted,
+            no_photon_share: tally.unknown as f64 / (self.start.hit_points as f64).max(1.0),
+            floored: tally.floored,
+        }
+    }
+
+    /// The longest path of a render, in edges as Mitsuba counts them: what the settings say, or else the scene, but never
+    /// more than 250.
+    #[must_use]
+    pub fn max_depth(scene: &Scene, settings: &Settings) -> u32 {
+        settings.max_depth.or(scene.max_depth()).map_or(LONGEST_PATH, |d| d.min(LONGEST_PATH))
+    }
+
+    /// Changes a setting from the next pass on. The change stands in [`Ppm::changes`] with the number of passes before it.
+    pub fn change(&mut self, change: Change) {
+        match change {
+            Change::Alpha(alpha) => self.settings.alpha = alpha,
+            Change::PhotonsPerPass(photons) => self.settings.photons_per_pass = photons,
+        }
+        self.changes.push((self.passes, change));
+    }
+
+    /// All changes so far, each with the number of passes before it.
+    #[must_use]
+    pub fn changes(&self) -> &[(u64, Change)] {
+        &self.changes
+    }
+
+    /// The settings as they are now.
+    #[must_use]
+    pub const fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The scene.
+    #[must_use]
+    pub const fn scene(&self) -> &Arc<Scene> {
+        &self.scene
+    }
+
+    /// What the eye pass found.
+    #[must_use]
+    pub const fn start_report(&self) -> &Start {
+        &self.start
+    }
+
+    /// Where all emitted power went.
+    #[must_use]
+    pub const fn ledger(&self) -> &Ledger {
+        &self.ledger
+    }
+
+    /// Image size in pixels.
+    fn size(&self) -> (u32, u32) {
+        let sensor = &self.scene.sensors()[self.settings.sensor];
+        (sensor.width, sensor.height)
+    }
+
+    fn as_image(&self, pixels: Vec<Rgb>) -> Image {
+        let (width, height) = self.size();
+        Image { width, height, pixels }
+    }
+
+    /// Radiance after all passes so far.
+    #[must_use]
+    pub fn image(&self) -> Image {
+        self.as_image(self.light.total(self.photons_emitted))
+    }
+
+    /// The last pass's own, independent estimate of reflected radiance: the image is the mean of these, weighted by photons.
+    #[must_use]
+    pub fn last_pass(&self) -> Image {
+        let scale = 1.0 / f64::from(self.settings.photons_per_pass.get());
+        let pixels = self.light.last_pass().into_iter().map(|l| l * scale as f32);
+        self.as_image(pixels.collect())
+    }
+
+    /// A layer beside the image; `None` for a path class when [`Settings::layers`] is off.
+    #[must_use]
+    pub fn layer(&self, kind: LayerKind) -> Option<Layer> {
+        let rgb = |pixels| LayerData::Rgb(self.as_image(pixels));
+        let class = |class| self.light.class(class, self.photons_emitted).map(rgb);
+        let (width, height) = self.size();
+        let channels = match kind {
+            LayerKind::Direct => class(PathClass::Direct)?,
+            LayerKind::Caustic => class(PathClass::Caustic)?,
+            LayerKind::Indirect => class(PathClass::Indirect)?,
+            LayerKind::Emission => rgb(self.light.emission().to_vec()),
+            LayerKind::Radius => {
+                let world = self.scene.normalisation().world_length(1.0);
+                let values = self.per_pixel(|statistics| {
+                    let n = statistics.len().max(1) as f64;
+                    (statistics.iter().map(|s| s.radius2().sqrt()).sum::<f64>() / n * world) as f32
+                });
+                LayerData::F32(Plane { width, height, values })
+            }
+            LayerKind::PhotonCount => {
+                let sum = |s: &[Statistics]| s.iter().map(Statistics::photons_found).sum::<u64>();
+                let values = self.per_pixel(|s| u32::try_from(sum(s)).unwrap_or(u32::MAX));
+                LayerData::U32(Plane { width, height, values })
+            }
+            LayerKind::ShapeId => LayerData::U32(Plane { width, height, values: self.shapes.clone() }),
+        };
+        Some(Layer { name: kind.name().to_owned(), channels })
+    }
+
+    fn per_pixel<T>(&self, f: impl Fn(&[Statistics]) -> T) -> Vec<T> {
+        let mut statistics = self.hit_points.statistics().copied();
+        let mut of_pixel = Vec::new();
+        let spans = self.hit_points.pixel_start.windows(2).map(|w| (w[1] - w[0]) as usize);
+        spans
+            .map(|n| {
+                of_pixel.clear();
+                of_pixel.extend(statistics.by_ref().take(n));
+                f(&of_pixel)
+            })
+            .collect()
+    }
+
+    /// The median radius of all hit points, in world units; 0 without hit points.
+    #[must_use]
+    pub fn median_radius(&self) -> f64 {
+        let mut radius2: Vec<f64> = self.hit_points.statistics().map(Statistics::radius2).collect();
+        let middle = radius2.len() / 2;
+        if radius2.is_empty() {
+            return 0.0;
+        }
+        let (_, median, _) = radius2.select_nth_unstable_by(middle, f64::total_cmp);
+        self.scene.normalisation().world_length(median.sqrt())
+    }
+
+    /// Bytes held, the scene included.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let chunk = |c: &Chunk| c.photons.capacity() * size_of::<Photon>() + c.cells.capacity() * size_of::<u32>();
+        self.scene.bytes()
+            + self.hit_points.bytes()
+            + self.light.bytes()
+            + self.grid.bytes()
+            + self.map.bytes()
+            + self.chunks.iter().map(chunk).sum::<usize>()
+            + self.shapes.len() * size_of::<u32>()
+    }
+}

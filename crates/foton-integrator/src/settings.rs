@@ -1,0 +1,121 @@
+//! What a person may set. Values that make no sense cannot be made.
+
+use std::fmt;
+use std::num::NonZeroU32;
+
+/// The share of each pass's new photons that a hit point keeps, in (0, 1]: small shrinks radii fast (less bias, more noise),
+/// 1 never shrinks them.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Alpha(f64);
+
+impl Alpha {
+    /// `None` unless `0 < alpha ≤ 1`.
+    #[must_use]
+    pub fn new(alpha: f64) -> Option<Self> {
+        (alpha > 0.0 && alpha <= 1.0).then_some(Self(alpha))
+    }
+
+    /// The value.
+    #[must_use]
+    pub const fn get(self) -> f64 {
+        self.0
+    }
+}
+
+impl Default for Alpha {
+    /// 2/3: noise and bias then fall at the same rate, and the best initial radius does not depend on the number of passes
+    /// `[KD13]`.
+    fn default() -> Self {
+        Self(2.0 / 3.0)
+    }
+}
+
+impl fmt::Display for Alpha {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// How light that comes straight from an emitter is estimated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DirectLight {
+    /// By photons, like all other light.
+    #[default]
+    Photons,
+    /// By a shadow ray from each hit point in each pass; shadow edges are then sharp from the first pass on.
+    ShadowRays,
+}
+
+/// Everything that decides an image, beside the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// How fast radii shrink. May change between passes.
+    pub alpha: Alpha,
+    /// Photons emitted in a pass. May change between passes.
+    pub photons_per_pass: NonZeroU32,
+    /// Eye samples a pixel.
+    pub samples_per_pixel: NonZeroU32,
+    /// First radius of every hit point in world units; `None`: from the pixel's footprint.
+    pub radius: Option<f64>,
+    /// How direct light is estimated.
+    pub direct_light: DirectLight,
+    /// Longest path in edges, as Mitsuba counts them; `None`: what the scene says.
+    pub max_depth: Option<u32>,
+    /// The seed of all random streams.
+    pub seed: u64,
+    /// Index of the sensor.
+    pub sensor: usize,
+    /// Hit points that one eye sample may make by splitting at glass.
+    pub hit_points_per_sample: NonZeroU32,
+    /// Whether direct, caustic and indirect light are kept apart (costs 24 to 72 bytes a hit point and pixel).
+    pub layers: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        let number = |n| NonZeroU32::new(n).unwrap_or(NonZeroU32::MIN);
+        Self {
+            alpha: Alpha::default(),
+            photons_per_pass: number(1 << 18),
+            samples_per_pixel: number(4),
+            radius: None,
+            direct_light: DirectLight::default(),
+            max_depth: None,
+            seed: 0,
+            sensor: 0,
+            hit_points_per_sample: number(8),
+            layers: false,
+        }
+    }
+}
+
+/// A change of settings during a run: it takes effect at the next pass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Change {
+    /// A new [`Settings::alpha`].
+    Alpha(Alpha),
+    /// A new [`Settings::photons_per_pass`].
+    PhotonsPerPass(NonZeroU32),
+}
+
+impl fmt::Display for Change {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Alpha(alpha) => write!(f, "alpha={alpha}"),
+            Self::PhotonsPerPass(n) => write!(f, "photons={n}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn alpha_is_in_the_half_open_unit_interval() {
+        for bad in [0.0, -0.5, 1.0 + 1e-9, f64::NAN, f64::INFINITY] {
+            assert_eq!(Alpha::new(bad), None, "{bad}");
+        }
+        assert!(Alpha::new(1e-3).is_some() && Alpha::new(1.0).is_some());
+    }
+}
