@@ -254,6 +254,18 @@ impl Ppm {
         self.changes.push((self.passes, change));
     }
 
+    /// Passes so far.
+    #[must_use]
+    pub const fn passes(&self) -> u64 {
+        self.passes
+    }
+
+    /// Photons emitted so far.
+    #[must_use]
+    pub const fn photons_emitted(&self) -> u64 {
+        self.photons_emitted
+    }
+
     /// All changes so far, each with the number of passes before it.
     #[must_use]
     pub fn changes(&self) -> &[(u64, Change)] {

@@ -1,3 +1,40 @@
-//! The foton binary.
+//! The `foton` command: reads arguments, renders, says how it goes.
+//!
+//! Exit codes: 0 done, 1 could not render, 2 bad usage.
 
-fn main() {}
+mod args;
+mod embedded;
+mod job;
+mod memory;
+mod metadata;
+mod output;
+mod quick;
+mod talk;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Args, Command};
+use talk::Talk;
+
+fn main() -> ExitCode {
+    let args = Args::parse();
+    let (result, mut talk) = match args.command {
+        Some(Command::Render(render)) => {
+            let mut talk = Talk::new(render.json);
+            (job::render(&render, &mut talk), talk)
+        }
+        None => {
+            let mut talk = Talk::new(false);
+            (quick::render(args.scene.as_deref(), &mut talk), talk)
+        }
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            talk.failure(&failure);
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! A render on a pool of threads of its own, pass after pass until a rule or a person stops it.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use foton_integrator::{Cancelled, MemoryEstimate, PassReport, Ppm, Settings};
+use foton_scene::Scene;
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use thiserror::Error;
+
+use crate::clock::{StageClock, StageTimes};
+use crate::interrupt::Interrupt;
+use crate::stop::StopRule;
+
+/// Why a render did not start.
+#[derive(Debug, Error)]
+pub enum StartError {
+    /// Someone asked to stop before the eye pass was done.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// No threads could be made.
+    #[error("cannot make render threads: {0}")]
+    Threads(#[from] ThreadPoolBuildError),
+}
+
+/// Why a render stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StopCause {
+    /// A limit of the stop rule.
+    Rule,
+    /// A person.
+    Interrupted,
+}
+
+/// How a render stands after a pass.
+pub struct Progress<'a> {
+    /// The render.
+    pub ppm: &'a Ppm,
+    /// The pass.
+    pub report: PassReport,
+    /// Time of rendering so far, eye pass included, loading and what callers did after passes not.
+    pub elapsed: Duration,
+    /// Rays of all passes so far.
+    pub rays: u64,
+    /// Time by stage so far.
+    pub stages: &'a StageTimes,
+}
+
+/// A render under way.
+pub struct Session {
+    ppm: Ppm,
+    pool: ThreadPool,
+    stages: StageTimes,
+    elapsed: Duration,
+    rays: u64,
+}
+
+impl Session {
+    /// What a render would take in memory.
+    #[must_use]
+    pub fn estimate_memory(scene: &Scene, settings: &Settings) -> MemoryEstimate {
+        MemoryEstimate::pilot(scene, settings, Ppm::max_depth(scene, settings))
+    }
+
+    /// Collects hit points on `threads` threads, by default as many as the machine has.
+    ///
+    /// # Errors
+    /// When interrupted twice, or when the system gives no threads.
+    pub fn start(
+        scene: Arc<Scene>,
+        settings: Settings,
+        threads: Option<usize>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, StartError> {
+        let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build()?;
+        let mut stages = StageTimes::default();
+        let begin = Instant::now();
+        let ppm = {
+            let mut clock = StageClock::new(&mut stages);
+            pool.install(|| Ppm::start(scene, settings, &mut |stage| clock.begin(stage), interrupt.cancel()))?
+        };
+        Ok(Self { ppm, pool, stages, elapsed: begin.elapsed(), rays: 0 })
+    }
+
+    /// Runs passes until `rule` or `interrupt` says stop. `after_pass` sees each pass; its errors end the run, and its time
+    /// is not counted.
+    ///
+    /// # Errors
+    /// Those of `after_pass`.
+    pub fn run<E>(
+        &mut self,
+        rule: &StopRule,
+        interrupt: &Interrupt,
+        after_pass: &mut dyn FnMut(&Progress<'_>) -> Result<(), E>,
+    ) -> Result<StopCause, E> {
+        let mut last = Duration::ZERO;
+        loop {
+            let passes = self.ppm.passes();
+            if interrupt.is_requested() && passes > 0 {
+                return Ok(StopCause::Interrupted);
+            }
+            if rule.is_reached(passes, self.elapsed, last) {
+                return Ok(StopCause::Rule);
+            }
+            let begin = Instant::now();
+            let report = {
+                let mut clock = StageClock::new(&mut self.stages);
+                let ppm = &mut self.ppm;
+                self.pool.install(|| ppm.advance(&mut |stage| clock.begin(stage), interrupt.cancel()))
+            };
+            last = begin.elapsed();
+            self.elapsed += last;
+            let Ok(report) = report else { return Ok(StopCause::Interrupted) };
+            self.rays += report.rays;
+            after_pass(&Progress {
+                ppm: &self.ppm,
+                report,
+                elapsed: self.elapsed,
+                rays: self.rays,
+                stages: &self.stages,
+            })?;
+        }
+    }
+
+    /// The render.
+    #[must_use]
+    pub const fn ppm(&self) -> &Ppm {
+        &self.ppm
+    }
+
+    /// The render, to change its settings between runs.
+    pub const fn ppm_mut(&mut self) -> &mut Ppm {
+        &mut self.ppm
+    }
+
+    /// Time by stage so far.
+    #[must_use]
+    pub const fn stages(&self) -> &StageTimes {
+        &self.stages
+    }
+
+    /// Time of rendering so far.
+    #[must_use]
+    pub const fn elapsed(&self) -> Duration {
+        self.elapsed
+    }
+}

@@ -1,0 +1,246 @@
+//! The command line. Its words are stable: scripts rely on them.
+
+use std::num::NonZeroU32;
+use std::path::PathBuf;
+use std::str::FromStr;
+use std::time::Duration;
+
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+use foton_integrator::{Alpha, DirectLight, LayerKind, Settings};
+
+use crate::output::Format;
+
+/// Progressive photon mapping that a person can watch, steer and trust.
+#[derive(Debug, Parser)]
+#[command(version, args_conflicts_with_subcommands = true)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+    /// Scene file (Mitsuba 3 XML) to render for at most a minute; without one, the scene that ships with foton
+    pub(crate) scene: Option<PathBuf>,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Render a scene to an image file
+    Render(Box<Render>),
+}
+
+/// `foton render`.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Render {
+    /// Scene file (Mitsuba 3 XML)
+    pub(crate) scene: PathBuf,
+    /// Image to write, .exr (linear radiance) or .png (tone-mapped)
+    #[arg(short, value_name = "OUT.{exr,png}", value_parser = output)]
+    pub(crate) output: (PathBuf, Format),
+    /// Stop after this many passes
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) passes: Option<u64>,
+    /// Stop after this much rendering, e.g. 90s, 10m, 1.5h [without any stop rule: 60s]
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    pub(crate) time: Option<Duration>,
+    /// Photons emitted in a pass: fewer answer sooner, more cost less a photon
+    #[arg(long, value_name = "N", default_value_t = Settings::default().photons_per_pass)]
+    pub(crate) photons: NonZeroU32,
+    /// Share of new photons kept, in (0, 1]: small shrinks radii fast (less blur, more noise)
+    #[arg(long, value_name = "A", value_parser = alpha, default_value_t = Settings::default().alpha)]
+    pub(crate) alpha: Alpha,
+    /// First radius in world units [from each pixel's footprint]
+    #[arg(long, value_name = "R", value_parser = radius)]
+    pub(crate) radius: Option<f64>,
+    /// Seed of all random numbers
+    #[arg(long, value_name = "N", default_value_t = Settings::default().seed)]
+    pub(crate) seed: u64,
+    /// Threads [as many as the machine has]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Image size [as the scene says]
+    #[arg(long, value_name = "WxH")]
+    pub(crate) size: Option<Size>,
+    /// Eye samples a pixel
+    #[arg(long, value_name = "N", default_value_t = Settings::default().samples_per_pixel)]
+    pub(crate) spp: NonZeroU32,
+    /// Longest path in edges, as Mitsuba counts them: 1 emitters seen directly, 2 one bounce [as the scene says]
+    #[arg(long, value_name = "N")]
+    pub(crate) max_depth: Option<u32>,
+    /// How light straight from emitters is estimated
+    #[arg(long, value_name = "HOW", value_enum, default_value_t = Direct::Photons)]
+    pub(crate) direct: Direct,
+    /// How light is transported; more than progressive photon mapping is to come
+    #[arg(long, value_name = "NAME", value_enum, default_value_t = Integrator::Ppm)]
+    pub(crate) integrator: Integrator,
+    /// The sensor to look through, by its id [the first]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) sensor: Option<String>,
+    /// Refuse to start beyond this much memory, e.g. 800M, 8G [80 % of what is free]
+    #[arg(long, value_name = "SIZE", value_parser = bytes)]
+    pub(crate) memory: Option<u64>,
+    /// Set a parameter of the scene file
+    #[arg(short = 'D', value_name = "name=value", value_parser = define)]
+    pub(crate) defines: Vec<(String, String)>,
+    /// Also write OUT-000016.exr and so on, at powers of two or every N passes
+    #[arg(long, value_name = "pow2|N")]
+    pub(crate) every: Option<Every>,
+    /// Layers to put into an EXR: direct, caustic, indirect, emission, radius, photon_count, shape_id
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = layer)]
+    pub(crate) layers: Vec<LayerKind>,
+    /// Print one JSON object a line on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// `--direct`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Direct {
+    /// By photons, like all other light
+    Photons,
+    /// By shadow rays: sharp shadows from the first pass on
+    ShadowRays,
+}
+
+/// `--integrator`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Integrator {
+    /// Progressive photon mapping
+    Ppm,
+}
+
+impl From<Direct> for DirectLight {
+    fn from(direct: Direct) -> Self {
+        match direct {
+            Direct::Photons => Self::Photons,
+            Direct::ShadowRays => Self::ShadowRays,
+        }
+    }
+}
+
+/// Image size in pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Size {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+}
+
+impl FromStr for Size {
+    type Err = String;
+
+    fn from_str(s: &str) -> Result<Self, String> {
+        let side = |s: &str| s.parse::<u32>().ok().filter(|n| (1..=1 << 16).contains(n));
+        s.split_once(['x', 'X', '×'])
+            .and_then(|(w, h)| Some(Self { width: side(w)?, height: side(h)? }))
+            .ok_or_else(|| "expected WIDTHxHEIGHT in pixels, such as 640x480, each from 1 to 65536".to_owned())
+    }
+}
+
+/// `--every`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Every {
+    PowersOfTwo,
+    Nth(u64),
+}
+
+impl Every {
+    /// Whether an image is due after `pass` passes.
+    pub(crate) const fn is_due(self, pass: u64) -> bool {
+        match self {
+            Self::PowersOfTwo => pass.is_power_of_two(),
+            Self::Nth(n) => pass.is_multiple_of(n),
+        }
+    }
+}
+
+impl FromStr for Every {
+    type Err = String;
+
+    fn from_str(s: &str) -> Result<Self, String> {
+        match (s, s.parse::<u64>()) {
+            ("pow2", _) => Ok(Self::PowersOfTwo),
+            (_, Ok(n)) if n > 0 => Ok(Self::Nth(n)),
+            _ => Err("expected pow2 or a number of passes above 0".to_owned()),
+        }
+    }
+}
+
+fn alpha(s: &str) -> Result<Alpha, String> {
+    s.parse().ok().and_then(Alpha::new).ok_or_else(|| "expected a number above 0 and up to 1".to_owned())
+}
+
+fn radius(s: &str) -> Result<f64, String> {
+    let good = s.parse().ok().filter(|r: &f64| *r > 0.0 && r.is_finite());
+    good.ok_or_else(|| "expected a length above 0, in world units".to_owned())
+}
+
+fn output(s: &str) -> Result<(PathBuf, Format), String> {
+    let path = PathBuf::from(s);
+    let format = Format::of(&path).ok_or_else(|| "expected a name that ends in .exr or .png".to_owned())?;
+    Ok((path, format))
+}
+
+fn layer(s: &str) -> Result<LayerKind, String> {
+    LayerKind::from_name(s).ok_or_else(|| {
+        let names: Vec<_> = LayerKind::ALL.iter().map(|k| k.name()).collect();
+        format!("expected any of {}", names.join(", "))
+    })
+}
+
+fn define(s: &str) -> Result<(String, String), String> {
+    s.split_once('=')
+        .filter(|(name, _)| !name.is_empty())
+        .map(|(name, value)| (name.to_owned(), value.to_owned()))
+        .ok_or_else(|| "expected name=value".to_owned())
+}
+
+/// A number with one of the given units.
+fn with_unit(s: &str, units: &[(&str, f64)]) -> Option<f64> {
+    let (unit, factor) = units.iter().find(|(unit, _)| s.ends_with(unit))?;
+    let number: f64 = s.strip_suffix(unit)?.trim().parse().ok()?;
+    (number > 0.0 && number.is_finite()).then_some(number * factor)
+}
+
+fn duration(s: &str) -> Result<Duration, String> {
+    with_unit(s, &[("ms", 1e-3), ("s", 1.0), ("m", 60.0), ("h", 3600.0), ("", 1.0)])
+        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
+        .ok_or_else(|| "expected a time above 0, such as 90s, 10m or 1.5h".to_owned())
+}
+
+fn bytes(s: &str) -> Result<u64, String> {
+    let unit = |power: i32| 1024f64.powi(power);
+    let units = [("K", unit(1)), ("M", unit(2)), ("G", unit(3)), ("T", unit(4)), ("", 1.0)];
+    with_unit(s.trim_end_matches("iB"), &units)
+        .map(|b| b as u64)
+        .ok_or_else(|| "expected a size above 0, such as 800M or 8G (powers of 1024)".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_sound() {
+        use clap::CommandFactory;
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn times_sizes_and_schedules_are_read_and_nonsense_is_refused() {
+        assert_eq!(duration("1.5m"), Ok(Duration::from_secs(90)));
+        assert_eq!(duration("250ms"), Ok(Duration::from_millis(250)));
+        assert_eq!(duration("7"), Ok(Duration::from_secs(7)));
+        assert_eq!((bytes("8G"), bytes("1.5MiB")), (Ok(8 << 30), Ok(3 << 19)));
+        for bad in ["", "-1s", "0s", "s", "NaNs", "1e300h", "tomorrow"] {
+            assert!(duration(bad).is_err(), "{bad}");
+        }
+        assert_eq!("640x480".parse(), Ok(Size { width: 640, height: 480 }));
+        for bad in ["640", "0x3", "axb", "70000x1", "-1x5"] {
+            assert!(bad.parse::<Size>().is_err(), "{bad}");
+        }
+        assert_eq!(("pow2".parse(), "3".parse()), (Ok(Every::PowersOfTwo), Ok(Every::Nth(3))));
+        assert!("0".parse::<Every>().is_err());
+        assert!(Every::Nth(3).is_due(6) && !Every::Nth(3).is_due(7) && Every::PowersOfTwo.is_due(8));
+        for bad in ["0", "1.01", "NaN", "-1"] {
+            assert!(alpha(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! `foton render`: one scene to one image, and to more on the way.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use foton_format::{Opened, Options};
+use foton_integrator::{LayerKind, Settings};
+use foton_scene::Scene;
+use foton_session::{Interrupt, Session, StopRule};
+
+use crate::args::{Render, Size};
+use crate::memory;
+use crate::metadata::SceneIdentity;
+use crate::output::{self, Format};
+use crate::talk::{Failure, Talk};
+
+/// How long a render without a stop rule takes.
+const DEFAULT_TIME: Duration = Duration::from_secs(60);
+
+/// Runs `foton render`.
+pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
+    let options = Options { defines: args.defines.clone() };
+    let opened = foton_format::open(&args.scene, &options).map_err(Failure::Open)?;
+    let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
+    let (scene, identity) = build(opened, &name, args.size, talk)?;
+    let settings = Settings {
+        alpha: args.alpha,
+        photons_per_pass: args.photons,
+        samples_per_pixel: args.spp,
+        radius: args.radius,
+        direct_light: args.direct.into(),
+        max_depth: args.max_depth,
+        seed: args.seed,
+        sensor,
+        layers: args.layers.iter().any(|l| l.needs_classes()),
+        ..Settings::default()
+    };
+    let mut rule = StopRule { passes: args.passes, time: args.time };
+    if rule == StopRule::default() {
+        rule.time = Some(DEFAULT_TIME);
+        talk.line("no --passes or --time: rendering for 60 s");
+    }
+    let (path, format) = &args.output;
+    refuse_beyond_memory(&scene, &settings, args.memory)?;
+    let interrupt = interrupt_on_signals(talk);
+    talk.begin();
+    let mut session = Session::start(scene, settings, args.threads.map(usize::from), &interrupt)?;
+    let layers = if *format == Format::Exr { &args.layers[..] } else { &[] };
+    let mut outputs = Vec::new();
+    session.run(&rule, &interrupt, &mut |progress| {
+        talk.pass(progress, &rule);
+        if args.every.is_some_and(|e| e.is_due(progress.report.pass)) {
+            let path = output::numbered(path, progress.report.pass);
+            output::write(&path, *format, progress.ppm, layers, &identity)?;
+            outputs.push(path.display().to_string());
+        }
+        Ok::<_, Failure>(())
+    })?;
+    finish(&session, &[(path.clone(), *format)], layers, &identity, outputs, talk)
+}
+
+/// Builds the scene, at another size if one is asked for, and says what its file got wrong.
+pub(crate) fn build(
+    opened: Opened,
+    name: &str,
+    size: Option<Size>,
+    talk: &Talk,
+) -> Result<(Arc<Scene>, SceneIdentity), Failure> {
+    for finding in &opened.warnings {
+        talk.finding(finding);
+    }
+    let identity = SceneIdentity { name: name.to_owned(), hash: opened.source_hash };
+    let mut description = opened.description;
+    if let Some(Size { width, height }) = size {
+        for sensor in &mut description.sensors {
+            (sensor.width, sensor.height) = (width, height);
+        }
+    }
+    let scene = Scene::build(&description).map_err(|cause| Failure::Build { scene: name.to_owned(), cause })?;
+    let census = scene.census();
+    if census.degenerate_triangles > 0 {
+        talk.warning(&format!("left out {} triangles without area", census.degenerate_triangles));
+    }
+    if census.emitters == 0 {
+        talk.warning("nothing in the scene emits light: the image will be black");
+    }
+    Ok((Arc::new(scene), identity))
+}
+
+fn choose_sensor(opened: &Opened, name: Option<&str>) -> Result<usize, Failure> {
+    let Some(name) = name else { return Ok(0) };
+    let sensors = &opened.description.sensors;
+    sensors.iter().position(|s| s.name == name).ok_or_else(|| Failure::Sensor {
+        asked: name.to_owned(),
+        known: sensors.iter().map(|s| s.name.clone()).collect(),
+    })
+}
+
+/// Looks before it leaps: a render that would not fit is refused with the numbers.
+pub(crate) fn refuse_beyond_memory(scene: &Scene, settings: &Settings, asked: Option<u64>) -> Result<(), Failure> {
+    let estimate = Session::estimate_memory(scene, settings);
+    match memory::limit(asked) {
+        Some(limit) if estimate.peak_bytes() > limit => {
+            Err(Failure::Memory { estimate: estimate.to_string(), limit })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Ctrl-C and SIGTERM end the render after its pass; a second one discards the pass.
+pub(crate) fn interrupt_on_signals(talk: &Talk) -> Interrupt {
+    let interrupt = Interrupt::default();
+    let handler = interrupt.clone();
+    if let Err(error) = ctrlc::set_handler(move || handler.request()) {
+        talk.warning(&format!("Ctrl-C will not be handled: {error}"));
+    }
+    interrupt
+}
+
+/// Writes the last images and says so.
+pub(crate) fn finish(
+    session: &Session,
+    files: &[(PathBuf, Format)],
+    layers: &[LayerKind],
+    identity: &SceneIdentity,
+    mut outputs: Vec<String>,
+    talk: &Talk,
+) -> Result<(), Failure> {
+    for (path, format) in files {
+        output::write(path, *format, session.ppm(), layers, identity)?;
+        outputs.push(path.display().to_string());
+    }
+    talk.check_ledger(session.ppm().ledger());
+    talk.done(session, &outputs);
+    Ok(())
+}

@@ -1,0 +1,46 @@
+//! What travels with an image: enough to make it again. Nothing of when or where, so that equal renders give equal files.
+
+use foton_film::Metadata;
+use foton_integrator::{DirectLight, Ppm};
+
+/// The scene as metadata names it.
+pub(crate) struct SceneIdentity {
+    pub(crate) name: String,
+    pub(crate) hash: u64,
+}
+
+/// Metadata of a render as it stands.
+pub(crate) fn of(ppm: &Ppm, scene: &SceneIdentity) -> Metadata {
+    let s = ppm.settings();
+    let sensor = &ppm.scene().sensors()[s.sensor];
+    let radius = s.radius.map_or("footprint".to_owned(), |r| r.to_string());
+    let direct = match s.direct_light {
+        DirectLight::Photons => "photons",
+        DirectLight::ShadowRays => "shadow-rays",
+    };
+    let settings = format!(
+        "integrator=ppm alpha={} photons={} radius={radius} direct={direct} max_depth={} spp={} size={}x{} sensor={} \
+         hit_points_per_sample={}",
+        s.alpha,
+        s.photons_per_pass,
+        Ppm::max_depth(ppm.scene(), s),
+        s.samples_per_pixel,
+        sensor.width,
+        sensor.height,
+        sensor.name,
+        s.hit_points_per_sample,
+    );
+    let changes: Vec<String> = ppm.changes().iter().map(|(pass, change)| format!("{pass} {change}")).collect();
+    [
+        ("foton:version", env!("CARGO_PKG_VERSION").to_owned()),
+        ("foton:scene", scene.name.clone()),
+        ("foton:scene-hash", format!("{:016x}", scene.hash)),
+        ("foton:passes", ppm.passes().to_string()),
+        ("foton:photons", ppm.photons_emitted().to_string()),
+        ("foton:seed", s.seed.to_string()),
+        ("foton:settings", settings),
+        ("foton:changes", changes.join("\n")),
+    ]
+    .into_iter()
+    .collect()
+}

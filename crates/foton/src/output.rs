@@ -1,0 +1,71 @@
+//! Image files: which format, which name, what goes in.
+
+use std::path::{Path, PathBuf};
+
+use foton_film::tone_map::ToneMap;
+use foton_film::{WriteError, write_exr, write_png};
+use foton_integrator::{LayerKind, Ppm};
+
+use crate::metadata::{self, SceneIdentity};
+
+/// Formats that images are written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Format {
+    Exr,
+    Png,
+}
+
+impl Format {
+    /// The format that a file name asks for.
+    pub(crate) fn of(path: &Path) -> Option<Self> {
+        let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+        match extension.as_str() {
+            "exr" => Some(Self::Exr),
+            "png" => Some(Self::Png),
+            _ => None,
+        }
+    }
+}
+
+/// Writes a render as it stands.
+pub(crate) fn write(
+    path: &Path,
+    format: Format,
+    ppm: &Ppm,
+    layers: &[LayerKind],
+    scene: &SceneIdentity,
+) -> Result<(), WriteError> {
+    let metadata = metadata::of(ppm, scene);
+    match format {
+        Format::Exr => {
+            let layers: Vec<_> = layers.iter().filter_map(|&kind| ppm.layer(kind)).collect();
+            write_exr(path, &ppm.image(), &layers, &metadata)
+        }
+        Format::Png => write_png(path, &ppm.image(), ToneMap::default(), 0.0, &metadata),
+    }
+}
+
+/// `OUT-000016.exr` for `OUT.exr` after 16 passes.
+pub(crate) fn numbered(path: &Path, pass: u64) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}-{pass:06}.{extension}"))
+}
+
+/// `foton-001` with the next number of which neither a PNG nor an EXR is there.
+pub(crate) fn next_free(folder: &Path) -> PathBuf {
+    let taken = |stem: &Path| ["png", "exr"].iter().any(|e| stem.with_extension(e).exists());
+    (1u32..).map(|n| folder.join(format!("foton-{n:03}"))).find(|stem| !taken(stem)).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_carry_the_pass_and_the_format() {
+        assert_eq!(numbered(Path::new("a/b.c.exr"), 16), Path::new("a/b.c-000016.exr"));
+        assert_eq!(Format::of(Path::new("x.PNG")), Some(Format::Png));
+        assert_eq!((Format::of(Path::new("x.jpg")), Format::of(Path::new("exr"))), (None, None));
+    }
+}

@@ -1,0 +1,48 @@
+//! `foton [SCENE]` where there is no window: a picture within a minute, readable after ten seconds.
+
+use std::path::Path;
+use std::time::Duration;
+
+use foton_format::Options;
+use foton_integrator::Settings;
+use foton_session::{Session, StopRule};
+
+use crate::embedded;
+use crate::job::{build, finish, interrupt_on_signals, refuse_beyond_memory};
+use crate::output::{self, Format};
+use crate::talk::{Failure, Talk};
+
+/// When to stop, writing included.
+const TIME: Duration = Duration::from_secs(55);
+
+/// When the first picture is written.
+const FIRST_PICTURE: Duration = Duration::from_secs(8);
+
+/// Renders `scene`, or the embedded one, to the next free `foton-001.png` and `.exr` in the working folder.
+pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failure> {
+    let options = Options::default();
+    let (opened, name) = match scene {
+        Some(path) => (foton_format::open(path, &options), path.file_name().unwrap_or_default().to_string_lossy()),
+        None => (embedded::open(&options), embedded::NAME.into()),
+    };
+    let (scene, identity) = build(opened.map_err(Failure::Open)?, &name, None, talk)?;
+    let settings = Settings::default();
+    refuse_beyond_memory(&scene, &settings, None)?;
+    let stem = output::next_free(Path::new(""));
+    let (png, exr) = (stem.with_extension("png"), stem.with_extension("exr"));
+    talk.line(&format!("rendering {name} for a minute to {}; Ctrl-C stops earlier", png.display()));
+    let interrupt = interrupt_on_signals(talk);
+    talk.begin();
+    let mut session = Session::start(scene, settings, None, &interrupt)?;
+    let rule = StopRule::time(TIME);
+    let mut first_picture = false;
+    session.run(&rule, &interrupt, &mut |progress| {
+        talk.pass(progress, &rule);
+        if !first_picture && progress.elapsed >= FIRST_PICTURE {
+            first_picture = true;
+            output::write(&png, Format::Png, progress.ppm, &[], &identity)?;
+        }
+        Ok::<_, Failure>(())
+    })?;
+    finish(&session, &[(png, Format::Png), (exr, Format::Exr)], &[], &identity, Vec::new(), talk)
+}

@@ -1,0 +1,227 @@
+//! What the program says: a progress bar on a terminal's stderr, JSON lines on stdout where asked for, findings on stderr.
+
+use std::fmt;
+use std::io::Write;
+
+use foton_film::WriteError;
+use foton_format::{Diagnostic, OpenError};
+use foton_integrator::Ledger;
+use foton_scene::BuildError;
+use foton_session::{Progress, Session, StartError, StopRule};
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::{Value, json};
+
+/// Why nothing was rendered.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    Open(OpenError),
+    Build { scene: String, cause: BuildError },
+    Memory { estimate: String, limit: f64 },
+    Sensor { asked: String, known: Vec<String> },
+    Start(StartError),
+    Write(WriteError),
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Open(cause) => cause.fmt(f),
+            Self::Build { scene, cause } => write!(f, "{scene}: {cause}"),
+            Self::Memory { estimate, limit } => write!(
+                f,
+                "this render needs about {estimate}; {:.0} MiB may be used. A smaller --size, --spp or --photons needs \
+                 less; --memory sets the limit",
+                limit / f64::from(1 << 20)
+            ),
+            Self::Sensor { asked, known } => {
+                write!(f, "the scene has no sensor \"{asked}\"; it has \"{}\"", known.join("\", \""))
+            }
+            Self::Start(cause) => cause.fmt(f),
+            Self::Write(cause) => cause.fmt(f),
+        }
+    }
+}
+
+impl From<WriteError> for Failure {
+    fn from(cause: WriteError) -> Self {
+        Self::Write(cause)
+    }
+}
+
+impl From<StartError> for Failure {
+    fn from(cause: StartError) -> Self {
+        Self::Start(cause)
+    }
+}
+
+/// The program's voice.
+pub(crate) struct Talk {
+    json: bool,
+    bar: ProgressBar,
+}
+
+impl Talk {
+    pub(crate) fn new(json: bool) -> Self {
+        Self { json, bar: ProgressBar::hidden() }
+    }
+
+    /// A line of JSON, if any was asked for.
+    fn event(&self, event: &Value) {
+        if self.json {
+            // A reader that has gone away is no reason to stop rendering.
+            let _ = writeln!(std::io::stdout().lock(), "{event}");
+        }
+    }
+
+    /// A line on stderr, above the bar.
+    pub(crate) fn line(&self, text: &str) {
+        self.bar.suspend(|| {
+            let _ = writeln!(std::io::stderr().lock(), "{text}");
+        });
+    }
+
+    /// Something to know that does not stop the render.
+    pub(crate) fn warning(&self, message: &str) {
+        self.event(&json!({ "event": "warning", "message": message }));
+        self.line(&format!("warning: {message}"));
+    }
+
+    /// A finding in a scene file that does not stop the render.
+    pub(crate) fn finding(&self, d: &Diagnostic) {
+        self.event(&located("warning", d));
+        self.line(&format!("warning: {d}"));
+    }
+
+    /// Why nothing was rendered.
+    pub(crate) fn failure(&mut self, failure: &Failure) {
+        self.bar.finish_and_clear();
+        if let Failure::Open(OpenError { diagnostics }) = failure {
+            for d in diagnostics {
+                let severity = match d.severity {
+                    foton_format::Severity::Warning => "warning",
+                    foton_format::Severity::Error => "error",
+                };
+                self.event(&located(severity, d));
+                self.line(&format!("{severity}: {d}"));
+            }
+            return;
+        }
+        let message = failure.to_string();
+        self.event(&json!({ "event": "error", "message": message }));
+        self.line(&format!("error: {message}"));
+    }
+
+    /// Starts the bar; it shows only on a terminal.
+    pub(crate) fn begin(&mut self) {
+        self.bar = ProgressBar::new(1000);
+        let style = ProgressStyle::with_template("{bar:32} {elapsed}  {msg}");
+        self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        self.bar.set_message("collecting hit points");
+    }
+
+    /// Says how a render stands after a pass.
+    pub(crate) fn pass(&self, p: &Progress<'_>, rule: &StopRule) {
+        let seconds = p.elapsed.as_secs_f64();
+        let rate = |n: u64| n as f64 / seconds.max(1e-9);
+        let r = &p.report;
+        if self.json {
+            self.event(&json!({
+                "event": "pass",
+                "pass": r.pass,
+                "photons": r.photons,
+                "seconds": seconds,
+                "photons_per_s": rate(r.photons),
+                "rays_per_s": rate(p.rays),
+                "radius_median": p.ppm.median_radius(),
+                "no_photon_share": r.no_photon_share,
+                "bytes": p.ppm.bytes(),
+                "stored": r.stored,
+                "candidates": r.candidates,
+                "accepted": r.accepted,
+                "radii_at_floor": r.floored,
+            }));
+        }
+        if let Some(fraction) = rule.fraction(r.pass, p.elapsed) {
+            self.bar.set_position((fraction * 1000.0) as u64);
+        }
+        self.bar.set_message(format!(
+            "pass {}, {:.1} M photons, {:.2} M/s, {:.1} % of hit points without a photon",
+            r.pass,
+            r.photons as f64 / 1e6,
+            rate(r.photons) / 1e6,
+            r.no_photon_share * 100.0
+        ));
+    }
+
+    /// Says that a render is done, what it wrote, and where its light went.
+    pub(crate) fn done(&self, session: &Session, outputs: &[String]) {
+        self.bar.finish_and_clear();
+        let ppm = session.ppm();
+        let seconds = session.elapsed().as_secs_f64();
+        let stages: serde_json::Map<_, _> =
+            session.stages().iter().map(|(s, t)| (s.name().to_owned(), json!(t.as_secs_f64()))).collect();
+        self.event(&json!({
+            "event": "done",
+            "passes": ppm.passes(),
+            "photons": ppm.photons_emitted(),
+            "seconds": seconds,
+            "outputs": outputs,
+            "ledger": ledger_json(ppm.ledger(), ppm.photons_emitted(), ppm.scene().normalisation().scale()),
+            "hit_points": ppm.start_report().hit_points,
+            "eye_rays": ppm.start_report().eye_rays,
+            "stages": stages,
+        }));
+        if self.json {
+            return;
+        }
+        let shares: Vec<String> = session
+            .stages()
+            .iter()
+            .filter(|(_, t)| !t.is_zero())
+            .map(|(s, t)| format!("{} {:.2} s", s.name().replace('_', " "), t.as_secs_f64()))
+            .collect();
+        self.line(&format!(
+            "{} passes, {:.1} M photons in {seconds:.1} s ({:.2} M/s): {}",
+            ppm.passes(),
+            ppm.photons_emitted() as f64 / 1e6,
+            ppm.photons_emitted() as f64 / 1e6 / seconds.max(1e-9),
+            shares.join(", ")
+        ));
+        for path in outputs {
+            self.line(&format!("wrote {path}"));
+        }
+    }
+
+    /// Warns of light that went missing.
+    pub(crate) fn check_ledger(&self, ledger: &Ledger) {
+        let share = ledger.truncated / ledger.emitted.max(f64::MIN_POSITIVE);
+        if share > 1e-3 {
+            self.warning(&format!(
+                "{:.1} % of the emitted power was cut off at the longest path; --max-depth sets it",
+                share * 100.0
+            ));
+        }
+        if ledger.dropped > 0 {
+            self.warning(&format!("{} photons were dropped: their power was not finite", ledger.dropped));
+        }
+    }
+}
+
+fn located(event: &str, d: &Diagnostic) -> Value {
+    json!({ "event": event, "message": d.message, "file": d.file, "line": d.line, "column": d.column })
+}
+
+/// The ledger in watts: per photon, and back from scene units, in which areas carry the squared scale.
+fn ledger_json(ledger: &Ledger, photons: u64, scale: f64) -> Value {
+    let watts = |sum: f64| sum / (photons.max(1) as f64 * scale * scale);
+    json!({
+        "emitted": watts(ledger.emitted),
+        "absorbed": watts(ledger.absorbed),
+        "escaped": watts(ledger.escaped),
+        "roulette": watts(ledger.roulette),
+        "truncated": watts(ledger.truncated),
+        "shading_normals": watts(ledger.shading_normals),
+        "dropped_photons": ledger.dropped,
+        "imbalance": ledger.imbalance(),
+    })
+}
