@@ -127,6 +127,10 @@ fn collect<const LAYERS: usize, const SHADED: bool>(
 /// All ones for each lane for which the photon counts: disc, slab, normal and side (the normals of both are those of the
 /// eye's and the photon's side), and length of the joined path.
 #[inline]
+#[allow(
+    clippy::needless_range_loop,
+    reason = "eight rows of lanes advance together; indices are what vectorises"
+)]
 fn counting_lanes(packet: &Packet, photon: &Photon) -> [u32; LANES] {
     let p = photon.position;
     let n = photon.normal.map(f32::from);
@@ -153,7 +157,7 @@ fn counting_lanes(packet: &Packet, photon: &Photon) -> [u32; LANES] {
 /// where the light comes from behind the shading normal.
 #[inline]
 fn shading_factor(packet: &Packet, shading_normals: &[[f32; LANES]; 3], photon: &Photon) -> [f32; LANES] {
-    let w = photon.from_direction();
+    let w = photon.direction();
     let mut factor = [0.0; LANES];
     let [nx, ny, nz] = &packet.normal;
     let [sx, sy, sz] = shading_normals;

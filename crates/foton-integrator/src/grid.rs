@@ -40,7 +40,13 @@ impl Grid {
     pub(crate) fn new(packets: &[Packet]) -> Self {
         let bounds = packets.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
         if bounds.is_empty() {
-            return Self { origin: Vec3::ZERO, inverse_cell: 1.0, cells: UVec3::ZERO, words: Vec::new(), touched: 0 };
+            return Self {
+                origin: Vec3::ZERO,
+                inverse_cell: 1.0,
+                cells: UVec3::ZERO,
+                words: Vec::new(),
+                touched: 0,
+            };
         }
         let mut cell = CELL_IN_RADII * median_radius(packets);
         let count = |cell: f32| (bounds.size() / cell).floor() + 1.0;

@@ -60,7 +60,13 @@ impl Light {
     }
 
     /// Gathers a pass and refines the hit points.
-    pub(crate) fn gather(&mut self, hit_points: &mut HitPoints, map: &PhotonMap, grid: &Grid, rule: Rule) -> Tally {
+    pub(crate) fn gather(
+        &mut self,
+        hit_points: &mut HitPoints,
+        map: &PhotonMap,
+        grid: &Grid,
+        rule: Rule,
+    ) -> Tally {
         each!(self, s => gather::all(hit_points, map, grid, rule, &mut s.irradiance_slots))
     }
 

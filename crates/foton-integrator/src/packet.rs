@@ -103,9 +103,8 @@ fn halve(points: &mut [Point]) -> Vec<Vec<u32>> {
     // Whole packets to the left, so that few are left part empty.
     let half = points.len().div_ceil(2);
     let middle = if points.len() > LANES { half.next_multiple_of(LANES).min(points.len() - 1) } else { half };
-    let by_axis = |a: &Point, b: &Point| {
-        a.position[axis].total_cmp(&b.position[axis]).then(a.index.cmp(&b.index))
-    };
+    let by_axis =
+        |a: &Point, b: &Point| a.position[axis].total_cmp(&b.position[axis]).then(a.index.cmp(&b.index));
     points.select_nth_unstable_by(middle, by_axis);
     let (left, right) = points.split_at_mut(middle);
     let (mut groups, rest) = if left.len() > 4096 {

@@ -52,7 +52,14 @@ impl Photon {
         Self { position: Vec3::ZERO, normal: [0; 3], edges: 0, power: Rgb::BLACK, code: 0 };
 
     /// A photon of `power` that arrives from the unit direction `from` on the side of the unit `normal`.
-    pub(crate) fn new(position: Vec3, normal: Vec3, from: Vec3, power: Rgb, class: PathClass, edges: u8) -> Self {
+    pub(crate) fn new(
+        position: Vec3,
+        normal: Vec3,
+        from: Vec3,
+        power: Rgb,
+        class: PathClass,
+        edges: u8,
+    ) -> Self {
         Self {
             position,
             normal: (normal * 127.0).round().to_array().map(|n| n as i8),
@@ -62,7 +69,8 @@ impl Photon {
         }
     }
 
-    pub(crate) fn from_direction(&self) -> Vec3 {
+    /// Unit direction towards where it came from.
+    pub(crate) fn direction(&self) -> Vec3 {
         octahedral::decode::<DIRECTION_BITS>(self.code & ((1 << 30) - 1))
     }
 
@@ -82,7 +90,7 @@ mod tests {
             let from = Vec3::new(-0.6, 0.0, -0.8);
             let p = Photon::new(Vec3::ONE, -Vec3::Z, from, Rgb::WHITE, class, 3);
             assert_eq!((p.class_index(), p.normal, p.edges), (class as usize, [0, 0, -127], 3));
-            assert!(p.from_direction().distance(from) < 1e-4);
+            assert!(p.direction().distance(from) < 1e-4);
         }
     }
 

@@ -40,7 +40,8 @@ impl PhotonMap {
             let mut next: Vec<u32> = cell_start[range.clone()].iter().map(|s| s - base).collect();
             for chunk in chunks {
                 for (photon, &cell) in chunk.photons.iter().zip(&chunk.cells) {
-                    if let Some(slot) = (cell as usize).checked_sub(range.start).and_then(|c| next.get_mut(c)) {
+                    if let Some(slot) = (cell as usize).checked_sub(range.start).and_then(|c| next.get_mut(c))
+                    {
                         part[*slot as usize] = *photon;
                         *slot += 1;
                     }
@@ -103,7 +104,14 @@ mod tests {
                 let mut chunk = Chunk::default();
                 for i in 0..c * 50 {
                     let power = Rgb::splat((c * 1000 + i) as f32);
-                    chunk.photons.push(Photon::new(Vec3::ZERO, Vec3::Z, Vec3::Z, power, PathClass::Direct, 1));
+                    chunk.photons.push(Photon::new(
+                        Vec3::ZERO,
+                        Vec3::Z,
+                        Vec3::Z,
+                        power,
+                        PathClass::Direct,
+                        1,
+                    ));
                     // Every third cell stays empty.
                     let cell = (stream.next_1d() * cells as f32) as u32;
                     chunk.cells.push(cell - u32::from(cell % 3 == 1));

@@ -108,7 +108,13 @@ impl PhotonPass<'_> {
     }
 
     /// Stores the photon where light spreads, and sends it on.
-    fn scatter(&self, flight: Flight, surface: &Surface, numbers: &mut Stream, chunk: &mut Chunk) -> Option<Flight> {
+    fn scatter(
+        &self,
+        flight: Flight,
+        surface: &Surface,
+        numbers: &mut Stream,
+        chunk: &mut Chunk,
+    ) -> Option<Flight> {
         let wo = -flight.ray.direction;
         let outward = wo.dot(surface.normal) > 0.0;
         let Some(bsdf) = self.scene.bsdf(surface.shape, outward) else {

@@ -136,7 +136,8 @@ impl Ppm {
     ) -> Result<Self, Cancelled> {
         watch(Stage::EyePass);
         let max_depth = Self::max_depth(&scene, &settings);
-        let eye = EyePass { scene: &scene, settings: &settings, max_depth, purpose: Purpose::Eye }.run(cancel)?;
+        let eye =
+            EyePass { scene: &scene, settings: &settings, max_depth, purpose: Purpose::Eye }.run(cancel)?;
         watch(Stage::Layout);
         let shadow_rays = settings.direct_light == DirectLight::ShadowRays;
         let normals = scene.census().shading_normals;
@@ -168,7 +169,11 @@ impl Ppm {
     ///
     /// # Errors
     /// When cancelled while photons are traced; the pass then has not happened.
-    pub fn advance(&mut self, watch: &mut dyn FnMut(Stage), cancel: &Cancel) -> Result<PassReport, Cancelled> {
+    pub fn advance(
+        &mut self,
+        watch: &mut dyn FnMut(Stage),
+        cancel: &Cancel,
+    ) -> Result<PassReport, Cancelled> {
         watch(Stage::Trace);
         let photons = u64::from(self.settings.photons_per_pass.get());
         let mut chunks = std::mem::take(&mut self.chunks);
@@ -378,7 +383,8 @@ impl Ppm {
     /// Bytes held, the scene included.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        let chunk = |c: &Chunk| c.photons.capacity() * size_of::<Photon>() + c.cells.capacity() * size_of::<u32>();
+        let chunk =
+            |c: &Chunk| c.photons.capacity() * size_of::<Photon>() + c.cells.capacity() * size_of::<u32>();
         self.scene.bytes()
             + self.hit_points.bytes()
             + self.light.bytes()

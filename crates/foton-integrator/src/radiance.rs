@@ -33,11 +33,8 @@ impl<const LAYERS: usize> Radiance<LAYERS> {
     /// Adds a pass.
     pub(crate) fn add(&mut self, hit_points: &HitPoints, irradiance_slots: &[Irradiance<LAYERS>]) {
         let samples = self.samples;
-        self.last
-            .par_chunks_mut(BLOCK)
-            .zip(self.sums.par_chunks_mut(BLOCK))
-            .enumerate()
-            .for_each(|(block, (last, sums))| {
+        self.last.par_chunks_mut(BLOCK).zip(self.sums.par_chunks_mut(BLOCK)).enumerate().for_each(
+            |(block, (last, sums))| {
                 for (i, (last, sum)) in last.iter_mut().zip(sums).enumerate() {
                     let pixel = block * BLOCK + i;
                     let range = hit_points.pixel_start[pixel]..hit_points.pixel_start[pixel + 1];
@@ -56,7 +53,8 @@ impl<const LAYERS: usize> Radiance<LAYERS> {
                         }
                     }
                 }
-            });
+            },
+        );
     }
 
     /// Reflected radiance of one class (or of all, where classes are not kept apart) after `photons` in all.

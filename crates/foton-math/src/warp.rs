@@ -116,7 +116,8 @@ mod tests {
     fn discs_are_uniform_by_area() {
         let got = chi2(96, 192_000, |s| {
             let d = square_to_disc(s.next_2d());
-            ((d.length_squared() * PI * square_to_disc_pdf() * 8.0) as usize).min(7) * 12 + azimuth(d.x, d.y, 12)
+            ((d.length_squared() * PI * square_to_disc_pdf() * 8.0) as usize).min(7) * 12
+                + azimuth(d.x, d.y, 12)
         });
         assert!(got < bound(95.0), "{got}");
     }
@@ -137,7 +138,8 @@ mod tests {
         let got = chi2(96, 192_000, |s| {
             let v = square_to_sphere(s.next_2d());
             assert!((v.length() - 1.0).abs() < 1e-5);
-            (((1.0 - v.z) * 2.0 * PI * square_to_sphere_pdf() * 8.0) as usize).min(7) * 12 + azimuth(v.x, v.y, 12)
+            (((1.0 - v.z) * 2.0 * PI * square_to_sphere_pdf() * 8.0) as usize).min(7) * 12
+                + azimuth(v.x, v.y, 12)
         });
         assert!(got < bound(95.0), "{got}");
     }

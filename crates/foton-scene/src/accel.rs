@@ -80,7 +80,9 @@ impl Accel {
     pub(crate) fn occluded(&self, ray: Ray) -> bool {
         let Some(tree) = &self.tree else { return false };
         let sheared = ShearedRay::new(ray);
-        !tree.ray_traverse_miss(tree_ray(&ray), |_, i| sheared.hit(&self.primitives[i]).map_or(f32::INFINITY, |h| h.t))
+        !tree.ray_traverse_miss(tree_ray(&ray), |_, i| {
+            sheared.hit(&self.primitives[i]).map_or(f32::INFINITY, |h| h.t)
+        })
     }
 
     /// The primitives in the tree's order.

@@ -215,7 +215,8 @@ mod tests {
         let n = 100_000;
         let reflected = (0..n)
             .filter(|_| {
-                let s = GLASS.sample(wo, Transport::Importance, stream.next_1d(), Vec2::ZERO).expect("scatters");
+                let s =
+                    GLASS.sample(wo, Transport::Importance, stream.next_1d(), Vec2::ZERO).expect("scatters");
                 assert!((s.weight.r - 1.0).abs() < 1e-6);
                 s.wi.z > 0.0
             })

@@ -6,7 +6,9 @@ use thiserror::Error;
 
 use crate::accel::Accel;
 use crate::census::Census;
-use crate::description::{EmitterDescription, EmitterKind, Geometry, Mesh, SceneDescription, ShapeDescription};
+use crate::description::{
+    EmitterDescription, EmitterKind, Geometry, Mesh, SceneDescription, ShapeDescription,
+};
 use crate::discrete::Discrete;
 use crate::emitter::{Area, Emitter, Kind, Spot};
 use crate::normalise::Normalisation;
@@ -49,6 +51,9 @@ pub enum BuildError {
     TooLarge,
 }
 
+/// Vertex normals this close to a triangle's own (within 0.03°) say that it is flat.
+const FLAT_COSINE: f32 = 1.0 - 1e-7;
+
 /// Primitives of a scene as they are gathered, before the tree orders them.
 #[derive(Default)]
 struct Gathered {
@@ -81,7 +86,8 @@ impl Scene {
             let stores = [Some(material.front), material.back].iter().flatten().any(|b| !b.is_delta());
             let smooth = gathered.vertex_normals[first..].iter().any(|n| n[0] != Vec3::ZERO);
             gathered.census.shading_normals |= stores && smooth;
-            gathered.census.specular |= material.front.is_delta() || material.back.is_some_and(|b| b.is_delta());
+            gathered.census.specular |=
+                material.front.is_delta() || material.back.is_some_and(|b| b.is_delta());
             let emitter = shape.radiance.filter(|r| !r.is_black()).map(|radiance| {
                 let area = area_emitter(i as u32, radiance, &gathered.primitives[first..]);
                 emitters.push(Emitter { name: shape.name.clone(), kind: Kind::Area(area) });
@@ -136,7 +142,9 @@ fn world_bounds(description: &SceneDescription) -> Result<(DVec3, DVec3), BuildE
             max = max.max(p);
         };
         match &shape.geometry {
-            Geometry::Mesh(mesh) => mesh.positions.iter().for_each(|&p| add(shape.to_world.transform_point3(p))),
+            Geometry::Mesh(mesh) => {
+                mesh.positions.iter().for_each(|&p| add(shape.to_world.transform_point3(p)))
+            }
             Geometry::Sphere { centre, radius } => {
                 let c = shape.to_world.transform_point3(*centre);
                 let r = radius * shape.to_world.matrix3.x_axis.length();
@@ -158,7 +166,12 @@ fn world_bounds(description: &SceneDescription) -> Result<(DVec3, DVec3), BuildE
 }
 
 impl Gathered {
-    fn add(&mut self, index: u32, shape: &ShapeDescription, to_scene: &Normalisation) -> Result<(), BuildError> {
+    fn add(
+        &mut self,
+        index: u32,
+        shape: &ShapeDescription,
+        to_scene: &Normalisation,
+    ) -> Result<(), BuildError> {
         match &shape.geometry {
             Geometry::Mesh(mesh) => self.add_mesh(index, shape, mesh, to_scene),
             Geometry::Sphere { centre, radius } => {
@@ -224,7 +237,8 @@ impl Gathered {
                     (b, c) = (c, b);
                 }
                 let usable = [na, nb, nc].iter().all(|n| *n != Vec3::ZERO);
-                at_vertices = usable.then(|| [a, b, c].map(|i| normals[i as usize]));
+                let flat = [na, nb, nc].iter().all(|n| n.dot(flat).abs() > FLAT_COSINE);
+                at_vertices = (usable && !flat).then(|| [a, b, c].map(|i| normals[i as usize]));
             }
             self.census.triangles += 1;
             self.push(index, Primitive::Triangle(corners([a, b, c])), at_vertices);
@@ -244,7 +258,11 @@ impl Gathered {
         let ordered = order.iter().map(|&i| i as usize);
         Scene {
             shape_of: ordered.clone().map(|i| self.shape_of[i]).collect(),
-            vertex_normals: if smooth { ordered.map(|i| self.vertex_normals[i]).collect() } else { Vec::new() },
+            vertex_normals: if smooth {
+                ordered.map(|i| self.vertex_normals[i]).collect()
+            } else {
+                Vec::new()
+            },
             accel,
             shapes: Vec::new(),
             materials: Vec::new(),
@@ -275,7 +293,8 @@ fn even_scale(to_world: &DAffine3, axes: &[usize], name: &str) -> Result<f64, Bu
     for (n, &i) in axes.iter().enumerate() {
         let v = to_world.matrix3.col(i);
         let even = (v.length() / scale - 1.0).abs() < ROUNDNESS;
-        let square = axes[..n].iter().all(|&j| v.dot(to_world.matrix3.col(j)).abs() < ROUNDNESS * scale * scale);
+        let square =
+            axes[..n].iter().all(|&j| v.dot(to_world.matrix3.col(j)).abs() < ROUNDNESS * scale * scale);
         if !(even && square) {
             return Err(BuildError::NotRound(name.to_owned()));
         }
@@ -324,7 +343,9 @@ fn emitter_choice(emitters: &[Emitter]) -> Discrete {
     let power = |e: &Emitter| f64::from(e.power().mean());
     let total: f64 = emitters.iter().map(power).sum();
     let count = emitters.iter().filter(|e| power(e) > 0.0).count() as f64;
-    Discrete::new(emitters.iter().map(power).map(|p| {
-        if p > 0.0 { (1.0 - DEFENSIVE_SHARE) * p / total + DEFENSIVE_SHARE / count } else { 0.0 }
-    }))
+    Discrete::new(
+        emitters.iter().map(power).map(|p| {
+            if p > 0.0 { (1.0 - DEFENSIVE_SHARE) * p / total + DEFENSIVE_SHARE / count } else { 0.0 }
+        }),
+    )
 }

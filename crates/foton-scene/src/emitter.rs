@@ -108,7 +108,11 @@ impl Emitter {
                 let surface = a.sample(u_part, u_position);
                 let local = warp::square_to_cosine_hemisphere(u_direction);
                 let direction = Frame::from_normal(surface.normal).to_outer(local);
-                Emission { origin: surface.ray_origin(surface.normal), direction, power: a.radiance * (PI * a.area) }
+                Emission {
+                    origin: surface.ray_origin(surface.normal),
+                    direction,
+                    power: a.radiance * (PI * a.area),
+                }
             }
             Kind::Point { position, intensity } => Emission {
                 origin: *position,
@@ -198,7 +202,13 @@ impl Area {
     }
 
     /// Uniform in the cone under which the sphere is seen; `None` from inside it.
-    fn illuminate_from_sphere(&self, centre: Vec3, radius: f32, position: Vec3, u: Vec2) -> Option<Illumination> {
+    fn illuminate_from_sphere(
+        &self,
+        centre: Vec3,
+        radius: f32,
+        position: Vec3,
+        u: Vec2,
+    ) -> Option<Illumination> {
         let d = centre - position;
         let distance = d.length();
         let sine = radius / distance;
@@ -316,7 +326,10 @@ mod tests {
             let direct = sum / f64::from(n);
             let direct_sigma = ((sum2 / f64::from(n) - direct * direct) / f64::from(n)).sqrt();
             let sigma = flux_sigma.hypot(direct_sigma);
-            assert!(direct > 0.0 && (flux - direct).abs() < 4.0 * sigma, "{emitter:?}: {flux} {direct} ± {sigma}");
+            assert!(
+                direct > 0.0 && (flux - direct).abs() < 4.0 * sigma,
+                "{emitter:?}: {flux} {direct} ± {sigma}"
+            );
         }
     }
 
@@ -326,7 +339,9 @@ mod tests {
             let mut stream = Stream::new(6, Purpose::Test, 0, 0);
             let n = 100_000;
             let sum: f64 = (0..n)
-                .map(|_| f64::from(emitter.emit(stream.next_1d(), stream.next_2d(), stream.next_2d()).power.r))
+                .map(|_| {
+                    f64::from(emitter.emit(stream.next_1d(), stream.next_2d(), stream.next_2d()).power.r)
+                })
                 .sum();
             let mean = sum / f64::from(n);
             let expected = f64::from(emitter.power().r);

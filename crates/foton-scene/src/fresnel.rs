@@ -32,12 +32,13 @@ pub(crate) fn dielectric(wo: Vec3, int_ior: f32, ext_ior: f32) -> Boundary {
     let perpendicular = (eta * cos_here - cos_beyond) / (eta * cos_here + cos_beyond);
     let parallel = (cos_here - eta * cos_beyond) / (cos_here + eta * cos_beyond);
     let reflectance = 0.5 * (perpendicular * perpendicular + parallel * parallel);
-    let refracted = Vec3::new(
-        (-eta * wo64.x) as f32,
-        (-eta * wo64.y) as f32,
-        (-cos_beyond).copysign(-wo64.z) as f32,
-    );
-    Boundary { reflectance: reflectance as f32, refracted: Some(refracted.normalize()), relative_ior: eta as f32 }
+    let refracted =
+        Vec3::new((-eta * wo64.x) as f32, (-eta * wo64.y) as f32, (-cos_beyond).copysign(-wo64.z) as f32);
+    Boundary {
+        reflectance: reflectance as f32,
+        refracted: Some(refracted.normalize()),
+        relative_ior: eta as f32,
+    }
 }
 
 #[cfg(test)]
@@ -84,7 +85,10 @@ mod tests {
     #[test]
     fn equal_indices_change_nothing_and_a_huge_one_mirrors_by_the_normal_formula() {
         let wo = incident(63.0, 1.0);
-        assert_eq!(dielectric(wo, 1.3, 1.3), Boundary { reflectance: 0.0, refracted: Some(-wo), relative_ior: 1.0 });
+        assert_eq!(
+            dielectric(wo, 1.3, 1.3),
+            Boundary { reflectance: 0.0, refracted: Some(-wo), relative_ior: 1.0 }
+        );
         let expected = (999.0f64 / 1001.0).powi(2);
         assert!((f64::from(dielectric(Vec3::Z, 1000.0, 1.0).reflectance) - expected).abs() < 1e-6);
     }

@@ -67,7 +67,8 @@ mod tests {
 
     #[test]
     fn power_of_two_multiples_of_a_scene_have_the_same_coordinates() {
-        let (min, max, p) = (DVec3::new(-1.3, 0.2, 5.0), DVec3::new(2.7, 9.1, 7.7), DVec3::new(0.1, 3.3, 6.01));
+        let (min, max, p) =
+            (DVec3::new(-1.3, 0.2, 5.0), DVec3::new(2.7, 9.1, 7.7), DVec3::new(0.1, 3.3, 6.01));
         let at = |s: f64| Normalisation::for_bounds(min * s, max * s).point(p * s);
         assert_eq!(at(1.0), at(2f64.powi(-40)));
         assert_eq!(at(1.0), at(2f64.powi(33)));

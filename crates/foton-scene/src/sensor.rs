@@ -113,8 +113,14 @@ mod tests {
         assert_eq!(ray.origin, Vec3::new(0.0, 0.0, 5.0));
         let up = sensor(FovAxis::Y).ray(Vec2::new(100.0, 0.0));
         assert!(up.direction.distance(Vec3::new(0.0, 1.0, -1.0).normalize()) < 1e-6);
-        assert_eq!(sensor(FovAxis::Larger).ray(Vec2::ZERO).direction, sensor(FovAxis::X).ray(Vec2::ZERO).direction);
-        assert_eq!(sensor(FovAxis::Smaller).ray(Vec2::ZERO).direction, sensor(FovAxis::Y).ray(Vec2::ZERO).direction);
+        assert_eq!(
+            sensor(FovAxis::Larger).ray(Vec2::ZERO).direction,
+            sensor(FovAxis::X).ray(Vec2::ZERO).direction
+        );
+        assert_eq!(
+            sensor(FovAxis::Smaller).ray(Vec2::ZERO).direction,
+            sensor(FovAxis::Y).ray(Vec2::ZERO).direction
+        );
         let corner = sensor(FovAxis::Diagonal).ray(Vec2::new(200.0, 0.0)).direction;
         assert!((corner.dot(-Vec3::Z) - 45f32.to_radians().cos()).abs() < 1e-6);
     }

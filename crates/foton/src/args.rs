@@ -130,7 +130,9 @@ impl FromStr for Size {
         let side = |s: &str| s.parse::<u32>().ok().filter(|n| (1..=1 << 16).contains(n));
         s.split_once(['x', 'X', '×'])
             .and_then(|(w, h)| Some(Self { width: side(w)?, height: side(h)? }))
-            .ok_or_else(|| "expected WIDTHxHEIGHT in pixels, such as 640x480, each from 1 to 65536".to_owned())
+            .ok_or_else(|| {
+                "expected WIDTHxHEIGHT in pixels, such as 640x480, each from 1 to 65536".to_owned()
+            })
     }
 }
 

@@ -78,7 +78,8 @@ pub(crate) fn build(
             (sensor.width, sensor.height) = (width, height);
         }
     }
-    let scene = Scene::build(&description).map_err(|cause| Failure::Build { scene: name.to_owned(), cause })?;
+    let scene =
+        Scene::build(&description).map_err(|cause| Failure::Build { scene: name.to_owned(), cause })?;
     let census = scene.census();
     if census.degenerate_triangles > 0 {
         talk.warning(&format!("left out {} triangles without area", census.degenerate_triangles));
@@ -99,7 +100,11 @@ fn choose_sensor(opened: &Opened, name: Option<&str>) -> Result<usize, Failure> 
 }
 
 /// Looks before it leaps: a render that would not fit is refused with the numbers.
-pub(crate) fn refuse_beyond_memory(scene: &Scene, settings: &Settings, asked: Option<u64>) -> Result<(), Failure> {
+pub(crate) fn refuse_beyond_memory(
+    scene: &Scene,
+    settings: &Settings,
+    asked: Option<u64>,
+) -> Result<(), Failure> {
     let estimate = Session::estimate_memory(scene, settings);
     match memory::limit(asked) {
         Some(limit) if estimate.peak_bytes() > limit => {

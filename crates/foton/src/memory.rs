@@ -15,7 +15,9 @@ fn free() -> Option<f64> {
     let meminfo = fs::read_to_string("/proc/meminfo").ok()?;
     let line = meminfo.lines().find_map(|l| l.strip_prefix("MemAvailable:"))?;
     let machine = line.trim().strip_suffix("kB")?.trim().parse::<f64>().ok()? * 1024.0;
-    let group = |name: &str| fs::read_to_string(format!("/sys/fs/cgroup/memory.{name}")).ok()?.trim().parse::<f64>().ok();
+    let group = |name: &str| {
+        fs::read_to_string(format!("/sys/fs/cgroup/memory.{name}")).ok()?.trim().parse::<f64>().ok()
+    };
     let confined = group("max").zip(group("current")).map(|(max, current)| max - current);
     Some(confined.map_or(machine, |c| c.clamp(0.0, machine)))
 }

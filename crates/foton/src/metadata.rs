@@ -30,7 +30,8 @@ pub(crate) fn of(ppm: &Ppm, scene: &SceneIdentity) -> Metadata {
         sensor.name,
         s.hit_points_per_sample,
     );
-    let changes: Vec<String> = ppm.changes().iter().map(|(pass, change)| format!("{pass} {change}")).collect();
+    let changes: Vec<String> =
+        ppm.changes().iter().map(|(pass, change)| format!("{pass} {change}")).collect();
     [
         ("foton:version", env!("CARGO_PKG_VERSION").to_owned()),
         ("foton:scene", scene.name.clone()),

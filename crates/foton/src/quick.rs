@@ -22,7 +22,9 @@ const FIRST_PICTURE: Duration = Duration::from_secs(8);
 pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failure> {
     let options = Options::default();
     let (opened, name) = match scene {
-        Some(path) => (foton_format::open(path, &options), path.file_name().unwrap_or_default().to_string_lossy()),
+        Some(path) => {
+            (foton_format::open(path, &options), path.file_name().unwrap_or_default().to_string_lossy())
+        }
         None => (embedded::open(&options), embedded::NAME.into()),
     };
     let (scene, identity) = build(opened.map_err(Failure::Open)?, &name, None, talk)?;

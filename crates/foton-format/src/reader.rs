@@ -1,0 +1,168 @@
+//! Walks a `<scene>` and fills a description; what each plugin means is in the file of its kind.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use foton_scene::description::SceneDescription;
+
+use crate::ReadFile;
+use crate::diagnostic::Report;
+use crate::document::{Document, Element, NodeId};
+use crate::ids::Ids;
+use crate::materials::Materials;
+use crate::meshes::Meshes;
+use crate::names::{Plugins, did_you_mean};
+use crate::properties::{Properties, check_attributes, parse_attribute};
+
+/// What is known while a scene is read.
+pub(crate) struct Reader<'a> {
+    pub(crate) document: &'a Document,
+    pub(crate) ids: Ids<'a>,
+    pub(crate) report: Report,
+    pub(crate) meshes: Meshes<'a>,
+    pub(crate) materials: Materials,
+    pub(crate) description: SceneDescription,
+    pub(crate) shape_nodes: Vec<NodeId>,
+    /// Area emitters of the scene itself, and whether a shape refers to them.
+    pub(crate) loose_areas: HashMap<NodeId, bool>,
+}
+
+impl<'a> Reader<'a> {
+    pub(crate) fn new(
+        document: &'a Document,
+        folder: &'a Path,
+        files: &'a ReadFile<'a>,
+        mut report: Report,
+    ) -> Self {
+        let ids = Ids::collect(document, &mut report);
+        Self {
+            document,
+            ids,
+            report,
+            meshes: Meshes::new(folder, files),
+            materials: Materials::default(),
+            description: SceneDescription::default(),
+            shape_nodes: Vec::new(),
+            loose_areas: HashMap::new(),
+        }
+    }
+
+    /// Reads everything inside the root.
+    pub(crate) fn scene(&mut self) {
+        let root = self.document.root();
+        if !self.check_root(root) {
+            return;
+        }
+        for (_, reference) in self.document.elements_in(root).filter(|(_, e)| e.name == "ref") {
+            self.report.error(reference.place, "<ref> directly inside the scene is not supported yet");
+        }
+        let mut contents = Properties::of(self.document, &self.ids, root, "scene", &mut self.report);
+        let integrators = contents.nested("integrator");
+        if let Some(second) = integrators.get(1) {
+            self.report.error(second.place, "a scene has only one integrator");
+        }
+        for integrator in integrators {
+            self.integrator(integrator.node);
+        }
+        for sensor in contents.nested("sensor") {
+            self.sensor(sensor.node);
+        }
+        // Samplers do not change what an image converges to.
+        contents.nested("sampler");
+        for bsdf in contents.nested("bsdf") {
+            self.material(bsdf.node);
+        }
+        let emitters = contents.nested("emitter");
+        for emitter in &emitters {
+            self.scene_emitter(emitter.node);
+        }
+        for shape in contents.nested("shape") {
+            self.shape(shape.node);
+        }
+        for emitter in emitters.iter().filter(|e| self.loose_areas.get(&e.node) == Some(&false)) {
+            self.report.warning(emitter.place, "this area emitter belongs to no shape and lights nothing");
+        }
+        contents.finish(&mut self.report);
+        if self.description.sensors.is_empty() {
+            let place = self.document.element(root).map_or_else(Default::default, |e| e.place);
+            self.report.warning(place, "the scene has no sensor");
+        }
+    }
+
+    /// Whether the root is a scene of a version that is read.
+    fn check_root(&mut self, root: NodeId) -> bool {
+        let Some(element) = self.document.element(root) else { return false };
+        if element.name != "scene" {
+            let message = format!("the outermost element is <{}>, not <scene>", element.name);
+            self.report.error(element.place, message);
+            return false;
+        }
+        check_attributes(element, &["version"], &["id", "name", "type"], &mut self.report);
+        let major = element.attribute("version").and_then(|v| parse_attribute(v, major, &mut self.report));
+        if let Some(0 | 1) = major {
+            let place = element.value_place("version");
+            self.report.error(place, "files of versions before 2 are not read yet");
+        }
+        major.is_some_and(|m| m >= 2)
+    }
+
+    /// Any integrator will do; only the length of paths counts, that of the innermost one where they nest.
+    fn integrator(&mut self, node: NodeId) {
+        let mut p = self.properties(node, "integrator");
+        if let Some(depth) = p.integer("max_depth", &mut self.report) {
+            match u32::try_from(depth.value) {
+                Ok(bound) => self.description.max_depth = Some(bound),
+                Err(_) if depth.value == -1 => self.description.max_depth = None,
+                Err(_) => {
+                    self.report.error(depth.place, "\"max_depth\" must be -1 (no bound), 0 or more");
+                }
+            }
+        }
+        if let Some(hide) = p.boolean("hide_emitters", &mut self.report).filter(|hide| hide.value) {
+            self.report.warning(hide.place, "\"hide_emitters\" is not supported, emitters stay visible");
+        }
+        p.ignore(&["rr_depth"]);
+        for inner in p.nested("integrator").into_iter().filter(|inner| inner.node > node) {
+            self.integrator(inner.node);
+        }
+        p.finish_leniently(&mut self.report);
+    }
+
+    /// The contents of a plugin's element.
+    pub(crate) fn properties(&mut self, node: NodeId, subject: &'a str) -> Properties<'a> {
+        Properties::of(self.document, &self.ids, node, subject, &mut self.report)
+    }
+
+    /// The plugin that an element names, if it is one that is read; otherwise an error.
+    pub(crate) fn plugin(&mut self, element: &Element, plugins: &Plugins) -> Option<&'static str> {
+        let attribute = element.attribute("type").filter(|t| !t.broken)?;
+        let name = attribute.value.as_str();
+        let kind = plugins.kind;
+        if let Some(known) = plugins.supported.iter().find(|s| **s == name) {
+            return Some(known);
+        }
+        let message = if plugins.elsewhere.contains(&name) {
+            format!("{kind} \"{name}\" is not supported yet")
+        } else {
+            let hint = did_you_mean(name, plugins.supported.iter().chain(plugins.elsewhere).copied());
+            format!("unknown {kind} \"{name}\"{hint}")
+        };
+        self.report.error(attribute.value_place, message);
+        None
+    }
+
+    /// The id of an element, or `kind` and the number in its list.
+    pub(crate) fn name(&self, element: &Element, kind: &str, number: usize) -> String {
+        let id = element.attribute("id").map(|id| id.value.clone());
+        id.unwrap_or_else(|| format!("{kind}-{number}"))
+    }
+}
+
+/// The first part of a version such as `3.0.0`.
+fn major(version: &str) -> Result<u32, String> {
+    let parts: Result<Vec<u32>, _> = version.trim().split('.').map(str::parse).collect();
+    match parts {
+        Ok(parts) if parts.len() <= 3 => Ok(parts[0]),
+        _ => Err(format!("\"{version}\" is not a version such as 3.0.0")),
+    }
+}

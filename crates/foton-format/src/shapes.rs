@@ -1,0 +1,130 @@
+//! `<shape>` elements: meshes, rectangle, cube, sphere and disk, each with its material and emission.
+
+use std::sync::Arc;
+
+use foton_math::Rgb;
+use foton_math::glam::{DAffine3, DMat3, DVec3};
+use foton_scene::description::{Geometry, Mesh, ShapeDescription};
+
+use crate::diagnostic::Place;
+use crate::document::NodeId;
+use crate::names::SHAPES;
+use crate::properties::Properties;
+use crate::reader::Reader;
+use crate::transform::even_scale;
+
+/// How unevenly a sphere or a disk may be scaled: rounding of numbers in files, and a little less than the scene allows.
+const ROUNDNESS: f64 = 9e-5;
+
+impl Reader<'_> {
+    /// Reads a shape; nothing is added where its surface is not valid.
+    pub(crate) fn shape(&mut self, node: NodeId) {
+        let Some(element) = self.document.element(node) else { return };
+        let Some(plugin) = self.plugin(element, &SHAPES) else {
+            // What is inside may have problems of its own.
+            let mut p = self.properties(node, "shape");
+            self.surface(&mut p);
+            return;
+        };
+        let mut p = self.properties(node, plugin);
+        let transform = p.transform("to_world", &mut self.report);
+        let to_world = transform.map_or(DAffine3::IDENTITY, |t| t.value);
+        let place = transform.map_or(element.place, |t| t.place);
+        let mirrored = to_world.matrix3.determinant() < 0.0;
+        let flip = p.boolean("flip_normals", &mut self.report).is_some_and(|f| f.value);
+        let (material, radiance) = self.surface(&mut p);
+        let geometry = match plugin {
+            "obj" => self.obj(&mut p, &to_world),
+            "sphere" => self.sphere(&mut p, to_world.matrix3, place),
+            "disk" => self.disk(to_world.matrix3, place),
+            "cube" => Some(Geometry::Mesh(Arc::new(Mesh::cube()))),
+            _ => Some(Geometry::Mesh(Arc::new(Mesh::rectangle()))),
+        };
+        if plugin == "cube" || plugin == "rectangle" {
+            p.ignore(&["face_normals"]);
+        }
+        p.ignore(&["silhouette_sampling_weight"]);
+        p.finish(&mut self.report);
+        let Some((geometry, material)) = geometry.zip(material) else { return };
+        let flip_normals = flip != (mirrored && is_turned_inside_out(plugin, &geometry));
+        let name = self.name(element, "shape", self.description.shapes.len() + 1);
+        self.shape_nodes.push(node);
+        self.description.shapes.push(ShapeDescription {
+            name,
+            geometry,
+            to_world,
+            flip_normals,
+            material,
+            radiance,
+        });
+    }
+
+    /// The material's index and the emitted radiance.
+    fn surface(&mut self, p: &mut Properties<'_>) -> (Option<usize>, Option<Rgb>) {
+        let emitters = p.nested("emitter");
+        if let Some(second) = emitters.get(1) {
+            self.report.error(second.place, "a shape has only one emitter");
+        }
+        let radiance = emitters.first().and_then(|&emitter| self.area_emitter(emitter));
+        let bsdfs = p.nested("bsdf");
+        if let Some(second) = bsdfs.get(1) {
+            self.report.error(second.place, "a shape has only one bsdf");
+        }
+        let material = match bsdfs.first() {
+            Some(bsdf) => self.material(bsdf.node),
+            None => Some(self.default_material(!emitters.is_empty())),
+        };
+        (material, radiance)
+    }
+
+    fn obj(&mut self, p: &mut Properties<'_>, to_world: &DAffine3) -> Option<Geometry> {
+        let face_normals = p.boolean("face_normals", &mut self.report).is_some_and(|f| f.value);
+        // There are no textures yet.
+        p.ignore(&["flip_tex_coords"]);
+        if !p.has("filename") {
+            self.report.error(p.place, "an obj shape needs a \"filename\"");
+        }
+        let filename = p.string("filename", &mut self.report)?;
+        let mesh =
+            self.meshes.obj(&filename.value, filename.place, face_normals, to_world, &mut self.report)?;
+        Some(Geometry::Mesh(mesh))
+    }
+
+    fn sphere(&mut self, p: &mut Properties<'_>, m: DMat3, place: Place) -> Option<Geometry> {
+        let centre = p.point("center", &mut self.report).map_or(DVec3::ZERO, |c| c.value);
+        let radius = p.number("radius", &mut self.report);
+        if even_scale(m, ROUNDNESS).is_none() {
+            self.report.error(
+                place,
+                "a sphere can be turned, moved and scaled evenly, but not stretched or sheared",
+            );
+            return None;
+        }
+        if let Some(radius) = radius.filter(|r| r.value <= 0.0) {
+            self.report.error(radius.place, "\"radius\" must be above zero");
+            return None;
+        }
+        Some(Geometry::Sphere { centre, radius: radius.map_or(1.0, |r| r.value) })
+    }
+
+    fn disk(&mut self, m: DMat3, place: Place) -> Option<Geometry> {
+        // The disc lies in the xy plane; where its normal goes follows from that.
+        let normal = m.x_axis.cross(m.y_axis).normalize_or_zero() * m.x_axis.length();
+        if even_scale(DMat3::from_cols(m.x_axis, m.y_axis, normal), ROUNDNESS).is_none() {
+            self.report.error(place, "a disk must stay round: its transform stretches or shears it");
+            return None;
+        }
+        Some(Geometry::Disc)
+    }
+}
+
+/// Whether Mitsuba 3 turns the normals around when a transform mirrors the surface: those of a sphere, and those that
+/// follow the winding of an OBJ file's faces in the world. In a description outside stays outside, as it does for the
+/// other shapes of Mitsuba.
+fn is_turned_inside_out(plugin: &str, geometry: &Geometry) -> bool {
+    match geometry {
+        Geometry::Sphere { .. } => true,
+        Geometry::Mesh(mesh) => plugin == "obj" && mesh.normals.is_empty(),
+        Geometry::Disc => false,
+    }
+}
