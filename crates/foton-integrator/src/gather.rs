@@ -116,8 +116,8 @@ fn collect<const LAYERS: usize, const SHADED: bool>(
                     channel[l] += f32::from_bits(term.to_bits() & counts[l]);
                 }
             }
-            for l in 0..LANES {
-                found.count[l] += counts[l] & 1;
+            for (count, counted) in found.count.iter_mut().zip(counts) {
+                *count += counted & 1;
             }
         }
     });

@@ -143,7 +143,7 @@ fn world_bounds(description: &SceneDescription) -> Result<(DVec3, DVec3), BuildE
         };
         match &shape.geometry {
             Geometry::Mesh(mesh) => {
-                mesh.positions.iter().for_each(|&p| add(shape.to_world.transform_point3(p)))
+                mesh.positions.iter().for_each(|&p| add(shape.to_world.transform_point3(p)));
             }
             Geometry::Sphere { centre, radius } => {
                 let c = shape.to_world.transform_point3(*centre);

@@ -1,0 +1,160 @@
+//! The same scene, seed and settings give the same bits, whatever the number of threads.
+
+use std::num::NonZeroU32;
+use std::sync::Arc;
+
+use foton_film::Image;
+use foton_integrator::{Alpha, Cancel, Change, DirectLight, LayerKind, Ppm, Settings};
+use foton_math::Rgb;
+use foton_math::glam::{DAffine3, DVec3};
+use foton_scene::description::{Geometry, Mesh};
+use foton_tests::{Sketch, glass, grey};
+
+/// A ball of triangles with smooth normals.
+fn ball() -> Mesh {
+    let (rings, sectors) = (12u32, 24u32);
+    let at = |ring: u32, sector: u32| {
+        let theta = std::f64::consts::PI * f64::from(ring) / f64::from(rings);
+        let phi = 2.0 * std::f64::consts::PI * f64::from(sector) / f64::from(sectors);
+        DVec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin())
+    };
+    let positions: Vec<DVec3> =
+        (0..=rings).flat_map(|r| (0..=sectors).map(move |s| at(r, s))).collect();
+    let index = |r: u32, s: u32| r * (sectors + 1) + s;
+    let triangles = (0..rings)
+        .flat_map(|r| (0..sectors).map(move |s| (r, s)))
+        .flat_map(|(r, s)| {
+            [[index(r, s), index(r, s + 1), index(r + 1, s)], [index(r, s + 1), index(r + 1, s + 1), index(r + 1, s)]]
+        })
+        .collect();
+    Mesh { normals: positions.clone(), positions, triangles }
+}
+
+fn scene() -> Sketch {
+    let place = DAffine3::from_translation(DVec3::new(-0.4, -0.6, -0.2)) * DAffine3::from_scale(DVec3::splat(0.4));
+    Sketch::default()
+        .camera(DVec3::new(0.0, 0.0, 0.95), DVec3::new(0.0, -0.2, -1.0), 70.0, 48)
+        .room(grey(0.6), None)
+        .shape(Geometry::Mesh(Arc::new(ball())), place, grey(0.8), None)
+        .sphere(DVec3::new(0.4, -0.6, 0.0), 0.35, glass(1.5), None)
+        .sphere(DVec3::new(0.0, 0.8, 0.0), 0.1, grey(0.0), Some(Rgb::new(40.0, 30.0, 20.0)))
+        .point(DVec3::new(0.7, 0.7, 0.7), 2.0)
+}
+
+/// More than one batch of photons and of hit points.
+fn settings(direct_light: DirectLight) -> Settings {
+    Settings {
+        photons_per_pass: NonZeroU32::new(30_001).expect("above 0"),
+        samples_per_pixel: NonZeroU32::new(3).expect("above 0"),
+        direct_light,
+        layers: true,
+        seed: 42,
+        ..Settings::default()
+    }
+}
+
+/// FNV-1a over all bits of an image.
+fn hash(image: &Image) -> u64 {
+    let bits = image.pixels.iter().flat_map(|p| p.to_array()).flat_map(|c| c.to_bits().to_le_bytes());
+    bits.fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
+}
+
+fn state(ppm: &Ppm) -> (u64, String, String) {
+    let layers: Vec<_> = LayerKind::ALL.into_iter().map(|k| ppm.layer(k)).collect();
+    (hash(&ppm.image()), format!("{layers:?}"), format!("{:?}", ppm.ledger()))
+}
+
+#[test]
+fn one_two_and_seven_threads_give_the_same_bits() {
+    for direct_light in [DirectLight::Photons, DirectLight::ShadowRays] {
+        let run = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            state(&pool.install(|| scene().render(settings(direct_light), 5)))
+        };
+        let one = run(1);
+        assert!(one == run(2) && one == run(7), "{direct_light:?}");
+    }
+}
+
+#[test]
+fn keeping_path_classes_apart_does_not_change_a_photon() {
+    let apart = scene().render(settings(DirectLight::Photons), 3);
+    let whole = scene().render(Settings { layers: false, ..settings(DirectLight::Photons) }, 3);
+    // Sums of three classes round otherwise than one sum.
+    let close = |p: Rgb, q: Rgb| (p - q).max_component().abs() <= 1e-5 * p.max_component().max(1e-3);
+    assert!(apart.image().pixels.iter().zip(&whole.image().pixels).all(|(&p, &q)| close(p, q)));
+    assert_eq!(apart.ledger(), whole.ledger());
+    assert!(whole.layer(LayerKind::Caustic).is_none());
+    let sum = |kind| match apart.layer(kind).expect("kept").channels {
+        foton_film::LayerData::Rgb(image) => image.pixels.iter().map(|p| f64::from(p.g)).sum::<f64>(),
+        _ => f64::NAN,
+    };
+    let parts: f64 =
+        [LayerKind::Direct, LayerKind::Caustic, LayerKind::Indirect, LayerKind::Emission].map(sum).iter().sum();
+    let all: f64 = apart.image().pixels.iter().map(|p| f64::from(p.g)).sum();
+    assert!((parts / all - 1.0).abs() < 1e-5 && sum(LayerKind::Caustic) > 0.0);
+}
+
+#[test]
+fn the_image_is_the_mean_of_the_passes_weighted_by_photons_while_settings_change() {
+    let cancel = Cancel::default();
+    let start = settings(DirectLight::Photons);
+    let scene = scene().build().expect("sound");
+    let mut ppm = Ppm::start(scene, start, &mut |_| (), &cancel).expect("starts");
+    let mut sum = vec![0.0f64; 48 * 48];
+    for pass in 0..6u32 {
+        if pass == 2 {
+            ppm.change(Change::Alpha(Alpha::new(0.9).expect("in range")));
+            ppm.change(Change::PhotonsPerPass(NonZeroU32::new(70_000).expect("above 0")));
+        }
+        let report = ppm.advance(&mut |_| (), &cancel).expect("not cancelled");
+        assert_eq!(report.photons_in_pass, if pass < 2 { 30_001 } else { 70_000 });
+        for (sum, p) in sum.iter_mut().zip(&ppm.last_pass().pixels) {
+            *sum += f64::from(p.g) * report.photons_in_pass as f64;
+        }
+    }
+    assert_eq!(ppm.changes().iter().map(|(pass, _)| *pass).collect::<Vec<_>>(), [2, 2]);
+    let Some(foton_film::LayerData::Rgb(emission)) = ppm.layer(LayerKind::Emission).map(|l| l.channels) else {
+        panic!("emission is colour")
+    };
+    for ((sum, p), e) in sum.iter().zip(&ppm.image().pixels).zip(&emission.pixels) {
+        let expected = sum / ppm.photons_emitted() as f64 + f64::from(e.g);
+        assert!((f64::from(p.g) - expected).abs() <= 1e-5 * expected.max(1e-3));
+    }
+}
+
+#[test]
+fn a_cancelled_pass_has_not_happened() {
+    let cancel = Cancel::default();
+    let mut ppm = scene().render(settings(DirectLight::Photons), 2);
+    let before = state(&ppm);
+    cancel.request();
+    assert!(ppm.advance(&mut |_| (), &cancel).is_err());
+    assert!(before == state(&ppm) && ppm.passes() == 2);
+    ppm.advance(&mut |_| (), &Cancel::default()).expect("not cancelled");
+    assert!(state(&ppm) == state(&scene().render(settings(DirectLight::Photons), 3)));
+}
+
+#[test]
+fn power_of_two_multiples_of_a_scene_give_the_same_bits() {
+    let render = |scale: f64| {
+        let mut sketch = scene();
+        let scaling = DAffine3::from_scale(DVec3::splat(scale));
+        for shape in &mut sketch.0.shapes {
+            shape.to_world = scaling * shape.to_world;
+        }
+        for sensor in &mut sketch.0.sensors {
+            sensor.to_world.translation *= scale;
+        }
+        for emitter in &mut sketch.0.emitters {
+            if let foton_scene::description::EmitterKind::Point { position, intensity } = &mut emitter.kind {
+                *position *= scale;
+                *intensity *= (scale * scale) as f32;
+            }
+        }
+        hash(&sketch.render(settings(DirectLight::Photons), 2).image())
+    };
+    let one = render(1.0);
+    assert_eq!(one, render(2f64.powi(-14)));
+    assert_eq!(one, render(2f64.powi(20)));
+}

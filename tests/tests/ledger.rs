@@ -1,0 +1,68 @@
+//! Where emitted power goes: each event is counted where it happens, and the sum must come out.
+
+use std::num::NonZeroU32;
+
+use foton_integrator::Settings;
+use foton_math::Rgb;
+use foton_math::glam::DVec3;
+use foton_tests::{Sketch, glass, grey};
+
+fn settings() -> Settings {
+    Settings {
+        photons_per_pass: NonZeroU32::new(400_000).expect("above 0"),
+        samples_per_pixel: NonZeroU32::MIN,
+        ..Settings::default()
+    }
+}
+
+/// A million bounces carry about the power that 400,000 photons were emitted with, so losing one shifts the balance by about
+/// 10⁻⁶; rounding leaves 10⁻⁸.
+const ONE_BOUNCE_IN_A_MILLION: f64 = 2e-7;
+
+fn open_box() -> Sketch {
+    Sketch::default()
+        .camera(DVec3::new(0.0, 0.0, 3.0), DVec3::ZERO, 40.0, 8)
+        .rectangle(-DVec3::Y, DVec3::Z, DVec3::X, grey(0.7), None)
+        .rectangle(DVec3::Y, DVec3::X, DVec3::Z, grey(0.7), None)
+        .rectangle(-DVec3::Z, DVec3::X, DVec3::Y, grey(0.4), None)
+        .sphere(DVec3::new(0.1, -0.5, 0.1), 0.4, glass(1.5), None)
+        .sphere(DVec3::new(0.0, 0.6, 0.0), 0.1, grey(0.0), Some(Rgb::new(9.0, 7.0, 2.0)))
+}
+
+#[test]
+fn no_bounce_in_a_million_is_lost() {
+    let ledger = *open_box().render(settings(), 1).ledger();
+    assert!(ledger.imbalance().abs() < ONE_BOUNCE_IN_A_MILLION, "{ledger:?}");
+    assert!(ledger.absorbed > 0.1 * ledger.emitted && ledger.escaped > 0.1 * ledger.emitted);
+    assert_eq!(ledger.dropped, 0);
+    assert!((ledger.roulette / ledger.emitted).abs() < 5e-3, "roulette is fair: {ledger:?}");
+}
+
+#[test]
+fn what_a_short_depth_cuts_off_is_reported() {
+    let long = *open_box().render(settings(), 1).ledger();
+    let short = *open_box().max_depth(3).render(settings(), 1).ledger();
+    assert!(short.imbalance().abs() < ONE_BOUNCE_IN_A_MILLION, "{short:?}");
+    assert!(long.truncated < 1e-6 * long.emitted);
+    assert!(short.truncated > 0.05 * short.emitted);
+}
+
+#[test]
+fn a_closed_white_room_ends_by_the_depth_cap_and_says_so() {
+    let sketch = Sketch::default()
+        .camera(DVec3::ZERO, DVec3::X, 60.0, 4)
+        .room(grey(1.0), None)
+        .point(DVec3::ZERO, 1.0);
+    let few = Settings { photons_per_pass: NonZeroU32::new(2000).expect("above 0"), ..settings() };
+    let ledger = *sketch.render(few, 1).ledger();
+    assert!((ledger.truncated / ledger.emitted - 1.0).abs() < 1e-5, "{ledger:?}");
+    assert_eq!(ledger.escaped, 0.0, "a closed room leaks nothing");
+}
+
+#[test]
+fn without_light_the_image_is_black_and_the_ledger_empty() {
+    let sketch = Sketch::default().camera(DVec3::ZERO, DVec3::X, 60.0, 4).room(grey(0.5), None);
+    let ppm = sketch.render(settings(), 1);
+    assert!(ppm.image().pixels.iter().all(|&p| p == Rgb::BLACK));
+    assert_eq!((ppm.ledger().emitted, ppm.ledger().imbalance()), (0.0, 0.0));
+}
