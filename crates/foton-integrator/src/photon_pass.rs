@@ -175,7 +175,7 @@ impl PhotonPass<'_> {
 }
 
 /// |ωi·n_s| |ωo·n_g| / (|ωi·n_g| |ωo·n_s|) for light from `wo` scattered to `wi`: photons see the adjoint of a BSDF with
-/// interpolated normals. `[V97]` section 5.3
+/// interpolated normals. `[VEA97]` section 5.3
 fn adjoint_correction(n_g: Vec3, n_s: Vec3, wo: Vec3, wi: Vec3) -> f32 {
     if n_g == n_s {
         return 1.0;
