@@ -1,20 +1,22 @@
 //! From a description to a scene: into scene units, into one list of primitives, into a tree.
 
-use foton_math::glam::{DAffine3, DMat3, DVec3, Vec3};
+use foton_math::glam::{DAffine3, DMat3, DVec3, Mat3, Vec2, Vec3};
 use foton_math::{Aabb, Frame, Rgb};
 use thiserror::Error;
 
 use crate::accel::Accel;
 use crate::census::Census;
 use crate::description::{
-    EmitterDescription, EmitterKind, Geometry, Mesh, SceneDescription, ShapeDescription,
+    Bsdf, Colour, EmitterDescription, EmitterKind, Geometry, Material, Mesh, SceneDescription, ShapeDescription,
 };
 use crate::discrete::Discrete;
-use crate::emitter::{Area, Emitter, Kind, Spot};
+use crate::emitter::{Area, Ball, Emitter, Kind, Reach, Spot};
+use crate::environment::Environment;
 use crate::normalise::Normalisation;
 use crate::primitive::{Primitive, triangle_normal};
 use crate::scene::{Scene, Shape};
 use crate::sensor::Sensor;
+use crate::texture::Sampler;
 
 /// Share of photons spread evenly over emitters, whatever their power (δ of theory's many lights).
 const DEFENSIVE_SHARE: f64 = 0.1;
@@ -38,7 +40,7 @@ pub enum BuildError {
     #[error("shape \"{0}\": its transform cannot be inverted")]
     Singular(String),
     /// A transform makes a sphere or a disc something else.
-    #[error("shape \"{0}\": a sphere or a disc can only be turned, moved and scaled evenly")]
+    #[error("shape \"{0}\": a sphere, a disc or a tube can only be turned, moved and scaled evenly")]
     NotRound(String),
     /// A triangle names a vertex that is not there, or normals do not match positions.
     #[error("shape \"{0}\" has a triangle or normals that do not fit its vertices")]
@@ -46,6 +48,9 @@ pub enum BuildError {
     /// A shape names a material that is not there.
     #[error("shape \"{0}\" names a material that is not there")]
     NoMaterial(String),
+    /// A material or an environment names a texture that is not there, or one without pixels.
+    #[error("\"{0}\" names a texture that is not there or has no pixels")]
+    NoTexture(String),
     /// More primitives than indices.
     #[error("the scene has more than 2^31 primitives")]
     TooLarge,
@@ -60,6 +65,7 @@ struct Gathered {
     primitives: Vec<Primitive>,
     shape_of: Vec<u32>,
     vertex_normals: Vec<[Vec3; 3]>,
+    vertex_uvs: Vec<[Vec2; 3]>,
     census: Census,
 }
 
@@ -70,11 +76,19 @@ impl Scene {
     /// When a shape or sensor of the description makes no sense; see [`BuildError`].
     pub fn build(description: &SceneDescription) -> Result<Self, BuildError> {
         check_sensors(description)?;
+        check_environments(description)?;
         let (min, max) = world_bounds(description)?;
         let normalisation = Normalisation::for_bounds(min, max);
         let mut gathered = Gathered::default();
+        for material in &description.materials {
+            check_textures(material, description)?;
+            gathered.census.textures |= material.colours().any(|c| matches!(c, Colour::Texture(_)));
+            gathered.census.anisotropy |=
+                material.bsdfs().filter_map(Bsdf::roughness).any(|r| r.alpha_u != r.alpha_v);
+        }
         let mut shapes = Vec::new();
         let mut emitters = Vec::new();
+        let mut casters = Aabb::EMPTY;
         for (i, shape) in description.shapes.iter().enumerate() {
             let first = gathered.primitives.len();
             gathered.add(i as u32, shape, &normalisation)?;
@@ -83,32 +97,107 @@ impl Scene {
             }
             let material = description.materials.get(shape.material);
             let material = material.ok_or_else(|| BuildError::NoMaterial(shape.name.clone()))?;
-            let stores = [Some(material.front), material.back].iter().flatten().any(|b| !b.is_delta());
             let smooth = gathered.vertex_normals[first..].iter().any(|n| n[0] != Vec3::ZERO);
-            gathered.census.shading_normals |= stores && smooth;
-            gathered.census.specular |=
-                material.front.is_delta() || material.back.is_some_and(|b| b.is_delta());
+            gathered.census.count(material, smooth);
+            if material.bsdfs().any(Bsdf::follows) {
+                casters = gathered.primitives[first..].iter().fold(casters, |b, p| b.union(p.bounds()));
+            }
             let emitter = shape.radiance.filter(|r| !r.is_black()).map(|radiance| {
                 let area = area_emitter(i as u32, radiance, &gathered.primitives[first..]);
                 emitters.push(Emitter { name: shape.name.clone(), kind: Kind::Area(area) });
                 emitters.len() as u32 - 1
             });
-            shapes.push(Shape { name: shape.name.clone(), material: shape.material as u32, emitter });
+            shapes.push(Shape {
+                name: shape.name.clone(),
+                material: shape.material as u32,
+                emitter,
+                to_object: orientation(&shape.to_world),
+            });
         }
         let bounds = gathered.primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
         let bounds = if bounds.is_empty() { Aabb::around(Vec3::ZERO, 1.0) } else { bounds };
-        emitters.extend(description.emitters.iter().map(|e| unattached_emitter(e, &normalisation, &bounds)));
+        let reach = reach(&bounds, &casters);
+        emitters.extend(description.emitters.iter().map(|e| unattached_emitter(e, &normalisation, reach)));
         let mut scene = gathered.into_scene(normalisation, bounds);
         scene.shapes = shapes;
+        scene.textures = description.textures.iter().map(Sampler::new).collect();
         scene.materials.clone_from(&description.materials);
         scene.max_depth = description.max_depth;
         scene.sensors = description.sensors.iter().map(|s| Sensor::new(s, &normalisation)).collect();
-        scene.census.environment = emitters.iter().any(|e| !e.escaped_radiance().is_black());
+        scene.census.environment = emitters.iter().any(|e| e.is_environment() && !e.power().is_black());
         scene.emitter_choice = emitter_choice(&emitters);
         scene.census.emitters = emitters.iter().filter(|e| !e.power().is_black()).count() as u64;
         scene.emitters = emitters;
         Ok(scene)
     }
+}
+
+impl Material {
+    fn bsdfs(&self) -> impl Iterator<Item = &Bsdf> {
+        [Some(&self.front), self.back.as_ref()].into_iter().flatten()
+    }
+
+    /// All colours that it looks up.
+    fn colours(&self) -> impl Iterator<Item = Colour> {
+        let mut colours: Vec<Colour> = self.opacity.into_iter().collect();
+        for bsdf in self.bsdfs() {
+            let _ = bsdf.map(|c| colours.push(c));
+        }
+        colours.into_iter()
+    }
+}
+
+impl Census {
+    /// Notes what a material with or without interpolated normals asks for.
+    fn count(&mut self, material: &Material, smooth: bool) {
+        for bsdf in material.bsdfs() {
+            self.shading_normals |= bsdf.keeps() && smooth;
+            self.followed |= bsdf.follows() || material.opacity.is_some();
+            self.refraction |= bsdf.transmits();
+            self.narrow_gloss |= bsdf.follows() && bsdf.roughness().is_some();
+            self.kept_gloss |= bsdf.keeps() && !matches!(bsdf, Bsdf::Diffuse { .. });
+        }
+    }
+}
+
+fn check_environments(description: &SceneDescription) -> Result<(), BuildError> {
+    let unsound = |e: &&EmitterDescription| match &e.kind {
+        EmitterKind::Environment { bitmap, .. } => !bitmap.is_sound(),
+        _ => false,
+    };
+    description.emitters.iter().find(unsound).map_or(Ok(()), |e| Err(BuildError::NoTexture(e.name.clone())))
+}
+
+fn check_textures(material: &Material, description: &SceneDescription) -> Result<(), BuildError> {
+    use crate::description::TextureKind::Bitmap;
+    for colour in material.colours() {
+        let Colour::Texture(index) = colour else { continue };
+        let good = match description.textures.get(index).map(|t| &t.kind) {
+            Some(Bitmap { bitmap, .. }) => bitmap.is_sound(),
+            Some(_) => true,
+            None => false,
+        };
+        if !good {
+            return Err(BuildError::NoTexture(material.name.clone()));
+        }
+    }
+    Ok(())
+}
+
+/// Scene to object space, turning only.
+fn orientation(to_world: &DAffine3) -> Mat3 {
+    let m = to_world.matrix3;
+    let turn = DMat3::from_cols(m.x_axis.normalize(), m.y_axis.normalize(), m.z_axis.normalize());
+    turn.transpose().as_mat3()
+}
+
+/// Balls for light from infinity; casters apart only where that saves most of the photons.
+fn reach(scene: &Aabb, casters: &Aabb) -> Reach {
+    // A margin keeps the start of every path off the outermost surface.
+    let ball = |b: &Aabb| Ball { centre: b.centre(), radius: b.radius() * 1.01 };
+    let scene_ball = ball(scene);
+    let casters = (!casters.is_empty()).then(|| ball(casters)).filter(|c| c.radius < 0.5 * scene_ball.radius);
+    Reach { scene: scene_ball, casters }
 }
 
 fn check_sensors(description: &SceneDescription) -> Result<(), BuildError> {
@@ -157,6 +246,13 @@ fn world_bounds(description: &SceneDescription) -> Result<(DVec3, DVec3), BuildE
                 add(c - r);
                 add(c + r);
             }
+            Geometry::Cylinder { from, to, radius } => {
+                let r = radius * shape.to_world.matrix3.x_axis.length();
+                for end in [from, to].map(|&p| shape.to_world.transform_point3(p)) {
+                    add(end - r);
+                    add(end + r);
+                }
+            }
         }
         if !finite {
             return Err(BuildError::NotFinite(shape.name.clone()));
@@ -198,6 +294,17 @@ impl Gathered {
                 }
                 Ok(())
             }
+            Geometry::Cylinder { from, to, radius } => {
+                let scale = even_scale(&shape.to_world, &[0, 1, 2], &shape.name)?;
+                let [from, to] = [from, to].map(|&p| to_scene.point(shape.to_world.transform_point3(p)));
+                let radius = to_scene.length(radius * scale);
+                if radius > 0.0 && from != to {
+                    self.census.tubes += 1;
+                    let radius = if shape.flip_normals { -radius } else { radius };
+                    self.push(index, Primitive::Tube { from, axis: to - from, radius }, None);
+                }
+                Ok(())
+            }
         }
     }
 
@@ -209,7 +316,10 @@ impl Gathered {
         to_scene: &Normalisation,
     ) -> Result<(), BuildError> {
         let smooth = !mesh.normals.is_empty();
-        if smooth && mesh.normals.len() != mesh.positions.len() {
+        let textured = self.census.textures || self.census.anisotropy;
+        let has_uvs = !mesh.texture_coordinates.is_empty();
+        let fits = |n: usize, there: bool| !there || n == mesh.positions.len();
+        if !fits(mesh.normals.len(), smooth) || !fits(mesh.texture_coordinates.len(), has_uvs) {
             return Err(BuildError::BadMesh(shape.name.clone()));
         }
         let mirrored = shape.to_world.matrix3.determinant() < 0.0;
@@ -242,6 +352,9 @@ impl Gathered {
             }
             self.census.triangles += 1;
             self.push(index, Primitive::Triangle(corners([a, b, c])), at_vertices);
+            if let Some(uvs) = self.vertex_uvs.last_mut().filter(|_| textured && has_uvs) {
+                *uvs = [a, b, c].map(|i| mesh.texture_coordinates[i as usize].as_vec2());
+            }
         }
         Ok(())
     }
@@ -250,6 +363,7 @@ impl Gathered {
         self.primitives.push(primitive);
         self.shape_of.push(shape);
         self.vertex_normals.push(normals.unwrap_or_default());
+        self.vertex_uvs.extend((self.census.textures || self.census.anisotropy).then_some([Vec2::ZERO; 3]));
     }
 
     fn into_scene(self, normalisation: Normalisation, bounds: Aabb) -> Scene {
@@ -258,6 +372,8 @@ impl Gathered {
         let ordered = order.iter().map(|&i| i as usize);
         Scene {
             shape_of: ordered.clone().map(|i| self.shape_of[i]).collect(),
+            vertex_uvs: ordered.clone().filter_map(|i| self.vertex_uvs.get(i).copied()).collect(),
+            textures: Vec::new(),
             vertex_normals: if smooth {
                 ordered.map(|i| self.vertex_normals[i]).collect()
             } else {
@@ -313,26 +429,32 @@ fn area_emitter(shape: u32, radiance: Rgb, primitives: &[Primitive]) -> Area {
     }
 }
 
-fn unattached_emitter(description: &EmitterDescription, to_scene: &Normalisation, bounds: &Aabb) -> Emitter {
+fn unattached_emitter(description: &EmitterDescription, to_scene: &Normalisation, reach: Reach) -> Emitter {
     // Irradiance is intensity over squared distance, so intensity grows with the square of the scale.
     let scale2 = (to_scene.scale() * to_scene.scale()) as f32;
-    let kind = match description.kind {
+    let kind = match &description.kind {
         EmitterKind::Point { position, intensity } => {
-            Kind::Point { position: to_scene.point(position), intensity: intensity * scale2 }
+            Kind::Point { position: to_scene.point(*position), intensity: *intensity * scale2 }
         }
         EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees } => {
             let axis = to_world.matrix3.z_axis.normalize().as_vec3();
             Kind::Spot(Spot {
                 position: to_scene.point(to_world.translation),
                 frame: Frame::from_normal(axis),
-                intensity: intensity * scale2,
+                intensity: *intensity * scale2,
                 cutoff: cutoff_degrees.to_radians() as f32,
-                beam: beam_degrees.min(cutoff_degrees).to_radians() as f32,
+                beam: beam_degrees.min(*cutoff_degrees).to_radians() as f32,
             })
         }
-        EmitterKind::Constant { radiance } => {
-            // A margin keeps the start of every path off the outermost surface.
-            Kind::Constant { radiance, centre: bounds.centre(), radius: bounds.radius() * 1.01 }
+        EmitterKind::Constant { radiance } => Kind::Constant { radiance: *radiance, reach },
+        EmitterKind::Directional { direction, irradiance } => Kind::Directional {
+            direction: direction.normalize_or(DVec3::NEG_Z).as_vec3(),
+            irradiance: *irradiance,
+            reach,
+        },
+        EmitterKind::Environment { to_world, bitmap, scale } => {
+            let to_world = orientation(to_world).transpose();
+            Kind::Environment { map: Box::new(Environment::new(bitmap.clone(), *scale, to_world)), reach }
         }
     };
     Emitter { name: description.name.clone(), kind }

@@ -9,12 +9,24 @@ pub struct Census {
     pub spheres: u64,
     /// Discs.
     pub discs: u64,
+    /// Open tubes.
+    pub tubes: u64,
     /// Triangles without area, left out.
     pub degenerate_triangles: u64,
     /// Whether any surface that stores hit points has interpolated normals: photons need their adjoint correction there.
     pub shading_normals: bool,
-    /// Whether any surface reflects or refracts into single directions.
-    pub specular: bool,
+    /// Whether eye paths follow a lobe of any surface: mirrors, glass, narrow gloss, things that light passes through.
+    pub followed: bool,
+    /// Whether any surface refracts: eye paths may split there.
+    pub refraction: bool,
+    /// Whether any followed lobe is rough: eye paths follow it in a random direction, which one eye pass freezes.
+    pub narrow_gloss: bool,
+    /// Whether hit points keep any lobe that is not Lambertian: photons are weighed one by one there.
+    pub kept_gloss: bool,
+    /// Whether any colour comes from a texture.
+    pub textures: bool,
+    /// Whether any roughness differs along u and v: frames follow texture coordinates.
+    pub anisotropy: bool,
     /// Emitters of any kind that emit at all.
     pub emitters: u64,
     /// Whether light comes from infinity.

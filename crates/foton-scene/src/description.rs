@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use foton_math::Rgb;
-use foton_math::glam::{DAffine3, DVec3};
+use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 
 /// Everything that a scene consists of.
 #[derive(Clone, Debug, Default)]
@@ -15,6 +15,8 @@ pub struct SceneDescription {
     pub sensors: Vec<SensorDescription>,
     /// Materials, referred to by index.
     pub materials: Vec<Material>,
+    /// Textures, referred to by index.
+    pub textures: Vec<Texture>,
     /// Surfaces, in the order of the file. The index is the shape's identity in every output.
     pub shapes: Vec<ShapeDescription>,
     /// Emitters that are not surfaces.
@@ -113,6 +115,15 @@ pub enum Geometry {
     },
     /// The unit disc in the xy plane, its normal +z. A transform must keep it circular.
     Disc,
+    /// An open tube between two points, its normal away from the axis. A transform must keep it round.
+    Cylinder {
+        /// Middle of one end.
+        from: DVec3,
+        /// Middle of the other end.
+        to: DVec3,
+        /// The radius, above zero.
+        radius: f64,
+    },
 }
 
 /// Triangles over shared vertices.
@@ -125,8 +136,87 @@ pub struct Mesh {
     pub positions: Vec<DVec3>,
     /// Vertex normals, need not be of unit length: one a position, or none for flat faces.
     pub normals: Vec<DVec3>,
+    /// Texture coordinates: one a position, or none.
+    pub texture_coordinates: Vec<DVec2>,
     /// Vertex indices of each triangle.
     pub triangles: Vec<[u32; 3]>,
+}
+
+/// A colour that is the same everywhere, or comes from a texture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Colour {
+    /// The same everywhere.
+    Constant(Rgb),
+    /// Index into [`SceneDescription::textures`].
+    Texture(usize),
+}
+
+impl From<Rgb> for Colour {
+    fn from(c: Rgb) -> Self {
+        Self::Constant(c)
+    }
+}
+
+/// A colour over texture coordinates.
+#[derive(Clone, Debug)]
+pub struct Texture {
+    /// The id in the file, or a name made from the type.
+    pub name: String,
+    /// Applied to texture coordinates before the lookup.
+    pub to_uv: DAffine2,
+    /// Where the colour comes from.
+    pub kind: TextureKind,
+}
+
+/// Where a texture's colour comes from.
+#[derive(Clone, Debug)]
+pub enum TextureKind {
+    /// Pixels.
+    Bitmap {
+        /// The pixels.
+        bitmap: Arc<Bitmap>,
+        /// What lies beyond the unit square.
+        wrap: Wrap,
+        /// Whether colours are interpolated between pixel centres.
+        bilinear: bool,
+    },
+    /// Two colours on a board of 2 × 2 fields to the unit square; the field at the origin has the first.
+    Checkerboard {
+        /// The two colours.
+        colours: [Rgb; 2],
+    },
+}
+
+/// Linear pixels, row-major from the top left; texture coordinate v points up, so v = 0 is the last row's lower edge.
+#[derive(Clone, Debug, Default)]
+pub struct Bitmap {
+    /// Width in pixels, at least 1.
+    pub width: u32,
+    /// Height in pixels, at least 1.
+    pub height: u32,
+    /// `width × height` pixels.
+    pub pixels: Vec<Rgb>,
+}
+
+impl Bitmap {
+    /// Whether there is at least one pixel, and as many as width and height say.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        let pixels = u64::from(self.width) * u64::from(self.height);
+        pixels > 0 && pixels == self.pixels.len() as u64
+    }
+}
+
+/// What a bitmap shows beyond the unit square.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Wrap {
+    /// The same again.
+    #[default]
+    Repeat,
+    /// The same again, mirrored each time.
+    Mirror,
+    /// The edge's pixels.
+    Clamp,
 }
 
 /// How a surface scatters, on each side.
@@ -138,32 +228,96 @@ pub struct Material {
     pub front: Bsdf,
     /// On the other side. `None`: a reflector is black there.
     pub back: Option<Bsdf>,
+    /// Share of light that meets the surface at all, by its mean channel; the rest passes straight through. `None`: all.
+    pub opacity: Option<Colour>,
 }
 
-/// A bidirectional scattering distribution function.
+/// A bidirectional scattering distribution function, over colours `C`: [`Colour`] in a description, [`Rgb`] at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Bsdf {
+pub enum Bsdf<C = Colour> {
     /// Lambertian reflection.
     Diffuse {
         /// Share of light reflected, in [0, 1].
-        reflectance: Rgb,
+        reflectance: C,
     },
-    /// A smooth boundary of two transparent media.
+    /// A boundary of two transparent media.
     Dielectric {
         /// Index of refraction on the side away from the normal.
         int_ior: f32,
         /// Index of refraction on the side that the normal points to.
         ext_ior: f32,
         /// Factor on reflected light, physically 1.
-        specular_reflectance: Rgb,
+        specular_reflectance: C,
         /// Factor on refracted light, physically 1.
-        specular_transmittance: Rgb,
+        specular_transmittance: C,
+        /// `None`: smooth.
+        roughness: Option<Microfacets>,
+    },
+    /// A thin pane of glass: light passes straight on, reflections between its faces included.
+    ThinDielectric {
+        /// Index of refraction of the pane.
+        int_ior: f32,
+        /// Index of refraction around it.
+        ext_ior: f32,
+        /// Factor on reflected light, physically 1.
+        specular_reflectance: C,
+        /// Factor on transmitted light, physically 1.
+        specular_transmittance: C,
     },
     /// A smooth mirror that reflects the same share at every angle (Mitsuba's material `none`).
     Mirror {
         /// Share of light reflected, in [0, 1].
-        reflectance: Rgb,
+        reflectance: C,
     },
+    /// A metal.
+    Conductor {
+        /// Real part of the index of refraction per channel, relative to the outside.
+        eta: Rgb,
+        /// Imaginary part per channel.
+        k: Rgb,
+        /// Factor on reflected light, physically 1.
+        specular_reflectance: C,
+        /// `None`: smooth.
+        roughness: Option<Microfacets>,
+    },
+    /// A clear coat over a diffuse base.
+    Plastic {
+        /// Index of refraction of the coat.
+        int_ior: f32,
+        /// Index of refraction outside.
+        ext_ior: f32,
+        /// Share of light that the base reflects, in [0, 1].
+        diffuse_reflectance: C,
+        /// Factor on light reflected by the coat, physically 1.
+        specular_reflectance: C,
+        /// Whether light that is reflected inside the coat takes on the base's colour each time.
+        nonlinear: bool,
+        /// `None`: a smooth coat.
+        roughness: Option<Microfacets>,
+    },
+    /// Nothing: light passes as if there were no surface.
+    Null,
+}
+
+/// A distribution of microfacet normals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Microfacets {
+    /// Its shape.
+    pub distribution: MicrofacetDistribution,
+    /// Roughness α along the texture's u, above 0.
+    pub alpha_u: f32,
+    /// Roughness α along the texture's v, above 0.
+    pub alpha_v: f32,
+}
+
+/// The shape of a distribution of microfacet normals.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MicrofacetDistribution {
+    /// Gaussian slopes.
+    #[default]
+    Beckmann,
+    /// Longer tails; also known as Trowbridge–Reitz.
+    Ggx,
 }
 
 /// An emitter that is not a surface.
@@ -201,6 +355,23 @@ pub enum EmitterKind {
         /// Radiance.
         radiance: Rgb,
     },
+    /// Parallel light from infinitely far away.
+    Directional {
+        /// The way the light goes, need not be of unit length.
+        direction: DVec3,
+        /// On a surface that faces it (W·m⁻²).
+        irradiance: Rgb,
+    },
+    /// Radiance from infinitely far away, by direction: latitudes are rows, +y of the emitter's space is up, the middle of
+    /// the picture lies towards +z and its right half towards −x, as in Mitsuba 3's `envmap`.
+    Environment {
+        /// Emitter to world; only its rotation matters.
+        to_world: DAffine3,
+        /// Radiance (W·m⁻²·sr⁻¹) before `scale`.
+        bitmap: Arc<Bitmap>,
+        /// Factor on the radiance.
+        scale: f32,
+    },
 }
 
 impl Mesh {
@@ -211,6 +382,7 @@ impl Mesh {
         Self {
             positions: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)],
             normals: Vec::new(),
+            texture_coordinates: [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from).to_vec(),
             triangles: vec![[0, 1, 2], [0, 2, 3]],
         }
     }
@@ -226,7 +398,7 @@ impl Mesh {
             .collect();
         let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
         let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
-        Self { positions, normals: Vec::new(), triangles }
+        Self { positions, normals: Vec::new(), texture_coordinates: Vec::new(), triangles }
     }
 }
 

@@ -50,6 +50,15 @@ impl Discrete {
     pub(crate) fn choose(&self, u: f64) -> usize {
         self.cumulative.partition_point(|&c| c <= u).min(self.cumulative.len() - 1)
     }
+
+    /// As [`Discrete::choose`], with what is left of `u`, uniform in [0, 1) again.
+    #[must_use]
+    pub(crate) fn choose_and_rest(&self, u: f64) -> (usize, f64) {
+        let i = self.choose(u);
+        let before = i.checked_sub(1).map_or(0.0, |i| self.cumulative[i]);
+        let rest = (u - before) / self.probability(i);
+        (i, rest.clamp(0.0, 1.0 - f64::EPSILON))
+    }
 }
 
 #[cfg(test)]

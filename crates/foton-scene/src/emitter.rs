@@ -8,6 +8,7 @@ use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Frame, Rgb, warp};
 
 use crate::discrete::Discrete;
+use crate::environment::Environment;
 use crate::primitive::Primitive;
 use crate::surface::{Surface, locate};
 
@@ -25,7 +26,24 @@ pub(crate) enum Kind {
     Area(Area),
     Point { position: Vec3, intensity: Rgb },
     Spot(Spot),
-    Constant { radiance: Rgb, centre: Vec3, radius: f32 },
+    Constant { radiance: Rgb, reach: Reach },
+    Directional { direction: Vec3, irradiance: Rgb, reach: Reach },
+    Environment { map: Box<Environment>, reach: Reach },
+}
+
+/// Where photons from infinity are aimed at: the whole scene, and apart from it what focuses light.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reach {
+    pub(crate) scene: Ball,
+    /// Around all surfaces that reflect or refract into single directions, if they take up clearly less than the scene.
+    pub(crate) casters: Option<Ball>,
+}
+
+/// A ball that parallel light is aimed at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ball {
+    pub(crate) centre: Vec3,
+    pub(crate) radius: f32,
 }
 
 /// A surface that emits on the side its normal points to.
@@ -80,21 +98,30 @@ impl Emitter {
             Kind::Area(a) => a.radiance * (PI * a.area),
             Kind::Point { intensity, .. } => *intensity * (4.0 * PI),
             Kind::Spot(s) => s.power(),
-            Kind::Constant { radiance, radius, .. } => *radiance * (4.0 * PI * PI * radius * radius),
+            Kind::Constant { radiance, reach } => *radiance * (4.0 * PI * reach.scene.cross_section()),
+            Kind::Directional { irradiance, reach, .. } => *irradiance * reach.scene.cross_section(),
+            Kind::Environment { map, reach } => map.total() * reach.scene.cross_section(),
         }
     }
 
     /// Whether light comes from a single point or direction, which rays cannot hit.
     #[must_use]
     pub const fn is_delta(&self) -> bool {
-        matches!(self.kind, Kind::Point { .. } | Kind::Spot(_))
+        matches!(self.kind, Kind::Point { .. } | Kind::Spot(_) | Kind::Directional { .. })
     }
 
-    /// Radiance that arrives along a ray that leaves the scene.
+    /// Whether light comes from infinity, where rays that leave the scene see it.
     #[must_use]
-    pub const fn escaped_radiance(&self) -> Rgb {
-        match self.kind {
-            Kind::Constant { radiance, .. } => radiance,
+    pub const fn is_environment(&self) -> bool {
+        matches!(self.kind, Kind::Constant { .. } | Kind::Environment { .. })
+    }
+
+    /// Radiance that a ray which leaves the scene along `direction` sees.
+    #[must_use]
+    pub fn escaped_radiance(&self, direction: Vec3) -> Rgb {
+        match &self.kind {
+            Kind::Constant { radiance, .. } => *radiance,
+            Kind::Environment { map, .. } => map.radiance(direction),
             _ => Rgb::BLACK,
         }
     }
@@ -120,13 +147,22 @@ impl Emitter {
                 power: *intensity * (4.0 * PI),
             },
             Kind::Spot(s) => s.emit(u_direction),
-            Kind::Constant { radiance, centre, radius } => {
+            Kind::Constant { radiance, reach } => {
                 let direction = warp::square_to_sphere(u_direction);
-                let disc = warp::square_to_disc(u_position) * *radius;
-                let frame = Frame::from_normal(direction);
-                let offset = frame.tangent * disc.x + frame.bitangent * disc.y - direction * *radius;
-                let power = *radiance * (PI * radius * radius / warp::square_to_sphere_pdf());
-                Emission { origin: *centre + offset, direction, power }
+                let (origin, pdf) = reach.aim(direction, u_part, u_position);
+                Emission { origin, direction, power: *radiance / (pdf * warp::square_to_sphere_pdf()) }
+            }
+            Kind::Directional { direction, irradiance, reach } => {
+                let (origin, pdf) = reach.aim(*direction, u_part, u_position);
+                Emission { origin, direction: *direction, power: *irradiance / pdf }
+            }
+            Kind::Environment { map, reach } => {
+                let Some(sample) = map.sample(u_direction) else {
+                    return Emission { origin: reach.scene.centre, direction: Vec3::Z, power: Rgb::BLACK };
+                };
+                let direction = -sample.direction;
+                let (origin, pdf) = reach.aim(direction, u_part, u_position);
+                Emission { origin, direction, power: sample.radiance / (pdf * sample.pdf) }
             }
         }
     }
@@ -145,14 +181,19 @@ impl Emitter {
             Kind::Constant { radiance, .. } => {
                 let local = warp::square_to_cosine_hemisphere(u);
                 let pdf = warp::square_to_cosine_hemisphere_pdf(local);
-                (pdf > 0.0).then(|| Illumination {
-                    direction: Frame::from_normal(normal).to_outer(local),
-                    distance: f32::INFINITY,
-                    radiance_over_pdf: *radiance / pdf,
-                })
+                let direction = Frame::from_normal(normal).to_outer(local);
+                (pdf > 0.0).then(|| from_infinity(direction, *radiance / pdf))
+            }
+            Kind::Directional { direction, irradiance, .. } => Some(from_infinity(-*direction, *irradiance)),
+            Kind::Environment { map, .. } => {
+                map.sample(u).map(|s| from_infinity(s.direction, s.radiance / s.pdf))
             }
         }
     }
+}
+
+const fn from_infinity(direction: Vec3, radiance_over_pdf: Rgb) -> Illumination {
+    Illumination { direction, distance: f32::INFINITY, radiance_over_pdf }
 }
 
 fn from_point(emitter: Vec3, position: Vec3, intensity: Rgb) -> Option<Illumination> {
@@ -163,6 +204,37 @@ fn from_point(emitter: Vec3, position: Vec3, intensity: Rgb) -> Option<Illuminat
         distance: distance2.sqrt(),
         radiance_over_pdf: intensity / distance2,
     })
+}
+
+impl Ball {
+    /// Area of its shadow.
+    fn cross_section(&self) -> f32 {
+        PI * self.radius * self.radius
+    }
+
+    /// Whether a line through `point` along the unit `direction` meets it.
+    fn is_met(&self, point: Vec3, direction: Vec3) -> bool {
+        let d = point - self.centre;
+        (d - direction * d.dot(direction)).length_squared() <= self.radius * self.radius
+    }
+}
+
+impl Reach {
+    /// A start before the scene for parallel light along `direction`, and its density per unit area across it. Half of the
+    /// light is aimed at the casters where there are any; both ways to get a line are weighed together.
+    fn aim(&self, direction: Vec3, u_part: f32, u: Vec2) -> (Vec3, f32) {
+        let ball = self.casters.filter(|_| u_part < 0.5).unwrap_or(self.scene);
+        let disc = warp::square_to_disc(u) * ball.radius;
+        let frame = Frame::from_normal(direction);
+        let through = ball.centre + frame.tangent * disc.x + frame.bitangent * disc.y;
+        let before = (through - self.scene.centre).dot(direction) + self.scene.radius;
+        let density = |b: &Ball| if b.is_met(through, direction) { 1.0 / b.cross_section() } else { 0.0 };
+        let pdf = match &self.casters {
+            None => 1.0 / self.scene.cross_section(),
+            Some(casters) => 0.5 * density(&self.scene) + 0.5 * density(casters),
+        };
+        (through - direction * before, pdf)
+    }
 }
 
 impl Area {
@@ -179,8 +251,23 @@ impl Area {
                 let d = warp::square_to_disc(u) * radius;
                 locate(primitive, Vec2::ZERO, centre + frame.tangent * d.x + frame.bitangent * d.y)
             }
+            Primitive::Tube { from, axis, radius } => {
+                let frame = Frame::from_normal(axis.normalize());
+                let (sin, cos) = (2.0 * PI * u.y).sin_cos();
+                let across = (frame.tangent * cos + frame.bitangent * sin) * radius.abs();
+                locate(primitive, Vec2::ZERO, from + axis * u.x + across)
+            }
         };
-        Surface { position, error, normal, shading_normal: normal, curved: false, shape: self.shape }
+        Surface {
+            position,
+            error,
+            normal,
+            shading_normal: normal,
+            curved: false,
+            shape: self.shape,
+            primitive: 0,
+            barycentric: Vec2::ZERO,
+        }
     }
 
     fn illuminate(&self, position: Vec3, u_part: f32, u: Vec2) -> Option<Illumination> {
@@ -263,6 +350,8 @@ impl Spot {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::description::Bitmap;
+    use foton_math::glam::Mat3;
     use foton_math::{Purpose, Stream};
 
     fn emitter(kind: Kind) -> Emitter {
@@ -277,6 +366,13 @@ mod tests {
     }
 
     fn all() -> Vec<Emitter> {
+        let reach = Reach {
+            scene: Ball { centre: Vec3::ZERO, radius: 10.0 },
+            casters: Some(Ball { centre: Vec3::new(0.5, 0.2, 0.1), radius: 1.1 }),
+        };
+        let pixels = (0..32).map(|i| Rgb::splat(0.2 + 0.3 * (i % 5) as f32)).collect();
+        let bitmap = Bitmap { width: 8, height: 4, pixels };
+        let map = Environment::new(bitmap.into(), 1.5, Mat3::from_rotation_x(0.4));
         let square = |x: f32| Vec3::new(x, 0.0, 3.0);
         vec![
             area(vec![Primitive::Sphere { centre: Vec3::new(0.0, 0.0, 5.0), radius: 1.5, inward: false }]),
@@ -293,7 +389,14 @@ mod tests {
                 cutoff: 0.5,
                 beam: 0.3,
             })),
-            emitter(Kind::Constant { radiance: Rgb::splat(0.7), centre: Vec3::ZERO, radius: 10.0 }),
+            emitter(Kind::Constant { radiance: Rgb::splat(0.7), reach }),
+            emitter(Kind::Directional {
+                direction: Vec3::new(0.3, 0.2, -0.9).normalize(),
+                irradiance: Rgb::splat(2.0),
+                reach,
+            }),
+            emitter(Kind::Environment { map: Box::new(map), reach }),
+            area(vec![Primitive::Tube { from: Vec3::new(-1.0, 0.0, 3.0), axis: Vec3::X * 2.0, radius: 0.4 }]),
         ]
     }
 
@@ -314,7 +417,7 @@ mod tests {
                 sum2 += x * x;
             }
             let flux = sum / f64::from(n);
-            let flux_sigma = ((sum2 / f64::from(n) - flux * flux) / f64::from(n)).sqrt();
+            let flux_sigma = ((sum2 / f64::from(n) - flux * flux).max(0.0) / f64::from(n)).sqrt();
             let (mut sum, mut sum2) = (0.0f64, 0.0f64);
             for _ in 0..n {
                 let p = warp::square_to_disc(stream.next_2d()).extend(0.0);
@@ -324,7 +427,7 @@ mod tests {
                 sum2 += x * x;
             }
             let direct = sum / f64::from(n);
-            let direct_sigma = ((sum2 / f64::from(n) - direct * direct) / f64::from(n)).sqrt();
+            let direct_sigma = ((sum2 / f64::from(n) - direct * direct).max(0.0) / f64::from(n)).sqrt();
             let sigma = flux_sigma.hypot(direct_sigma);
             assert!(
                 direct > 0.0 && (flux - direct).abs() < 4.0 * sigma,

@@ -10,15 +10,16 @@ mod census;
 pub mod description;
 mod discrete;
 mod emitter;
+mod environment;
 mod filter;
-mod fresnel;
 mod normalise;
 mod primitive;
 mod scene;
 mod sensor;
 mod surface;
+mod texture;
 
-pub use bsdf::{BsdfSample, DeltaLobe, Lobe, Transport};
+pub use bsdf::{BsdfSample, FollowedLobe, Lobe, Scattering, Transport};
 pub use build::BuildError;
 pub use census::Census;
 pub use description::SceneDescription;

@@ -1,4 +1,4 @@
-//! What rays are tested against: triangles, spheres and discs in scene units. No acceleration, no shading.
+//! What rays are tested against: triangles, spheres, discs and tubes in scene units. No acceleration, no shading.
 
 use foton_math::glam::{DVec3, Vec2, Vec3};
 use foton_math::{Aabb, Ray};
@@ -24,6 +24,15 @@ pub(crate) enum Primitive {
         /// Unit normal.
         normal: Vec3,
         /// The radius.
+        radius: f32,
+    },
+    /// An open tube.
+    Tube {
+        /// Middle of one end.
+        from: Vec3,
+        /// Middle of the other end, less `from`.
+        axis: Vec3,
+        /// The radius; negative when the normal points to the axis.
         radius: f32,
     },
 }
@@ -121,6 +130,27 @@ impl ShearedRay {
         inside.then_some(PrimitiveHit { t, barycentric: Vec2::ZERO })
     }
 
+    /// In double precision: tubes are few, and their quadratic cancels like a sphere's.
+    fn hit_tube(&self, from: Vec3, axis: Vec3, radius: f32) -> Option<PrimitiveHit> {
+        let (o, d) = ((self.ray.origin - from).as_dvec3(), self.ray.direction.as_dvec3());
+        let axis = axis.as_dvec3();
+        let unit = axis.normalize();
+        let across = |v: DVec3| v - unit * v.dot(unit);
+        let (p, q) = (across(o), across(d));
+        let (a, b) = (q.length_squared(), p.dot(q));
+        let c = p.length_squared() - f64::from(radius) * f64::from(radius);
+        let discriminant = b * b - a * c;
+        if a == 0.0 || discriminant < 0.0 {
+            return None;
+        }
+        let far = -b - discriminant.sqrt().copysign(b);
+        let mut roots = [far / a, c / far];
+        roots.sort_by(f64::total_cmp);
+        let on_tube = |t: &f64| self.accepts(*t as f32) && (0.0..=axis.length()).contains(&(o + d * *t).dot(unit));
+        let t = roots.into_iter().find(on_tube)?;
+        Some(PrimitiveHit { t: t as f32, barycentric: Vec2::ZERO })
+    }
+
     fn accepts(&self, t: f32) -> bool {
         t > self.ray.t_min && t <= self.ray.t_max
     }
@@ -131,6 +161,7 @@ impl ShearedRay {
             Primitive::Triangle(vertices) => self.hit_triangle(vertices),
             Primitive::Sphere { centre, radius, .. } => self.hit_sphere(*centre, *radius),
             Primitive::Disc { centre, normal, radius } => self.hit_disc(*centre, *normal, *radius),
+            Primitive::Tube { from, axis, radius } => self.hit_tube(*from, *axis, *radius),
         }
     }
 }
@@ -146,6 +177,12 @@ impl Primitive {
                 let extent = (Vec3::ONE - normal * normal).max(Vec3::ZERO).map(f32::sqrt) * radius;
                 Aabb { min: centre - extent, max: centre + extent }
             }
+            Self::Tube { from, axis, radius } => {
+                let unit = axis.normalize();
+                let extent = (Vec3::ONE - unit * unit).max(Vec3::ZERO).map(f32::sqrt) * radius.abs();
+                let ends = Aabb::EMPTY.with(from).with(from + axis);
+                Aabb { min: ends.min - extent, max: ends.max + extent }
+            }
         }
     }
 
@@ -157,6 +194,7 @@ impl Primitive {
             Self::Triangle([a, b, c]) => 0.5 * (b - a).cross(c - a).length(),
             Self::Sphere { radius, .. } => 4.0 * PI * radius * radius,
             Self::Disc { radius, .. } => PI * radius * radius,
+            Self::Tube { axis, radius, .. } => 2.0 * PI * radius.abs() * axis.length(),
         }
     }
 }

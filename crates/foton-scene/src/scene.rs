@@ -1,16 +1,19 @@
 //! The scene as rays meet it. It does not change while it renders: an edit makes the next scene.
 
-use foton_math::glam::Vec3;
-use foton_math::{Aabb, Ray, Rgb};
+use foton_math::glam::{Mat3, Vec2, Vec3};
+use foton_math::{Aabb, Frame, Ray, Rgb};
 
 use crate::accel::{Accel, Hit};
+use crate::bsdf::Scattering;
 use crate::census::Census;
-use crate::description::{Bsdf, Material};
+use crate::description::{Colour, Material};
 use crate::discrete::Discrete;
 use crate::emitter::{Emitter, Kind};
 use crate::normalise::Normalisation;
+use crate::primitive::Primitive;
 use crate::sensor::Sensor;
 use crate::surface::{Surface, locate};
+use crate::texture::Sampler;
 
 /// A surface's identity in a built scene.
 #[derive(Clone, Debug)]
@@ -21,6 +24,8 @@ pub struct Shape {
     pub material: u32,
     /// Index into the scene's emitters, for an area emitter.
     pub emitter: Option<u32>,
+    /// Scene to object space, turning only: texture coordinates of spheres, discs and tubes.
+    pub(crate) to_object: Mat3,
 }
 
 /// An immutable scene, in scene units (see [`Normalisation`]).
@@ -30,6 +35,9 @@ pub struct Scene {
     pub(crate) shape_of: Vec<u32>,
     /// Unit vertex normals of each primitive in the tree's order; zeros where flat. Empty when the scene has none.
     pub(crate) vertex_normals: Vec<[Vec3; 3]>,
+    /// Texture coordinates of each primitive's vertices in the tree's order. Empty when no material asks for them.
+    pub(crate) vertex_uvs: Vec<[Vec2; 3]>,
+    pub(crate) textures: Vec<Sampler>,
     pub(crate) shapes: Vec<Shape>,
     pub(crate) materials: Vec<Material>,
     pub(crate) emitters: Vec<Emitter>,
@@ -63,8 +71,10 @@ impl Scene {
             error,
             normal,
             shading_normal: normal,
-            curved: matches!(primitive, crate::primitive::Primitive::Sphere { .. }),
+            curved: matches!(primitive, Primitive::Sphere { .. } | Primitive::Tube { .. }),
             shape: self.shape_of[i],
+            primitive: hit.primitive,
+            barycentric: hit.barycentric,
         };
         if let Some([a, b, c]) = self.vertex_normals.get(i)
             && *a != Vec3::ZERO
@@ -77,12 +87,86 @@ impl Scene {
         surface
     }
 
-    /// The BSDF that light meets on the side of `outward` (whether the light's direction is on the normal's side).
-    /// `None`: that side is black.
+    /// How the surface scatters light on the side of `outward` (whether the light's direction is on the normal's side), with
+    /// its colours looked up. `None`: that side is black.
     #[must_use]
-    pub fn bsdf(&self, shape: u32, outward: bool) -> Option<&Bsdf> {
-        let material = self.material(shape);
-        if outward || material.front.transmits() { Some(&material.front) } else { material.back.as_ref() }
+    pub fn scattering(&self, surface: &Surface, outward: bool) -> Option<Scattering> {
+        let material = self.material(surface.shape);
+        let bsdf =
+            if outward || material.front.transmits() { &material.front } else { material.back.as_ref()? };
+        if !self.census.textures {
+            let constant = |c: Colour| if let Colour::Constant(c) = c { c } else { Rgb::BLACK };
+            let opacity = material.opacity.map_or(1.0, |c| constant(c).mean());
+            return Some(Scattering { bsdf: bsdf.map(constant), opacity });
+        }
+        let mut uv = None;
+        let mut colour = |c: Colour| match c {
+            Colour::Constant(c) => c,
+            Colour::Texture(t) => {
+                self.textures[t].colour(*uv.get_or_insert_with(|| self.texture_coordinate(surface)))
+            }
+        };
+        let opacity = material.opacity.map_or(1.0, |c| colour(c).mean().clamp(0.0, 1.0));
+        Some(Scattering { bsdf: bsdf.map(colour), opacity })
+    }
+
+    /// The frame in which the surface's BSDF is stated, around `normal`: along texture coordinates where roughness differs
+    /// along them.
+    #[must_use]
+    pub fn shading_frame(&self, surface: &Surface, normal: Vec3) -> Frame {
+        let frame = Frame::from_normal(normal);
+        if !self.census.anisotropy {
+            return frame;
+        }
+        let along_u = self.direction_of_u(surface);
+        match (along_u - normal * along_u.dot(normal)).try_normalize() {
+            Some(tangent) => Frame { tangent, bitangent: normal.cross(tangent), normal },
+            None => frame,
+        }
+    }
+
+    /// Texture coordinate of a point, as Mitsuba 3 lays it on each kind of shape.
+    fn texture_coordinate(&self, surface: &Surface) -> Vec2 {
+        use std::f32::consts::PI;
+        let turn = |a: f32| a - a.floor();
+        let to_object = self.shapes[surface.shape as usize].to_object;
+        match self.accel.primitives()[surface.primitive as usize] {
+            Primitive::Triangle(_) => {
+                let [a, b, c] = self.vertex_uvs[surface.primitive as usize];
+                let (v, w) = (surface.barycentric.x, surface.barycentric.y);
+                a * (1.0 - v - w) + b * v + c * w
+            }
+            Primitive::Sphere { centre, .. } => {
+                let p = (to_object * (surface.position - centre)).normalize_or(Vec3::Z);
+                Vec2::new(turn(p.y.atan2(p.x) / (2.0 * PI)), p.z.clamp(-1.0, 1.0).acos() / PI)
+            }
+            Primitive::Disc { centre, radius, .. } => {
+                let p = to_object * (surface.position - centre);
+                Vec2::new(p.x.hypot(p.y) / radius, turn(p.y.atan2(p.x) / (2.0 * PI)))
+            }
+            Primitive::Tube { from, axis, .. } => {
+                let p = surface.position - from;
+                let q = Frame::from_normal(axis.normalize()).to_local(p);
+                Vec2::new(turn(q.y.atan2(q.x) / (2.0 * PI)), p.dot(axis) / axis.length_squared())
+            }
+        }
+    }
+
+    /// The direction in which u grows; any length.
+    fn direction_of_u(&self, surface: &Surface) -> Vec3 {
+        match self.accel.primitives()[surface.primitive as usize] {
+            Primitive::Triangle([a, b, c]) => {
+                let [ta, tb, tc] = self.vertex_uvs.get(surface.primitive as usize).copied().unwrap_or_default();
+                let (e, f, s, t) = (b - a, c - a, tb - ta, tc - ta);
+                (e * t.y - f * s.y) * (s.x * t.y - s.y * t.x).signum()
+            }
+            Primitive::Sphere { centre, .. } | Primitive::Disc { centre, .. } => {
+                let to_object = self.shapes[surface.shape as usize].to_object;
+                let p = to_object * (surface.position - centre);
+                to_object.transpose() * Vec3::new(-p.y, p.x, 0.0)
+            }
+            Primitive::Tube { axis, .. } => axis.cross(surface.normal),
+        }
     }
 
     /// The material of a shape.
@@ -101,13 +185,13 @@ impl Scene {
         }
     }
 
-    /// Radiance that arrives from infinity against a ray that hits nothing.
+    /// Radiance that a ray which hits nothing sees along `direction`.
     #[must_use]
-    pub fn escaped_radiance(&self) -> Rgb {
+    pub fn escaped_radiance(&self, direction: Vec3) -> Rgb {
         if !self.census.environment {
             return Rgb::BLACK;
         }
-        self.emitters.iter().map(Emitter::escaped_radiance).sum()
+        self.emitters.iter().map(|e| e.escaped_radiance(direction)).sum()
     }
 
     /// Chooses an emitter by `u` in [0, 1): in proportion to power, with a defensive share for each. Returns its index and
@@ -169,5 +253,6 @@ impl Scene {
         self.accel.bytes()
             + self.shape_of.len() * size_of::<u32>()
             + self.vertex_normals.len() * size_of::<[Vec3; 3]>()
+            + self.vertex_uvs.len() * size_of::<[Vec2; 3]>()
     }
 }

@@ -26,6 +26,10 @@ pub struct Surface {
     pub curved: bool,
     /// Index of the shape.
     pub shape: u32,
+    /// Index of the primitive, in the tree's order.
+    pub(crate) primitive: u32,
+    /// Weights of a triangle's second and third vertex.
+    pub(crate) barycentric: Vec2,
 }
 
 impl Surface {
@@ -61,6 +65,14 @@ pub(crate) fn locate(primitive: &Primitive, barycentric: Vec2, approximate: Vec3
         Primitive::Disc { centre, normal, .. } => {
             let position = approximate - normal * (approximate - centre).dot(normal);
             (position, (centre.abs() + position.abs()) * QUADRIC_ERROR, normal)
+        }
+        Primitive::Tube { from, axis, radius } => {
+            let p = approximate - from;
+            let along = axis * (p.dot(axis) / axis.length_squared());
+            let outward = (p - along).normalize_or(Vec3::Z);
+            let position = from + along + outward * radius.abs();
+            let error = (from.abs() + axis.abs() + radius.abs()) * QUADRIC_ERROR;
+            (position, error, if radius < 0.0 { -outward } else { outward })
         }
     }
 }

@@ -1,0 +1,257 @@
+//! Distributions of microfacet normals: how dense, how much hidden, and sampled as they are seen.
+//!
+//! Directions are local with +z the surface's normal. Sources: Walter et al. 2007 `[WML07]`, Heitz 2014 `[HEI14]`; GGX sampling
+//! after Heitz 2018 `[HEI18]`; Beckmann sampling by inverting the distribution of visible slopes numerically.
+
+use std::f32::consts::PI;
+
+use foton_math::Rgb;
+use foton_math::glam::{Vec2, Vec3};
+
+use crate::description::{MicrofacetDistribution, Microfacets};
+
+impl Microfacets {
+    /// The same roughness along both axes.
+    #[must_use]
+    pub const fn isotropic(distribution: MicrofacetDistribution, alpha: f32) -> Self {
+        Self { distribution, alpha_u: alpha, alpha_v: alpha }
+    }
+
+    /// The larger roughness.
+    #[must_use]
+    pub const fn widest(&self) -> f32 {
+        self.alpha_u.max(self.alpha_v)
+    }
+
+    /// Density of normals D(h) per unit solid angle of h, per unit area of the surface; ∫ D cos = 1.
+    pub(crate) fn density(&self, h: Vec3) -> f32 {
+        if h.z <= 0.0 {
+            return 0.0;
+        }
+        let cos2 = h.z * h.z;
+        let (x, y) = (h.x / self.alpha_u, h.y / self.alpha_v);
+        let slope2 = (x * x + y * y) / cos2;
+        let area = PI * self.alpha_u * self.alpha_v * cos2 * cos2;
+        match self.distribution {
+            MicrofacetDistribution::Beckmann => (-slope2).exp() / area,
+            MicrofacetDistribution::Ggx => 1.0 / (area * (1.0 + slope2) * (1.0 + slope2)),
+        }
+    }
+
+    /// Smith's Λ: hidden over visible area, seen from `v`.
+    fn lambda(&self, v: Vec3) -> f32 {
+        let (x, y) = (self.alpha_u * v.x, self.alpha_v * v.y);
+        let alpha_tan = (x * x + y * y).sqrt() / v.z.abs();
+        if alpha_tan == 0.0 {
+            return 0.0;
+        }
+        match self.distribution {
+            MicrofacetDistribution::Ggx => 0.5 * ((1.0 + alpha_tan * alpha_tan).sqrt() - 1.0),
+            MicrofacetDistribution::Beckmann => {
+                let a = f64::from(1.0 / alpha_tan);
+                let tail = (-a * a).exp() / (a * std::f64::consts::PI.sqrt());
+                (0.5 * (tail - libm::erfc(a))) as f32
+            }
+        }
+    }
+
+    /// Share of the facets facing `v` (on `h`'s side) that is not hidden from it.
+    pub(crate) fn visible(&self, v: Vec3, h: Vec3) -> f32 {
+        if v.dot(h) * v.z <= 0.0 { 0.0 } else { 1.0 / (1.0 + self.lambda(v)) }
+    }
+
+    /// Density of [`Microfacets::sample`] per unit solid angle of h.
+    pub(crate) fn pdf(&self, wo: Vec3, h: Vec3) -> f32 {
+        self.visible(wo, h) * wo.dot(h).abs() * self.density(h) / wo.z.abs()
+    }
+
+    /// A normal of the facets as `wo` (with `wo.z > 0`) sees them.
+    pub(crate) fn sample(&self, wo: Vec3, u: Vec2) -> Vec3 {
+        let stretched = Vec3::new(self.alpha_u * wo.x, self.alpha_v * wo.y, wo.z).normalize();
+        let slope = match self.distribution {
+            MicrofacetDistribution::Ggx => return self.sample_ggx(stretched, u),
+            MicrofacetDistribution::Beckmann => visible_beckmann_slope(stretched, u),
+        };
+        Vec3::new(-self.alpha_u * slope.x, -self.alpha_v * slope.y, 1.0).normalize()
+    }
+
+    fn sample_ggx(&self, v: Vec3, u: Vec2) -> Vec3 {
+        let across = v.x * v.x + v.y * v.y;
+        let t1 = if across > 0.0 { Vec3::new(-v.y, v.x, 0.0) / across.sqrt() } else { Vec3::X };
+        let t2 = v.cross(t1);
+        let (r, phi) = (u.x.sqrt(), 2.0 * PI * u.y);
+        let p1 = r * phi.cos();
+        let s = 0.5 * (1.0 + v.z);
+        let p2 = (1.0 - s) * (1.0 - p1 * p1).max(0.0).sqrt() + s * r * phi.sin();
+        let n = t1 * p1 + t2 * p2 + v * (1.0 - p1 * p1 - p2 * p2).max(0.0).sqrt();
+        Vec3::new(self.alpha_u * n.x, self.alpha_v * n.y, n.z.max(1e-6)).normalize()
+    }
+
+    /// D G F / (4 cos cos) for a reflection, F given: the value of a rough reflecting lobe.
+    pub(crate) fn reflect(&self, wo: Vec3, wi: Vec3, fresnel: impl FnOnce(f32) -> Rgb) -> Rgb {
+        if wo.z <= 0.0 || wi.z <= 0.0 {
+            return Rgb::BLACK;
+        }
+        let h = (wo + wi).normalize();
+        let g = self.visible(wo, h) * self.visible(wi, h);
+        fresnel(wo.dot(h)) * (self.density(h) * g / (4.0 * wo.z * wi.z))
+    }
+}
+
+/// A slope of the facets of roughness 1 as the unit vector `v` sees them.
+///
+/// With c = cot θ, slopes towards the viewer have density ∝ (c − x) e^{−x²} for x < c (x being the slope away from it), whose
+/// integral c √π/2 (1 + erf x) + e^{−x²}/2 is inverted by Newton's method within a bracket. Slopes across are Gaussian.
+fn visible_beckmann_slope(v: Vec3, u: Vec2) -> Vec2 {
+    let sin = f64::from(v.x.hypot(v.y));
+    let root_pi = std::f64::consts::PI.sqrt();
+    let across = inverse_erf(2.0 * f64::from(u.y) - 1.0);
+    let along = if sin < 1e-6 {
+        inverse_erf(2.0 * f64::from(u.x) - 1.0)
+    } else {
+        let cot = f64::from(v.z) / sin;
+        // Divided by the larger of c and 1, so that steep and grazing views are both well scaled.
+        let scale = 1.0 / cot.max(1.0);
+        let cdf = |x: f64| (cot * root_pi * 0.5 * libm::erfc(-x) + 0.5 * (-x * x).exp()) * scale;
+        let (mut low, mut high) = (-6.0, cot.min(6.0));
+        let goal = f64::from(u.x) * cdf(high);
+        let mut x = 0.5 * (low + high);
+        for _ in 0..40 {
+            let excess = cdf(x) - goal;
+            if excess > 0.0 { high = x } else { low = x }
+            let slope = (cot - x) * (-x * x).exp() * scale;
+            let newton = x - excess / slope;
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if (next - x).abs() < 1e-9 {
+                break;
+            }
+            x = next;
+        }
+        x
+    };
+    // In the frame of the view's azimuth, then back. A slope x away from the viewer tilts the normal towards it by −x.
+    let (cos_phi, sin_phi) = if sin < 1e-6 { (1.0, 0.0) } else { (f64::from(v.x) / sin, f64::from(v.y) / sin) };
+    Vec2::new((cos_phi * along - sin_phi * across) as f32, (sin_phi * along + cos_phi * across) as f32)
+}
+
+/// The inverse of the error function on (−1, 1): Winitzki's approximation (2008), polished by Newton's method.
+fn inverse_erf(y: f64) -> f64 {
+    const A: f64 = 0.147;
+    let y = y.clamp(-1.0 + 1e-7, 1.0 - 1e-7);
+    let log = ((1.0 - y) * (1.0 + y)).ln();
+    let t = 2.0 / (std::f64::consts::PI * A) + 0.5 * log;
+    let mut x = ((t * t - log / A).sqrt() - t).max(0.0).sqrt().copysign(y);
+    for _ in 0..3 {
+        let derivative = 2.0 / std::f64::consts::PI.sqrt() * (-x * x).exp();
+        x -= (libm::erf(x) - y) / derivative;
+    }
+    x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use foton_math::{Purpose, Stream};
+
+    fn all() -> Vec<Microfacets> {
+        use MicrofacetDistribution::{Beckmann, Ggx};
+        let isotropic = [0.05, 0.3, 0.9].into_iter().flat_map(|a| [Beckmann, Ggx].map(|d| Microfacets::isotropic(d, a)));
+        let stretched = [Beckmann, Ggx].map(|distribution| Microfacets { distribution, alpha_u: 0.15, alpha_v: 0.6 });
+        isotropic.chain(stretched).collect()
+    }
+
+    fn views() -> [Vec3; 4] {
+        [Vec3::Z, Vec3::new(0.5, 0.2, 0.8), Vec3::new(-0.9, 0.3, 0.25), Vec3::new(0.1, -1.0, 0.08)].map(Vec3::normalize)
+    }
+
+    /// ∫ f over normals, in slope space where the densities are smooth.
+    fn integrate(m: &Microfacets, mut f: impl FnMut(Vec3) -> f64) -> f64 {
+        // x = α tan: the plane mapped from polar coordinates, radius r/(1−r).
+        let (rings, sectors) = (1500, 128);
+        let mut sum = 0.0;
+        for i in 0..rings {
+            let t = (f64::from(i) + 0.5) / f64::from(rings);
+            let radius = 3.0 * t / (1.0 - t);
+            let measure = radius * 3.0 / ((1.0 - t) * (1.0 - t)) / f64::from(rings);
+            for j in 0..sectors {
+                let phi = 2.0 * std::f64::consts::PI * (f64::from(j) + 0.5) / f64::from(sectors);
+                let (x, y) = (radius * phi.cos() * f64::from(m.alpha_u), radius * phi.sin() * f64::from(m.alpha_v));
+                let h = Vec3::new(-x as f32, -y as f32, 1.0).normalize();
+                // dω = cos³ dx dy.
+                let solid = f64::from(h.z).powi(3) * f64::from(m.alpha_u * m.alpha_v);
+                sum += f(h) * solid * measure * 2.0 * std::f64::consts::PI / f64::from(sectors);
+            }
+        }
+        sum
+    }
+
+    #[test]
+    fn facets_cover_the_surface_once_and_fill_what_each_view_sees() {
+        for m in all() {
+            let cover = integrate(&m, |h| f64::from(m.density(h) * h.z));
+            assert!((cover - 1.0).abs() < 2e-3, "{m:?}: {cover}");
+            for v in views() {
+                let seen = integrate(&m, |h| f64::from(m.visible(v, h) * v.dot(h).max(0.0) * m.density(h)));
+                assert!((seen / f64::from(v.z) - 1.0).abs() < 1e-2, "{m:?} {v}: {seen}");
+            }
+        }
+    }
+
+    #[test]
+    fn sampled_normals_follow_their_density() {
+        // χ² over 8 × 8 bins of slope direction and steepness, expectations by quadrature.
+        let mut stream = Stream::new(21, Purpose::Test, 0, 0);
+        for m in all() {
+            for v in views() {
+                let bin = |h: Vec3| {
+                    let (x, y) = (h.x / h.z / m.alpha_u, h.y / h.z / m.alpha_v);
+                    let steep = ((x.hypot(y) / (1.0 + x.hypot(y))) * 8.0) as usize;
+                    let azimuth = ((y.atan2(x) / (2.0 * PI) + 0.5) * 8.0) as usize;
+                    steep.min(7) * 8 + azimuth.min(7)
+                };
+                let n = 40_000;
+                let mut expected = [0.0f64; 64];
+                integrate(&m, |h| {
+                    let p = f64::from(m.pdf(v, h));
+                    let (x, y) = (h.x / h.z / m.alpha_u, h.y / h.z / m.alpha_v);
+                    let radius = f64::from(x.hypot(y));
+                    let t = radius / (3.0 + radius);
+                    let solid = f64::from(h.z).powi(3) * f64::from(m.alpha_u * m.alpha_v);
+                    let measure = radius * 3.0 / ((1.0 - t) * (1.0 - t)) / 1500.0;
+                    expected[bin(h)] += p * solid * measure * 2.0 * std::f64::consts::PI / 128.0 * f64::from(n);
+                    0.0
+                });
+                let mut count = [0.0f64; 64];
+                for _ in 0..n {
+                    count[bin(m.sample(v, stream.next_2d()))] += 1.0;
+                }
+                let (mut chi2, mut dof, mut rest) = (0.0, -1.0, (0.0, 0.0));
+                for (c, e) in count.iter().zip(expected) {
+                    if e < 10.0 {
+                        rest = (rest.0 + c, rest.1 + e);
+                    } else {
+                        chi2 += (c - e).powi(2) / e;
+                        dof += 1.0;
+                    }
+                }
+                if rest.1 > 10.0 {
+                    chi2 += (rest.0 - rest.1).powi(2) / rest.1;
+                    dof += 1.0;
+                }
+                // Wilson–Hilferty at p = 2·10⁻⁴ (Šidák for 32 tests at 0.01 is 3·10⁻⁴).
+                let k: f64 = 2.0 / (9.0 * dof);
+                let bound = dof * (1.0 - k + 3.55 * k.sqrt()).powi(3);
+                assert!(chi2 < bound, "{m:?} {v}: χ² {chi2}, bound {bound} ({dof} dof)");
+            }
+        }
+    }
+
+    #[test]
+    fn the_inverse_error_function_inverts() {
+        let mut stream = Stream::new(3, Purpose::Test, 0, 0);
+        for _ in 0..1000 {
+            let y = f64::from(2.0 * stream.next_1d() - 1.0) * 0.999_999;
+            assert!((libm::erf(inverse_erf(y)) - y).abs() < 1e-12, "{y}");
+        }
+    }
+}

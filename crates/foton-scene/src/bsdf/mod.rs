@@ -1,0 +1,549 @@
+//! What surfaces do with light: lobes of each BSDF, split into those that eye paths follow and those that hit points keep.
+//!
+//! Directions are local: z is the shading normal on the outside, `wo` points to where the path came from, `wi` to where it
+//! goes. No texture lookups, no geometry: correcting for shading normals is the path's business.
+//!
+//! A lobe is *followed* if it is a single direction or narrower than [`FOLLOWED_ROUGHNESS`]: a hit point there would find
+//! photons in a sliver of directions only. All others are *kept*: hit points weigh photons with them. Light refracted by
+//! rough glass is always followed, since photons would have to be looked for on both sides.
+
+mod fresnel;
+mod microfacet;
+
+use std::f32::consts::FRAC_1_PI;
+
+use foton_math::glam::{Vec2, Vec3};
+use foton_math::{Rgb, warp};
+
+use crate::description::{Bsdf, Microfacets};
+
+/// Lobes of at most this roughness α are followed by eye paths. Below it a lobe is narrower than about 6° and a hit point
+/// would weigh a few photons very much and most not at all.
+pub const FOLLOWED_ROUGHNESS: f32 = 0.1;
+
+/// What flows along the path: it decides whether refraction scales by the squared relative index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Transport {
+    /// Eye paths: radiance is compressed or spread by refraction.
+    Radiance,
+    /// Photon paths: power is not.
+    Importance,
+}
+
+/// A direction in which a followed lobe continues.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FollowedLobe {
+    /// Unit direction.
+    pub wi: Vec3,
+    /// What the path's weight is multiplied with when every lobe is followed.
+    pub weight: Rgb,
+    /// The chance with which a path that follows a single lobe should take this one; chances of all lobes sum to 1 at most.
+    pub probability: f32,
+}
+
+/// Lobes that can be followed at once: reflection, refraction, straight on.
+pub const LOBES: usize = 3;
+
+/// The kind of a lobe that a path took.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lobe {
+    /// One that hit points keep.
+    Kept,
+    /// One that eye paths follow.
+    Followed,
+}
+
+/// One direction chosen at random.
+#[derive(Clone, Copy, Debug)]
+pub struct BsdfSample {
+    /// Unit direction.
+    pub wi: Vec3,
+    /// `f · |cos θ| / pdf`, the chance of the lobe included.
+    pub weight: Rgb,
+    /// What kind of lobe it came from.
+    pub lobe: Lobe,
+}
+
+/// A BSDF at a point of a surface: colours looked up, and how much of the surface is there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scattering {
+    /// The BSDF.
+    pub bsdf: Bsdf<Rgb>,
+    /// Share of light that meets the surface; the rest passes straight through.
+    pub opacity: f32,
+}
+
+impl Microfacets {
+    /// Whether eye paths follow a lobe of this roughness.
+    const fn is_followed(&self) -> bool {
+        self.widest() <= FOLLOWED_ROUGHNESS
+    }
+}
+
+impl<C: Copy> Bsdf<C> {
+    /// Whether hit points keep any of its lobes.
+    #[must_use]
+    pub fn keeps(&self) -> bool {
+        match self {
+            Self::Diffuse { .. } | Self::Plastic { .. } => true,
+            Self::Conductor { roughness, .. } => roughness.is_some_and(|r| !r.is_followed()),
+            Self::Dielectric { .. } | Self::ThinDielectric { .. } | Self::Mirror { .. } | Self::Null => false,
+        }
+    }
+
+    /// Whether eye paths follow any of its lobes.
+    #[must_use]
+    pub fn follows(&self) -> bool {
+        match self {
+            Self::Diffuse { .. } => false,
+            Self::Conductor { roughness, .. } | Self::Plastic { roughness, .. } => {
+                roughness.is_none_or(|r| r.is_followed())
+            }
+            Self::Dielectric { .. } | Self::ThinDielectric { .. } | Self::Mirror { .. } | Self::Null => true,
+        }
+    }
+
+    /// Whether it describes both sides of the surface by itself, since light passes through.
+    #[must_use]
+    pub const fn transmits(&self) -> bool {
+        matches!(self, Self::Dielectric { .. } | Self::ThinDielectric { .. } | Self::Null)
+    }
+
+    /// Its microfacets, if any.
+    #[must_use]
+    pub const fn roughness(&self) -> Option<Microfacets> {
+        match self {
+            Self::Dielectric { roughness, .. }
+            | Self::Conductor { roughness, .. }
+            | Self::Plastic { roughness, .. } => *roughness,
+            _ => None,
+        }
+    }
+
+    /// The same BSDF with its colours replaced.
+    pub fn map<D>(&self, mut f: impl FnMut(C) -> D) -> Bsdf<D> {
+        match *self {
+            Self::Diffuse { reflectance } => Bsdf::Diffuse { reflectance: f(reflectance) },
+            Self::Dielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance, roughness } => {
+                Bsdf::Dielectric {
+                    int_ior,
+                    ext_ior,
+                    specular_reflectance: f(specular_reflectance),
+                    specular_transmittance: f(specular_transmittance),
+                    roughness,
+                }
+            }
+            Self::ThinDielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance } => {
+                Bsdf::ThinDielectric {
+                    int_ior,
+                    ext_ior,
+                    specular_reflectance: f(specular_reflectance),
+                    specular_transmittance: f(specular_transmittance),
+                }
+            }
+            Self::Mirror { reflectance } => Bsdf::Mirror { reflectance: f(reflectance) },
+            Self::Conductor { eta, k, specular_reflectance, roughness } => {
+                Bsdf::Conductor { eta, k, specular_reflectance: f(specular_reflectance), roughness }
+            }
+            Self::Plastic { int_ior, ext_ior, diffuse_reflectance, specular_reflectance, nonlinear, roughness } => {
+                Bsdf::Plastic {
+                    int_ior,
+                    ext_ior,
+                    diffuse_reflectance: f(diffuse_reflectance),
+                    specular_reflectance: f(specular_reflectance),
+                    nonlinear,
+                    roughness,
+                }
+            }
+            Self::Null => Bsdf::Null,
+        }
+    }
+}
+
+impl Scattering {
+    /// `π f` if what hit points keep is exactly Lambertian.
+    #[must_use]
+    pub fn lambertian(&self) -> Option<Rgb> {
+        match self.bsdf {
+            Bsdf::Diffuse { reflectance } => Some(reflectance * self.opacity),
+            _ => None,
+        }
+    }
+
+    /// The value `f(wo, wi)` of the kept lobes, without the cosine (sr⁻¹).
+    #[must_use]
+    pub fn eval_kept(&self, wo: Vec3, wi: Vec3) -> Rgb {
+        self.eval_where(wo, wi, |roughness| !roughness.is_followed())
+    }
+
+    /// The value `f(wo, wi)` of all lobes but delta ones, without the cosine (sr⁻¹).
+    #[must_use]
+    pub fn eval(&self, wo: Vec3, wi: Vec3) -> Rgb {
+        self.eval_where(wo, wi, |_| true)
+    }
+
+    fn eval_where(&self, wo: Vec3, wi: Vec3, counts: impl Fn(&Microfacets) -> bool) -> Rgb {
+        if wo.z == 0.0 || wi.z == 0.0 {
+            return Rgb::BLACK;
+        }
+        let same_side = wo.z * wi.z > 0.0;
+        // Reflectors are seen from above; a material's other side is turned around before it gets here.
+        let (up_o, up_i) = (wo * 1f32.copysign(wo.z), wi * 1f32.copysign(wi.z));
+        let value = match self.bsdf {
+            Bsdf::Diffuse { reflectance } if same_side => reflectance * FRAC_1_PI,
+            Bsdf::Conductor { eta, k, specular_reflectance, roughness: Some(r) } if same_side && counts(&r) => {
+                r.reflect(up_o, up_i, |cos| fresnel::conductor(cos, eta, k)) * specular_reflectance
+            }
+            Bsdf::Dielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance, roughness: Some(r) }
+                if counts(&r) =>
+            {
+                rough_glass(&r, wo, wi, int_ior, ext_ior, specular_reflectance, specular_transmittance)
+            }
+            Bsdf::Plastic { roughness, .. } if same_side => {
+                let coat = roughness.filter(|r| counts(r)).map_or(Rgb::BLACK, |r| self.coat(&r, up_o, up_i));
+                self.base(up_o, up_i) + coat
+            }
+            _ => Rgb::BLACK,
+        };
+        value * self.opacity
+    }
+
+    /// Light reflected by a rough coat.
+    fn coat(&self, r: &Microfacets, wo: Vec3, wi: Vec3) -> Rgb {
+        let Bsdf::Plastic { int_ior, ext_ior, specular_reflectance, .. } = self.bsdf else { return Rgb::BLACK };
+        let fresnel = |cos: f32| Rgb::splat(fresnel_at(cos, int_ior, ext_ior));
+        r.reflect(wo, wi, fresnel) * specular_reflectance
+    }
+
+    /// Light that enters a coat, is spread by the base and leaves again, reflections inside the coat summed up. The coat's
+    /// boundary is taken as smooth here.
+    fn base(&self, wo: Vec3, wi: Vec3) -> Rgb {
+        let Bsdf::Plastic { int_ior, ext_ior, diffuse_reflectance, nonlinear, .. } = self.bsdf else {
+            return Rgb::BLACK;
+        };
+        let enters = |w: Vec3| 1.0 - fresnel_at(w.z, int_ior, ext_ior);
+        let eta = ext_ior / int_ior;
+        let inside = fresnel::diffuse_reflectance(eta);
+        let again = if nonlinear { diffuse_reflectance * inside } else { Rgb::splat(inside) };
+        let scale = enters(wo) * enters(wi) * eta * eta * FRAC_1_PI;
+        Rgb::new(
+            diffuse_reflectance.r / (1.0 - again.r),
+            diffuse_reflectance.g / (1.0 - again.g),
+            diffuse_reflectance.b / (1.0 - again.b),
+        ) * scale
+    }
+
+    /// The chance with which a photon from `wo` takes the coat rather than the base.
+    fn coat_chance(&self, wo: Vec3) -> f32 {
+        let Bsdf::Plastic { int_ior, ext_ior, diffuse_reflectance, specular_reflectance, .. } = self.bsdf else {
+            return 0.0;
+        };
+        let f = fresnel_at(wo.z.abs(), int_ior, ext_ior);
+        let (coat, base) = (specular_reflectance.mean() * f, diffuse_reflectance.mean() * (1.0 - f));
+        if coat + base > 0.0 { coat / (coat + base) } else { 0.0 }
+    }
+
+    /// The followed lobes: reflection, refraction, straight on; absent ones are `None`. Rough ones are followed in one
+    /// direction, chosen by `u`.
+    #[must_use]
+    pub fn followed_lobes(&self, wo: Vec3, transport: Transport, u: Vec2) -> [Option<FollowedLobe>; LOBES] {
+        let straight = |chance: f32, tint: Rgb| {
+            (chance > 0.0).then(|| FollowedLobe { wi: -wo, weight: tint * chance, probability: chance })
+        };
+        let mut lobes = match self.bsdf {
+            Bsdf::Diffuse { .. } => [None; LOBES],
+            Bsdf::Null => [None, None, straight(1.0, Rgb::WHITE)],
+            Bsdf::Mirror { reflectance } => [single(mirrored(wo), reflectance), None, None],
+            Bsdf::Conductor { eta, k, specular_reflectance, roughness } => match roughness {
+                None => [single(mirrored(wo), fresnel::conductor(wo.z.abs(), eta, k) * specular_reflectance), None, None],
+                Some(r) if r.is_followed() => {
+                    [rough_metal(&r, wo, u, eta, k, specular_reflectance), None, None]
+                }
+                Some(_) => [None; LOBES],
+            },
+            Bsdf::ThinDielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance } => {
+                let once = fresnel_at(wo.z.abs(), int_ior, ext_ior);
+                // R + T R T + T R³ T + … = 2R/(1 + R).
+                let f = if once < 1.0 { 2.0 * once / (1.0 + once) } else { 1.0 };
+                let reflected = FollowedLobe { wi: mirrored(wo), weight: specular_reflectance * f, probability: f };
+                [Some(reflected), None, straight(1.0 - f, specular_transmittance)]
+            }
+            Bsdf::Dielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance, roughness } => {
+                let colours = [specular_reflectance, specular_transmittance];
+                glass_lobes(wo, transport, u, [int_ior, ext_ior], colours, roughness)
+            }
+            Bsdf::Plastic { int_ior, ext_ior, specular_reflectance, roughness, .. } => {
+                let f = Rgb::splat(fresnel_at(wo.z.abs(), int_ior, ext_ior));
+                match roughness {
+                    None => [single(mirrored(wo), f * specular_reflectance), None, None],
+                    Some(r) if r.is_followed() => [self.rough_coat_lobe(&r, wo, u), None, None],
+                    Some(_) => [None; LOBES],
+                }
+            }
+        };
+        if self.opacity < 1.0 {
+            for lobe in lobes.iter_mut().flatten() {
+                lobe.weight *= self.opacity;
+                lobe.probability *= self.opacity;
+            }
+            let before = lobes[2].map_or((Rgb::BLACK, 0.0), |l| (l.weight, l.probability));
+            let through = 1.0 - self.opacity;
+            lobes[2] = Some(FollowedLobe {
+                wi: -wo,
+                weight: before.0 + Rgb::splat(through),
+                probability: before.1 + through,
+            });
+        }
+        lobes
+    }
+
+    fn rough_coat_lobe(&self, r: &Microfacets, wo: Vec3, u: Vec2) -> Option<FollowedLobe> {
+        let Bsdf::Plastic { int_ior, ext_ior, specular_reflectance, .. } = self.bsdf else { return None };
+        reflect_by_facet(r, wo, u, |cos| {
+            Rgb::splat(fresnel_at(cos, int_ior, ext_ior)) * specular_reflectance
+        })
+    }
+
+    /// One followed lobe, chosen by `u_lobe` in [0, 1) with the lobes' chances; its weight is not divided by its chance.
+    /// `None` with the chance of lobes that are absent: rough ones that would leave below the surface.
+    #[must_use]
+    pub fn choose_followed(&self, wo: Vec3, transport: Transport, u_lobe: f32, u: Vec2) -> Option<FollowedLobe> {
+        // Chances that sum to 1 but for rounding leave no gap at the end.
+        const ROUNDING: f32 = 1e-6;
+        let lobes = self.followed_lobes(wo, transport, u);
+        let mut left = u_lobe;
+        for lobe in lobes.iter().flatten() {
+            if left < lobe.probability + ROUNDING {
+                return Some(*lobe).filter(|l| l.probability > 0.0);
+            }
+            left -= lobe.probability;
+        }
+        None
+    }
+
+    /// Chooses a direction for a photon that came from `wo`; `None` where nothing is scattered.
+    #[must_use]
+    pub fn sample(&self, wo: Vec3, transport: Transport, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
+        let whole = Self { opacity: 1.0, ..*self };
+        if self.opacity >= 1.0 {
+            return whole.sample_surface(wo, transport, u_lobe, u);
+        }
+        if u_lobe < self.opacity {
+            return whole.sample_surface(wo, transport, u_lobe / self.opacity, u);
+        }
+        Some(BsdfSample { wi: -wo, weight: Rgb::WHITE, lobe: Lobe::Followed })
+    }
+
+    fn sample_surface(&self, wo: Vec3, transport: Transport, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
+        match self.bsdf {
+            Bsdf::Diffuse { reflectance } => {
+                Some(BsdfSample { wi: cosine(wo, u), weight: reflectance, lobe: Lobe::Kept })
+            }
+            Bsdf::Conductor { eta, k, specular_reflectance, roughness: Some(r) } if !r.is_followed() => {
+                let lobe = rough_metal(&r, wo, u, eta, k, specular_reflectance)?;
+                Some(BsdfSample { wi: lobe.wi, weight: lobe.weight, lobe: Lobe::Kept })
+            }
+            Bsdf::Plastic { roughness, .. } => self.sample_plastic(wo, transport, u_lobe, u, roughness),
+            _ => {
+                let lobe = self.choose_followed(wo, transport, u_lobe, u)?;
+                Some(BsdfSample { wi: lobe.wi, weight: lobe.weight / lobe.probability, lobe: Lobe::Followed })
+            }
+        }
+    }
+
+    fn sample_plastic(
+        &self,
+        wo: Vec3,
+        transport: Transport,
+        u_lobe: f32,
+        u: Vec2,
+        roughness: Option<Microfacets>,
+    ) -> Option<BsdfSample> {
+        let chance = self.coat_chance(wo);
+        let coat = u_lobe < chance;
+        let up = |w: Vec3| w * 1f32.copysign(wo.z);
+        match roughness {
+            // Lobes that overlap are weighed together.
+            Some(r) if !r.is_followed() => {
+                let wi = if coat { self.rough_coat_lobe(&r, wo, u)?.wi } else { cosine(wo, u) };
+                let pdf = self.pdf(wo, wi);
+                (pdf > 0.0 && wi.z * wo.z > 0.0).then(|| BsdfSample {
+                    wi,
+                    weight: self.eval(wo, wi) * (wi.z.abs() / pdf),
+                    lobe: Lobe::Kept,
+                })
+            }
+            _ if coat => {
+                let [lobe, ..] = self.followed_lobes(wo, transport, u);
+                lobe.map(|l| BsdfSample { wi: l.wi, weight: l.weight / chance, lobe: Lobe::Followed })
+            }
+            _ => {
+                let wi = cosine(wo, u);
+                let weight = self.base(up(wo), up(wi)) * (std::f32::consts::PI / (1.0 - chance));
+                Some(BsdfSample { wi, weight, lobe: Lobe::Kept })
+            }
+        }
+    }
+
+    /// Density of all lobes but delta ones in [`Scattering::sample`], per unit solid angle, the chance of lobes included.
+    #[must_use]
+    pub fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        if wo.z == 0.0 || wi.z == 0.0 {
+            return 0.0;
+        }
+        let same_side = wo.z * wi.z > 0.0;
+        let (up_o, up_i) = (wo * 1f32.copysign(wo.z), wi * 1f32.copysign(wi.z));
+        let facet = |r: &Microfacets| {
+            let h = (up_o + up_i).normalize();
+            r.pdf(up_o, h) / (4.0 * up_o.dot(h)).max(f32::MIN_POSITIVE)
+        };
+        let pdf = match self.bsdf {
+            Bsdf::Diffuse { .. } if same_side => warp::square_to_cosine_hemisphere_pdf(up_i),
+            Bsdf::Conductor { roughness: Some(r), .. } if same_side => facet(&r),
+            Bsdf::Dielectric { int_ior, ext_ior, roughness: Some(r), .. } => rough_glass_pdf(&r, wo, wi, int_ior, ext_ior),
+            Bsdf::Plastic { roughness, .. } if same_side => {
+                let chance = self.coat_chance(wo);
+                let coat = roughness.map_or(0.0, |r| facet(&r));
+                chance * coat + (1.0 - chance) * warp::square_to_cosine_hemisphere_pdf(up_i)
+            }
+            _ => 0.0,
+        };
+        pdf * self.opacity
+    }
+}
+
+fn mirrored(wo: Vec3) -> Vec3 {
+    Vec3::new(-wo.x, -wo.y, wo.z)
+}
+
+fn single(wi: Vec3, weight: Rgb) -> Option<FollowedLobe> {
+    Some(FollowedLobe { wi, weight, probability: 1.0 })
+}
+
+/// Cosine-distributed on `wo`'s side.
+fn cosine(wo: Vec3, u: Vec2) -> Vec3 {
+    let wi = warp::square_to_cosine_hemisphere(u);
+    if wo.z < 0.0 { -wi } else { wi }
+}
+
+/// Fresnel reflectance of a dielectric at a cosine on the side of `ext_ior`.
+fn fresnel_at(cos: f32, int_ior: f32, ext_ior: f32) -> f32 {
+    let cos = cos.clamp(0.0, 1.0);
+    fresnel::dielectric(Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos), int_ior, ext_ior).reflectance
+}
+
+/// Reflection by a facet normal chosen as `wo` sees them; its weight is F G₁(wi).
+fn reflect_by_facet(r: &Microfacets, wo: Vec3, u: Vec2, fresnel: impl FnOnce(f32) -> Rgb) -> Option<FollowedLobe> {
+    let side = 1f32.copysign(wo.z);
+    let up = wo * side;
+    let h = r.sample(up, u);
+    let wi = h * (2.0 * up.dot(h)) - up;
+    (wi.z > 0.0).then(|| FollowedLobe {
+        wi: wi * side,
+        weight: fresnel(up.dot(h)) * r.visible(wi, h),
+        probability: 1.0,
+    })
+}
+
+fn rough_metal(r: &Microfacets, wo: Vec3, u: Vec2, eta: Rgb, k: Rgb, tint: Rgb) -> Option<FollowedLobe> {
+    reflect_by_facet(r, wo, u, |cos| fresnel::conductor(cos, eta, k) * tint)
+}
+
+/// Reflection and refraction at glass, by the surface's normal or by a facet's.
+fn glass_lobes(
+    wo: Vec3,
+    transport: Transport,
+    u: Vec2,
+    [int_ior, ext_ior]: [f32; 2],
+    [reflected, refracted]: [Rgb; 2],
+    roughness: Option<Microfacets>,
+) -> [Option<FollowedLobe>; LOBES] {
+    let side = 1f32.copysign(wo.z);
+    let h = roughness.map_or(Vec3::Z, |r| r.sample(wo * side, u)) * side;
+    // The boundary in the facet's own frame, whose z is the facet's normal on the outside.
+    let frame = foton_math::Frame::from_normal(h * side);
+    let local = if roughness.is_some() { frame.to_local(wo) } else { wo };
+    let back = |w: Vec3| if roughness.is_some() { frame.to_outer(w) } else { w };
+    let boundary = fresnel::dielectric(local, int_ior, ext_ior);
+    let f = boundary.reflectance;
+    let visible = |wi: Vec3, same_side: bool| match roughness {
+        None => 1.0,
+        Some(_) if (wi.z * wo.z > 0.0) != same_side => 0.0,
+        Some(r) => r.visible(wi, h * side),
+    };
+    let spread = match transport {
+        Transport::Radiance => boundary.relative_ior * boundary.relative_ior,
+        Transport::Importance => 1.0,
+    };
+    let lobe = |wi: Vec3, chance: f32, tint: Rgb, same_side: bool| {
+        let weight = tint * (chance * visible(wi, same_side));
+        (!weight.is_black()).then_some(FollowedLobe { wi, weight, probability: chance })
+    };
+    let reflection = (f > 0.0).then(|| lobe(back(mirrored(local)), f, reflected, true)).flatten();
+    let refraction =
+        boundary.refracted.filter(|_| f < 1.0).and_then(|wi| lobe(back(wi), 1.0 - f, refracted * spread, false));
+    [reflection, refraction, None]
+}
+
+/// `f(wo, wi)` of rough glass for radiance, reflection and refraction. `[WML07]` equations 20 and 21
+fn rough_glass(
+    r: &Microfacets,
+    wo: Vec3,
+    wi: Vec3,
+    int_ior: f32,
+    ext_ior: f32,
+    reflected: Rgb,
+    refracted: Rgb,
+) -> Rgb {
+    let Some(facet) = GlassFacet::between(wo, wi, int_ior, ext_ior) else { return Rgb::BLACK };
+    let g = r.visible(wo, facet.normal) * r.visible(wi, facet.normal);
+    let d = r.density(facet.normal) * g / (wo.z * wi.z).abs();
+    if wo.z * wi.z > 0.0 {
+        return reflected * (facet.reflectance * d * 0.25);
+    }
+    let jacobian = (wo.dot(facet.normal) * wi.dot(facet.normal)).abs() / facet.denominator(wo, wi).powi(2);
+    // Radiance: the squared relative index of both sides cancels the jacobian's.
+    refracted * ((1.0 - facet.reflectance) * d * jacobian * facet.eta * facet.eta)
+}
+
+/// The density of directions that sampling rough glass has.
+fn rough_glass_pdf(r: &Microfacets, wo: Vec3, wi: Vec3, int_ior: f32, ext_ior: f32) -> f32 {
+    let Some(facet) = GlassFacet::between(wo, wi, int_ior, ext_ior) else { return 0.0 };
+    let side = 1f32.copysign(wo.z);
+    let pdf = r.pdf(wo * side, facet.normal);
+    if wo.z * wi.z > 0.0 {
+        return facet.reflectance * pdf / (4.0 * wo.dot(facet.normal).abs());
+    }
+    let jacobian = wi.dot(facet.normal).abs() / facet.denominator(wo, wi).powi(2);
+    (1.0 - facet.reflectance) * pdf * jacobian
+}
+
+/// The facet that takes one direction to another.
+struct GlassFacet {
+    /// Its normal, with z > 0.
+    normal: Vec3,
+    reflectance: f32,
+    /// Index on `wo`'s side over that on the other.
+    eta: f32,
+}
+
+impl GlassFacet {
+    fn between(wo: Vec3, wi: Vec3, int_ior: f32, ext_ior: f32) -> Option<Self> {
+        let eta = if wo.z > 0.0 { ext_ior / int_ior } else { int_ior / ext_ior };
+        let sum = if wo.z * wi.z > 0.0 { wo + wi } else { wo * eta + wi };
+        let normal = sum.try_normalize()?;
+        let normal = normal * 1f32.copysign(normal.z);
+        let faces = wo.dot(normal) * wo.z > 0.0 && wi.dot(normal) * wi.z > 0.0;
+        let local = foton_math::Frame::from_normal(normal).to_local(wo);
+        let reflectance = fresnel::dielectric(local, int_ior, ext_ior).reflectance;
+        faces.then_some(Self { normal, reflectance, eta })
+    }
+
+    /// η (wo·h) + (wi·h), the indices being relative to `wi`'s side.
+    fn denominator(&self, wo: Vec3, wi: Vec3) -> f32 {
+        self.eta * wo.dot(self.normal) + wi.dot(self.normal)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,247 @@
+//! Every BSDF against the same laws: sampling follows its density, weights are value × cosine / density, energy is not made,
+//! light paths can be reversed.
+
+use super::*;
+use crate::description::MicrofacetDistribution::{self, Beckmann, Ggx};
+use foton_math::{Purpose, Stream};
+
+fn at(bsdf: Bsdf<Rgb>) -> Scattering {
+    Scattering { bsdf, opacity: 1.0 }
+}
+
+fn glass(roughness: Option<Microfacets>) -> Bsdf<Rgb> {
+    let (specular_reflectance, specular_transmittance) = (Rgb::WHITE, Rgb::WHITE);
+    Bsdf::Dielectric { int_ior: 1.5, ext_ior: 1.0, specular_reflectance, specular_transmittance, roughness }
+}
+
+fn rough(distribution: MicrofacetDistribution, alpha: f32) -> Option<Microfacets> {
+    Some(Microfacets::isotropic(distribution, alpha))
+}
+
+fn gold(roughness: Option<Microfacets>) -> Bsdf<Rgb> {
+    let (eta, k) = (Rgb::new(0.143, 0.375, 1.442), Rgb::new(3.983, 2.386, 1.603));
+    Bsdf::Conductor { eta, k, specular_reflectance: Rgb::WHITE, roughness }
+}
+
+fn plastic(nonlinear: bool, roughness: Option<Microfacets>) -> Bsdf<Rgb> {
+    Bsdf::Plastic {
+        int_ior: 1.49,
+        ext_ior: 1.0,
+        diffuse_reflectance: Rgb::new(0.2, 0.5, 0.9),
+        specular_reflectance: Rgb::WHITE,
+        nonlinear,
+        roughness,
+    }
+}
+
+fn all() -> Vec<Scattering> {
+    let stretched = Some(Microfacets { distribution: Ggx, alpha_u: 0.1, alpha_v: 0.4 });
+    let mut all: Vec<Scattering> = [
+        Bsdf::Diffuse { reflectance: Rgb::new(0.2, 0.5, 0.8) },
+        Bsdf::Mirror { reflectance: Rgb::splat(0.9) },
+        Bsdf::Null,
+        Bsdf::ThinDielectric {
+            int_ior: 1.5,
+            ext_ior: 1.0,
+            specular_reflectance: Rgb::WHITE,
+            specular_transmittance: Rgb::WHITE,
+        },
+        glass(None),
+        glass(rough(Beckmann, 0.3)),
+        glass(rough(Ggx, 0.08)),
+        glass(stretched),
+        gold(None),
+        gold(rough(Beckmann, 0.25)),
+        gold(rough(Ggx, 0.05)),
+        gold(stretched),
+        plastic(false, None),
+        plastic(true, rough(Ggx, 0.05)),
+        plastic(true, rough(Beckmann, 0.3)),
+    ]
+    .map(at)
+    .to_vec();
+    all.push(Scattering { opacity: 0.4, ..all[0] });
+    all
+}
+
+fn views() -> [Vec3; 5] {
+    [
+        Vec3::Z,
+        Vec3::new(0.6, 0.1, 0.7),
+        Vec3::new(-0.9, 0.3, 0.3),
+        Vec3::new(0.2, -0.5, -0.6),
+        Vec3::new(0.9, 0.1, -0.2),
+    ]
+    .map(Vec3::normalize)
+}
+
+/// Whether light arrives at all on that side of a one-sided reflector.
+fn is_lit(s: &Scattering, wo: Vec3) -> bool {
+    wo.z > 0.0 || s.bsdf.transmits()
+}
+
+#[test]
+fn weights_are_value_times_cosine_over_density() {
+    let mut stream = Stream::new(31, Purpose::Test, 0, 0);
+    for s in all() {
+        for wo in views().into_iter().filter(|&w| is_lit(&s, w)) {
+            for _ in 0..2000 {
+                let sample = s.sample(wo, Transport::Radiance, stream.next_1d(), stream.next_2d());
+                let Some(sample) = sample else { continue };
+                assert!((sample.wi.length() - 1.0).abs() < 1e-4 && sample.weight.is_finite(), "{s:?} {wo}");
+                let rough_lobe = s.bsdf.roughness().is_some();
+                let delta = sample.lobe == Lobe::Followed && !rough_lobe;
+                // Lobes of a smooth coat and its base are weighed apart, and so are those of a thin layer of opacity.
+                if delta || s.opacity < 1.0 || matches!(s.bsdf, Bsdf::Plastic { roughness: None, .. }) {
+                    continue;
+                }
+                if matches!(s.bsdf, Bsdf::Plastic { .. }) && s.bsdf.follows() {
+                    continue;
+                }
+                if sample.wi.z.abs() < 1e-3 {
+                    continue;
+                }
+                let expected = s.eval(wo, sample.wi) * (sample.wi.z.abs() / s.pdf(wo, sample.wi));
+                let error = (expected - sample.weight).map(f32::abs).max_component();
+                assert!(error <= 2e-2 * sample.weight.max_component().max(1e-3), "{s:?} {wo} {sample:?} {expected:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn sampling_brings_the_light_that_the_value_says() {
+    // E[weight · g(wi)] by sampling the BSDF = ∫ f cos g by sampling the sphere, for a g that tells directions apart; delta
+    // lobes are added from their own list.
+    let g = |w: Vec3| 1.0 + 0.5 * w.x + 0.3 * w.y * w.z + if w.z > 0.0 { 0.7 } else { 0.0 };
+    let mut stream = Stream::new(32, Purpose::Test, 0, 0);
+    for s in all() {
+        // Narrow lobes would need far more points on the sphere.
+        if s.bsdf.roughness().is_some_and(|r| r.alpha_u < 0.2) {
+            continue;
+        }
+        for wo in views().into_iter().filter(|&w| is_lit(&s, w)) {
+            let n = 200_000;
+            let (mut a, mut a2, mut b, mut b2) = (0.0f64, 0.0f64, 0.0f64, 0.0f64);
+            for _ in 0..n {
+                let sample = s.sample(wo, Transport::Radiance, stream.next_1d(), stream.next_2d());
+                let x = sample.map_or(0.0, |x| f64::from(x.weight.g * g(x.wi)));
+                let w = warp::square_to_sphere(stream.next_2d());
+                let y = f64::from(s.eval(wo, w).g * w.z.abs() * g(w) / warp::square_to_sphere_pdf());
+                (a, a2, b, b2) = (a + x, a2 + x * x, b + y, b2 + y * y);
+            }
+            let count = f64::from(n);
+            if s.bsdf.roughness().is_none() {
+                let lobes = s.followed_lobes(wo, Transport::Radiance, Vec2::splat(0.5));
+                b += lobes.iter().flatten().map(|l| f64::from(l.weight.g * g(l.wi))).sum::<f64>() * count;
+            }
+            let sigma = ((a2 + b2) / count).sqrt() / count.sqrt();
+            assert!((a - b).abs() / count < 4.5 * sigma, "{s:?} {wo}: {} {} ± {sigma}", a / count, b / count);
+        }
+    }
+}
+
+#[test]
+fn densities_integrate_to_the_chance_of_scattering() {
+    let mut stream = Stream::new(33, Purpose::Test, 0, 0);
+    for s in all().into_iter().filter(|s| s.bsdf.roughness().is_some_and(|r| r.alpha_u > 0.2)) {
+        for wo in views().into_iter().filter(|&w| is_lit(&s, w)) {
+            let n = 400_000;
+            let (mut p, mut p2) = (0.0, 0.0);
+            for _ in 0..n {
+                let w = warp::square_to_sphere(stream.next_2d());
+                let x = f64::from(s.pdf(wo, w) / warp::square_to_sphere_pdf());
+                (p, p2) = (p + x, p2 + x * x);
+            }
+            let (mean, sigma) = (p / f64::from(n), (p2.sqrt()) / f64::from(n));
+            // Facets may send light below the surface; those samples are lost.
+            assert!(mean < 1.0 + 4.0 * sigma && mean > 0.6, "{s:?} {wo}: {mean} ± {sigma}");
+        }
+    }
+}
+
+#[test]
+fn no_bsdf_makes_energy() {
+    let mut stream = Stream::new(34, Purpose::Test, 0, 0);
+    for s in all() {
+        for wo in views().into_iter().filter(|&w| is_lit(&s, w)) {
+            let n = 40_000;
+            let sum: f64 = (0..n)
+                .filter_map(|_| s.sample(wo, Transport::Importance, stream.next_1d(), stream.next_2d()))
+                .map(|x| f64::from(x.weight.max_component()))
+                .sum();
+            assert!(sum / f64::from(n) < 1.0 + 0.02, "{s:?} {wo}: {}", sum / f64::from(n));
+        }
+    }
+}
+
+#[test]
+fn reflection_is_reciprocal_and_refraction_up_to_the_squared_index() {
+    let mut stream = Stream::new(35, Purpose::Test, 0, 0);
+    for s in all() {
+        for _ in 0..2000 {
+            let (a, b) = (warp::square_to_sphere(stream.next_2d()), warp::square_to_sphere(stream.next_2d()));
+            let forth = s.eval(a, b).g;
+            let mut back = s.eval(b, a).g;
+            if let (Bsdf::Dielectric { int_ior, ext_ior, .. }, true) = (s.bsdf, a.z * b.z < 0.0) {
+                // f(a, b)/η_a² = f(b, a)/η_b².
+                let ior = |w: Vec3| if w.z > 0.0 { ext_ior } else { int_ior };
+                back *= (ior(a) / ior(b)).powi(2);
+            }
+            assert!((forth - back).abs() <= 2e-3 * forth.abs().max(1e-3), "{s:?} {a} {b}: {forth} {back}");
+        }
+    }
+}
+
+#[test]
+fn glass_loses_no_power_and_radiance_through_both_faces_is_unscaled() {
+    let mut stream = Stream::new(2, Purpose::Test, 0, 0);
+    let s = at(glass(None));
+    for _ in 0..2000 {
+        let wo = warp::square_to_sphere(stream.next_2d());
+        let sum: f32 =
+            s.followed_lobes(wo, Transport::Importance, Vec2::ZERO).iter().flatten().map(|l| l.weight.r).sum();
+        assert!((sum - 1.0).abs() < 1e-6, "{wo}");
+        let [_, Some(entry), _] = s.followed_lobes(wo, Transport::Radiance, Vec2::ZERO) else { continue };
+        let [_, back, _] = s.followed_lobes(entry.wi, Transport::Radiance, Vec2::ZERO);
+        let back = back.expect("what came in can go out");
+        assert!(back.wi.distance(wo) < 2e-4 / wo.z.abs().max(1e-2), "{wo}: {}", back.wi);
+        // (1−F)·(η₁/η₂)² on the way in times (1−F)·(η₂/η₁)² on the way out.
+        let through = entry.weight.r * back.weight.r;
+        assert!((through - entry.probability * back.probability).abs() < 1e-5, "{wo}");
+    }
+}
+
+#[test]
+fn photons_choose_glass_lobes_in_proportion_to_fresnel() {
+    let s = at(glass(None));
+    let wo = Vec3::new(0.9, 0.0, 0.19f32.sqrt());
+    let [Some(reflection), ..] = s.followed_lobes(wo, Transport::Importance, Vec2::ZERO) else { panic!("reflects") };
+    let mut stream = Stream::new(9, Purpose::Test, 0, 0);
+    let n = 100_000;
+    let reflected = (0..n)
+        .filter(|_| {
+            let x = s.sample(wo, Transport::Importance, stream.next_1d(), Vec2::ZERO).expect("scatters");
+            assert!((x.weight.r - 1.0).abs() < 1e-6);
+            x.wi.z > 0.0
+        })
+        .count() as f32;
+    let p = reflection.probability;
+    assert!((reflected - p * n as f32).abs() < 4.0 * (p * (1.0 - p) * n as f32).sqrt());
+}
+
+#[test]
+fn rough_lobes_become_smooth_ones_as_roughness_vanishes() {
+    let wo = Vec3::new(0.5, 0.2, 0.7).normalize();
+    for (smooth, nearly) in [(glass(None), glass(rough(Ggx, 1e-4))), (gold(None), gold(rough(Beckmann, 1e-4)))] {
+        let a = at(smooth).followed_lobes(wo, Transport::Radiance, Vec2::splat(0.4));
+        let b = at(nearly).followed_lobes(wo, Transport::Radiance, Vec2::splat(0.4));
+        for (a, b) in a.iter().zip(&b) {
+            match (a, b) {
+                (Some(a), Some(b)) => assert!(a.wi.distance(b.wi) < 1e-3 && (a.weight.r - b.weight.r).abs() < 1e-3),
+                (None, None) => {}
+                _ => panic!("{a:?} {b:?}"),
+            }
+        }
+    }
+}
