@@ -8,7 +8,7 @@ use foton_integrator::{Cancel, Ppm, Settings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{
-    Bsdf, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
+    Bsdf, Colour, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
     SensorDescription, ShapeDescription,
 };
 use foton_scene::{BuildError, Scene};
@@ -42,7 +42,7 @@ impl Sketch {
     #[must_use]
     pub fn shape(mut self, geometry: Geometry, to_world: DAffine3, front: Bsdf, radiance: Option<Rgb>) -> Self {
         let name = format!("shape-{}", self.0.shapes.len() + 1);
-        self.0.materials.push(Material { name: name.clone(), front, back: None });
+        self.0.materials.push(Material { name: name.clone(), front, back: None, opacity: None });
         let material = self.0.materials.len() - 1;
         let flip_normals = false;
         self.0.shapes.push(ShapeDescription { name, geometry, to_world, flip_normals, material, radiance });
@@ -129,7 +129,7 @@ impl Sketch {
 /// A grey Lambertian reflector.
 #[must_use]
 pub const fn grey(reflectance: f32) -> Bsdf {
-    Bsdf::Diffuse { reflectance: Rgb::splat(reflectance) }
+    Bsdf::Diffuse { reflectance: Colour::Constant(Rgb::splat(reflectance)) }
 }
 
 /// Clear glass in air.
@@ -138,8 +138,9 @@ pub const fn glass(ior: f32) -> Bsdf {
     Bsdf::Dielectric {
         int_ior: ior,
         ext_ior: 1.0,
-        specular_reflectance: Rgb::WHITE,
-        specular_transmittance: Rgb::WHITE,
+        specular_reflectance: Colour::Constant(Rgb::WHITE),
+        specular_transmittance: Colour::Constant(Rgb::WHITE),
+        roughness: None,
     }
 }
 

@@ -27,7 +27,7 @@ fn ball() -> Mesh {
             [[index(r, s), index(r, s + 1), index(r + 1, s)], [index(r, s + 1), index(r + 1, s + 1), index(r + 1, s)]]
         })
         .collect();
-    Mesh { normals: positions.clone(), positions, triangles }
+    Mesh { normals: positions.clone(), positions, texture_coordinates: Vec::new(), triangles }
 }
 
 fn scene() -> Sketch {

@@ -2,6 +2,7 @@
 //!
 //! Anything in between blocks, glass too: light through glass comes as photons.
 
+use foton_math::glam::Vec3;
 use foton_math::{Purpose, Ray, Rgb, Stream};
 use foton_scene::Scene;
 use rayon::prelude::*;
@@ -38,8 +39,10 @@ pub(crate) fn add<const LAYERS: usize>(
                     continue;
                 }
                 let mut stream = Stream::new(seed, Purpose::ShadowRay, pass, slot as u64);
-                if let Some(light) = estimate(scene, &hit_points.shadow_slots[slot], &mut stream, &mut rays) {
-                    irradiance[layer] += light * photons as f32;
+                let at = &hit_points.shadow_slots[slot];
+                if let Some((light, from)) = estimate(scene, at, &mut stream, &mut rays) {
+                    let value = hit_points.gloss(slot).map_or(Rgb::WHITE, |g| g.eval(from));
+                    irradiance[layer] += light * value * photons as f32;
                 }
             }
             rays
@@ -47,7 +50,8 @@ pub(crate) fn add<const LAYERS: usize>(
         .sum()
 }
 
-fn estimate(scene: &Scene, at: &ShadowOrigin, stream: &mut Stream, rays: &mut u64) -> Option<Rgb> {
+/// Irradiance from one sampled point of an emitter, and the direction it comes from.
+fn estimate(scene: &Scene, at: &ShadowOrigin, stream: &mut Stream, rays: &mut u64) -> Option<(Rgb, Vec3)> {
     let (emitter, probability) = scene.choose_emitter(f64::from(stream.next_1d()))?;
     let emitter = &scene.emitters()[emitter];
     let light = emitter.illuminate(at.origin, at.shading_normal, stream.next_1d(), stream.next_2d())?;
@@ -62,5 +66,5 @@ fn estimate(scene: &Scene, at: &ShadowOrigin, stream: &mut Stream, rays: &mut u6
         t_min: 0.0,
         t_max: light.distance * (1.0 - SHORTENED),
     };
-    (!scene.occluded(ray)).then(|| light.radiance_over_pdf * (cosine / probability as f32))
+    (!scene.occluded(ray)).then(|| (light.radiance_over_pdf * (cosine / probability as f32), light.direction))
 }

@@ -1,17 +1,18 @@
-//! The eye pass: from the sensor through mirrors and glass to the surfaces that spread light, once.
+//! The eye pass: from the sensor through mirrors, glass and narrow gloss to the surfaces that spread light, once.
 //!
-//! At glass a path splits, weighted by Fresnel, while its weight and depth are worth it and the sample's share of hit points
-//! lasts; after that it follows one side by chance. Light seen by specular bounces only is added up here.
+//! At each surface the lobes that spread light are kept by a hit point and the others are followed. Where there are several
+//! to follow, a path splits, weighted by Fresnel, while its weight and depth are worth it and the sample's share of hit
+//! points lasts; after that it takes one by chance. Light seen by followed bounces only is added up here: no photon is stored
+//! for it anywhere.
 
-use foton_math::glam::Vec3;
-use foton_math::{Frame, Purpose, Ray, Rgb, Stream};
-use foton_scene::description::Bsdf;
-use foton_scene::{Scene, Sensor, Surface, Transport};
+use foton_math::glam::{Vec2, Vec3};
+use foton_math::{Purpose, Ray, Rgb, Stream};
+use foton_scene::{Scattering, Scene, Sensor, Surface, Transport};
 use rayon::prelude::*;
 use std::f32::consts::FRAC_1_PI;
 
 use crate::cancel::{Cancel, Cancelled};
-use crate::hit_point::HitPoint;
+use crate::hit_point::{Gloss, HitPoint};
 use crate::radius::{RadiusRule, slab2};
 use crate::sampling::PixelSamples;
 use crate::settings::Settings;
@@ -32,6 +33,8 @@ pub(crate) const NO_SHAPE: u32 = u32::MAX;
 #[derive(Default)]
 pub(crate) struct EyePaths {
     pub(crate) hit_points: Vec<HitPoint>,
+    /// How those scatter that are not Lambertian.
+    pub(crate) gloss: Vec<Gloss>,
     /// Hit points of each pixel.
     pub(crate) counts: Vec<u32>,
     /// Mean emitted light that each pixel sees directly or by specular bounces.
@@ -93,7 +96,12 @@ impl EyePass<'_> {
         let mut all = EyePaths::default();
         all.hit_points.reserve_exact(parts.iter().map(|p| p.hit_points.len()).sum());
         for part in parts {
-            all.hit_points.extend(part.hit_points);
+            let before = all.gloss.len() as u32;
+            all.hit_points.extend(part.hit_points.into_iter().map(|mut h| {
+                h.gloss = h.gloss.map(|g| g + before);
+                h
+            }));
+            all.gloss.extend(part.gloss);
             all.counts.extend(part.counts);
             all.emission.extend(part.emission);
             all.shapes.extend(part.shapes);
@@ -111,8 +119,9 @@ impl EyePass<'_> {
         for pixel in pixels {
             let before = paths.hit_points.len();
             let mut emission = Rgb::BLACK;
-            let scramble = Stream::new(self.settings.seed, self.purpose, 0, u64::from(pixel));
-            let places = PixelSamples::new(&mut scramble.clone());
+            let mut scramble = Stream::new(self.settings.seed, self.purpose, 0, u64::from(pixel));
+            let places = PixelSamples::new(&mut scramble);
+            let facets = PixelSamples::new(&mut scramble);
             paths.shapes.push(NO_SHAPE);
             for sample in 0..samples {
                 let index = u64::from(pixel) * u64::from(samples) + u64::from(sample);
@@ -120,6 +129,7 @@ impl EyePass<'_> {
                     pass: self,
                     radius,
                     stream: Stream::new(self.settings.seed, self.purpose, 1, index),
+                    facet: Some(facets.point(sample)),
                     solid_angle: 0.0,
                     first: sample == 0,
                     paths: &mut paths,
@@ -142,6 +152,8 @@ struct Walk<'a, 'b> {
     pass: &'a EyePass<'b>,
     radius: RadiusRule,
     stream: Stream,
+    /// Stratified over the pixel's samples, for the first rough lobe that is followed.
+    facet: Option<Vec2>,
     solid_angle: f32,
     /// Whether the pixel's shape is still to be noted.
     first: bool,
@@ -153,10 +165,10 @@ struct Walk<'a, 'b> {
 }
 
 impl Walk<'_, '_> {
-    fn follow(&mut self, pixel: u32, place: foton_math::glam::Vec2) {
+    fn follow(&mut self, pixel: u32, place: Vec2) {
         let sensor = self.pass.sensor();
         let corner =
-            foton_math::glam::Vec2::new((pixel % sensor.width) as f32, (pixel / sensor.width) as f32);
+            Vec2::new((pixel % sensor.width) as f32, (pixel / sensor.width) as f32);
         let ray = sensor.ray(corner + 0.5 + sensor.filter.offset(place));
         self.solid_angle = sensor.pixel_solid_angle(ray.direction);
         self.branches.push(Branch { ray, weight: Rgb::WHITE, edges: 1, distance: 0.0 });
@@ -172,7 +184,7 @@ impl Walk<'_, '_> {
         let visible = branch.edges <= self.pass.max_depth;
         let Some(surface) = surface else {
             if visible {
-                self.emission += branch.weight * scene.escaped_radiance();
+                self.emission += branch.weight * scene.escaped_radiance(branch.ray.direction);
             }
             return;
         };
@@ -186,24 +198,34 @@ impl Walk<'_, '_> {
             self.emission += branch.weight * scene.emitted(&surface, wo);
         }
         let outward = wo.dot(surface.normal) > 0.0;
-        let Some(bsdf) = scene.bsdf(surface.shape, outward) else { return };
+        let Some(scattering) = scene.scattering(&surface, outward) else { return };
         if branch.edges >= self.pass.max_depth {
             return;
         }
         let distance = branch.distance + (surface.position - branch.ray.origin).length();
-        if bsdf.is_delta() {
-            self.scatter(&branch, &surface, bsdf, distance);
-        } else {
-            self.store(&branch, &surface, bsdf, distance);
+        if scattering.bsdf.keeps() {
+            self.store(&branch, &surface, &scattering, distance);
+        }
+        if scattering.bsdf.follows() || scattering.opacity < 1.0 {
+            self.follow_lobes(&branch, &surface, &scattering, distance);
         }
     }
 
-    fn store(&mut self, branch: &Branch, surface: &Surface, bsdf: &Bsdf, distance: f32) {
-        let weight = branch.weight * bsdf.albedo() * FRAC_1_PI;
+    fn store(&mut self, branch: &Branch, surface: &Surface, scattering: &Scattering, distance: f32) {
+        let wo = -branch.ray.direction;
+        let (weight, gloss) = match scattering.lambertian() {
+            Some(albedo) => (branch.weight * albedo * FRAC_1_PI, None),
+            None => {
+                let normal = shading_normal_towards(surface, wo);
+                let frame = self.pass.scene.shading_frame(surface, normal);
+                let gloss = Gloss { scattering: *scattering, frame, wo: frame.to_local(wo) };
+                self.paths.gloss.push(gloss);
+                (branch.weight, Some(self.paths.gloss.len() as u32 - 1))
+            }
+        };
         if weight.is_black() {
             return;
         }
-        let wo = -branch.ray.direction;
         let side = 1f32.copysign(wo.dot(surface.normal));
         let normal = surface.normal * side;
         self.paths.hit_points.push(HitPoint {
@@ -212,13 +234,14 @@ impl Walk<'_, '_> {
             shading_normal: surface.shading_normal * side,
             origin: surface.ray_origin(normal),
             weight,
+            gloss,
             radius2: self.radius.radius2(self.solid_angle, distance, wo.dot(normal)),
             slab2: slab2(surface),
             budget: (self.pass.max_depth - branch.edges).min(255) as u8,
         });
     }
 
-    fn scatter(&mut self, branch: &Branch, surface: &Surface, bsdf: &Bsdf, distance: f32) {
+    fn follow_lobes(&mut self, branch: &Branch, surface: &Surface, scattering: &Scattering, distance: f32) {
         let mut weight = branch.weight;
         if branch.edges >= ROULETTE_EDGES {
             if self.stream.next_1d() >= SURVIVAL {
@@ -227,20 +250,24 @@ impl Walk<'_, '_> {
             weight = weight / SURVIVAL;
         }
         let wo = -branch.ray.direction;
-        let normal = shading_normal_towards(surface, wo);
-        let frame = Frame::from_normal(normal);
+        let frame = self.pass.scene.shading_frame(surface, shading_normal_towards(surface, wo));
         let local = frame.to_local(wo);
-        let lobes = bsdf.delta_lobes(local, Transport::Radiance);
+        let facet = match scattering.bsdf.roughness() {
+            Some(_) => self.facet.take().unwrap_or_else(|| self.stream.next_2d()),
+            None => Vec2::ZERO,
+        };
+        let lobes = scattering.followed_lobes(local, Transport::Radiance, facet);
+        let count = lobes.iter().flatten().count() as u32;
         let split = branch.edges <= SPLIT_EDGES
             && weight.max_component() > SPLIT_WEIGHT
             && self.leaves < self.pass.settings.hit_points_per_sample.get();
         let single;
-        let chosen: &[_] = if split || lobes.iter().flatten().count() < 2 {
-            self.leaves += u32::from(lobes.iter().flatten().count() == 2);
+        let chosen: &[_] = if split || count < 2 {
+            // What is kept here and each lobe beyond the first is one more end.
+            self.leaves += (count + u32::from(scattering.bsdf.keeps())).saturating_sub(1);
             &lobes
         } else {
-            let u = self.stream.next_1d();
-            let lobe = bsdf.choose_delta_lobe(local, Transport::Radiance, u);
+            let lobe = scattering.choose_followed(local, Transport::Radiance, self.stream.next_1d(), facet);
             single = [lobe.map(|mut l| {
                 l.weight = l.weight / l.probability;
                 l
@@ -249,12 +276,13 @@ impl Walk<'_, '_> {
         };
         for lobe in chosen.iter().flatten() {
             let direction = frame.to_outer(lobe.wi).normalize();
-            if leaves_wrongly(surface, wo, direction, lobe.wi.z * local.z > 0.0) {
+            let weight = weight * lobe.weight;
+            if weight.is_black() || leaves_wrongly(surface, wo, direction, lobe.wi.z * local.z > 0.0) {
                 continue;
             }
             self.branches.push(Branch {
                 ray: Ray::new(surface.ray_origin(direction), direction),
-                weight: weight * lobe.weight,
+                weight,
                 edges: branch.edges + 1,
                 distance,
             });

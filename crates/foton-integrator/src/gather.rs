@@ -6,10 +6,11 @@
 use std::f32::consts::PI;
 
 use foton_math::Rgb;
+use foton_math::glam::Vec3;
 use rayon::prelude::*;
 
 use crate::grid::Grid;
-use crate::hit_point::{HitPoints, Irradiance};
+use crate::hit_point::{Gloss, HitPoints, Irradiance};
 use crate::packet::{LANES, Packet};
 use crate::photon::Photon;
 use crate::photon_map::PhotonMap;
@@ -63,6 +64,7 @@ pub(crate) fn all<const LAYERS: usize>(
     irradiance_slots: &mut [Irradiance<LAYERS>],
 ) -> Tally {
     let shading = &hit_points.shading_normals;
+    let (first_glossy, gloss_slots) = (hit_points.first_glossy, &hit_points.gloss_slots);
     let tallies: Vec<Tally> = hit_points
         .packets
         .par_chunks_mut(BLOCK)
@@ -73,10 +75,18 @@ pub(crate) fn all<const LAYERS: usize>(
             let mut tally = Tally::default();
             let slots = statistics.chunks_mut(LANES).zip(irradiance.chunks_mut(LANES));
             for (i, (packet, (statistics, irradiance))) in packets.iter_mut().zip(slots).enumerate() {
-                let found: Found<LAYERS> = match shading.get(block * BLOCK + i) {
-                    None => collect::<LAYERS, false>(packet, &[[0.0; LANES]; 3], map, grid, &mut tally),
-                    Some(normals) => collect::<LAYERS, true>(packet, normals, map, grid, &mut tally),
-                };
+                let index = block * BLOCK + i;
+                let mut found = Found::<LAYERS>::NONE;
+                let visit = Visit { packet, map, grid };
+                if let Some(glossy) = index.checked_sub(first_glossy) {
+                    let gloss = &gloss_slots[glossy * LANES..(glossy + 1) * LANES];
+                    visit.collect_gloss(gloss, &mut found, &mut tally);
+                } else {
+                    match shading.get(index) {
+                        None => visit.collect::<LAYERS, false>(&[[0.0; LANES]; 3], &mut found, &mut tally),
+                        Some(normals) => visit.collect::<LAYERS, true>(normals, &mut found, &mut tally),
+                    }
+                }
                 conclude(packet, &found, statistics, irradiance, rule, &mut tally);
             }
             tally
@@ -91,25 +101,48 @@ pub(crate) fn all<const LAYERS: usize>(
     })
 }
 
-/// Sums the photons that count for a packet. `SHADED` corrects for interpolated normals.
-fn collect<const LAYERS: usize, const SHADED: bool>(
-    packet: &Packet,
-    shading_normals: &[[f32; LANES]; 3],
-    map: &PhotonMap,
-    grid: &Grid,
-    tally: &mut Tally,
-) -> Found<LAYERS> {
-    let mut found = Found { flux: [[[0.0; LANES]; 3]; LAYERS], count: [0; LANES] };
-    grid.for_each_run(&packet.bounds(), |first, end| {
-        let photons = map.run(first, end);
-        tally.candidates += photons.len() as u64;
-        for photon in photons {
-            let counts = counting_lanes(packet, photon);
-            if counts.iter().fold(0, |any, c| any | c) == 0 {
-                continue;
+impl<const LAYERS: usize> Found<LAYERS> {
+    const NONE: Self = Self { flux: [[[0.0; LANES]; 3]; LAYERS], count: [0; LANES] };
+
+    const fn layer(photon: &Photon) -> usize {
+        if LAYERS == 1 { 0 } else { photon.class_index() }
+    }
+}
+
+/// A packet and where its photons are.
+struct Visit<'a> {
+    packet: &'a Packet,
+    map: &'a PhotonMap,
+    grid: &'a Grid,
+}
+
+impl Visit<'_> {
+    /// Calls `f` with each photon that counts in any lane, and with the lanes in which it does.
+    #[inline]
+    fn for_each(&self, tally: &mut Tally, mut f: impl FnMut(&Photon, &[u32; LANES])) {
+        self.grid.for_each_run(&self.packet.bounds(), |first, end| {
+            let photons = self.map.run(first, end);
+            tally.candidates += photons.len() as u64;
+            for photon in photons {
+                let counts = counting_lanes(self.packet, photon);
+                if counts.iter().fold(0, |any, c| any | c) != 0 {
+                    f(photon, &counts);
+                }
             }
-            let factor = if SHADED { shading_factor(packet, shading_normals, photon) } else { [1.0; LANES] };
-            let layer = &mut found.flux[if LAYERS == 1 { 0 } else { photon.class_index() }];
+        });
+    }
+
+    /// Sums the photons that count for Lambertian hit points. `SHADED` corrects for interpolated normals.
+    fn collect<const LAYERS: usize, const SHADED: bool>(
+        &self,
+        shading_normals: &[[f32; LANES]; 3],
+        found: &mut Found<LAYERS>,
+        tally: &mut Tally,
+    ) {
+        self.for_each(tally, |photon, counts| {
+            let factor =
+                if SHADED { shading_factor(self.packet, shading_normals, photon) } else { [1.0; LANES] };
+            let layer = &mut found.flux[Found::<LAYERS>::layer(photon)];
             for (channel, power) in layer.iter_mut().zip(photon.power.to_array()) {
                 for l in 0..LANES {
                     let term = if SHADED { power * factor[l] } else { power };
@@ -119,9 +152,33 @@ fn collect<const LAYERS: usize, const SHADED: bool>(
             for (count, counted) in found.count.iter_mut().zip(counts) {
                 *count += counted & 1;
             }
-        }
-    });
-    found
+        });
+    }
+
+    /// Sums the photons that count for hit points with a BSDF of their own, weighed by it one by one.
+    fn collect_gloss<const LAYERS: usize>(
+        &self,
+        gloss: &[Option<Gloss>],
+        found: &mut Found<LAYERS>,
+        tally: &mut Tally,
+    ) {
+        self.for_each(tally, |photon, counts| {
+            let wi = photon.direction();
+            let layer = &mut found.flux[Found::<LAYERS>::layer(photon)];
+            for l in (0..LANES).filter(|&l| counts[l] != 0) {
+                found.count[l] += 1;
+                let Some(gloss) = &gloss[l] else { continue };
+                let geometric =
+                    wi.dot(Vec3::from_array(self.packet.normal.map(|row| row[l]))).abs() * 127.0;
+                let shading = wi.dot(gloss.frame.normal).abs();
+                let weighed =
+                    photon.power * gloss.eval(wi) * (shading / geometric.max(SMALLEST_COSINE));
+                for (channel, term) in layer.iter_mut().zip(weighed.to_array()) {
+                    channel[l] += term;
+                }
+            }
+        });
+    }
 }
 
 /// All ones for each lane for which the photon counts: disc, slab, normal and side (the normals of both are those of the

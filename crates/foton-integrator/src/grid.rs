@@ -169,13 +169,14 @@ mod tests {
                     shading_normal: Vec3::Z,
                     origin: Vec3::ZERO,
                     weight: Rgb::WHITE,
+                    gloss: None,
                     radius2: radius * radius,
                     slab2: 1.0,
                     budget: 9,
                 }
             })
             .collect();
-        crate::packet::group(&found)
+        crate::packet::group(&found, |_| true)
             .iter()
             .map(|g| Packet::new(g.iter().map(|&i| &found[i as usize])))
             .collect()

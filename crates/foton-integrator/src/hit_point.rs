@@ -3,8 +3,9 @@
 //! Three orders meet here. *Sample order* is that of the eye pass: a pixel's hit points are neighbours in it. *Slot order* is
 //! that of the packets, 16 slots each, some empty. Statistics have slots of their own, apart from the query records.
 
-use foton_math::Rgb;
 use foton_math::glam::Vec3;
+use foton_math::{Frame, Rgb};
+use foton_scene::Scattering;
 
 use crate::packet::{self, LANES, Packet};
 use crate::refine::Statistics;
@@ -19,8 +20,10 @@ pub(crate) struct HitPoint {
     pub(crate) shading_normal: Vec3,
     /// An origin for shadow rays, certainly on the eye's side.
     pub(crate) origin: Vec3,
-    /// Eye throughput times the BSDF's value: radiance at the eye per irradiance here (sr⁻¹).
+    /// Eye throughput, times the BSDF's value where that is Lambertian: radiance at the eye per irradiance here (sr⁻¹).
     pub(crate) weight: Rgb,
+    /// Index of its [`Gloss`]; `None` for a Lambertian one.
+    pub(crate) gloss: Option<u32>,
     /// First squared radius.
     pub(crate) radius2: f32,
     /// Squared half-thickness of the slab in which photons count, over the squared radius.
@@ -29,7 +32,25 @@ pub(crate) struct HitPoint {
     pub(crate) budget: u8,
 }
 
-/// Light that arrives at a hit point, per path class or in all: Σ Φ/(π r²) over the photons of one pass (W·m⁻²).
+/// How a hit point weighs light from each direction, where that is not the same for all.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gloss {
+    pub(crate) scattering: Scattering,
+    /// The frame around the shading normal in which the BSDF is stated.
+    pub(crate) frame: Frame,
+    /// Unit direction to the eye in that frame.
+    pub(crate) wo: Vec3,
+}
+
+impl Gloss {
+    /// The value of the kept lobes for light from the unit direction `wi` (sr⁻¹).
+    pub(crate) fn eval(&self, wi: Vec3) -> Rgb {
+        self.scattering.eval_kept(self.wo, self.frame.to_local(wi))
+    }
+}
+
+/// Light that arrives at a hit point, per path class or in all: Σ Φ/(π r²) over the photons of one pass (W·m⁻²), each
+/// photon weighed by the BSDF's value where that is not Lambertian (W·m⁻²·sr⁻¹).
 pub(crate) type Irradiance<const LAYERS: usize> = [Rgb; LAYERS];
 
 /// What shadow rays need of a slot.
@@ -39,9 +60,13 @@ pub(crate) struct ShadowOrigin {
     pub(crate) shading_normal: Vec3,
 }
 
-/// All hit points. Vectors whose names end in `_slots` have [`LANES`] entries a packet.
+/// All hit points. Packets of Lambertian ones come first. Vectors whose names end in `_slots` have [`LANES`] entries a packet.
 pub(crate) struct HitPoints {
     pub(crate) packets: Vec<Packet>,
+    /// Packets from here on hold hit points that are not Lambertian.
+    pub(crate) first_glossy: usize,
+    /// [`LANES`] entries a packet from `first_glossy` on.
+    pub(crate) gloss_slots: Vec<Option<Gloss>>,
     /// Shading normals by packet, as three rows of lanes; empty when the scene has none that matter.
     pub(crate) shading_normals: Vec<[[f32; LANES]; 3]>,
     /// Empty unless direct light comes by shadow rays.
@@ -59,11 +84,17 @@ impl HitPoints {
     /// Lays hit points out. `pixel_start` is as in [`HitPoints`].
     pub(crate) fn new(
         found: &[HitPoint],
+        gloss: &[Gloss],
         pixel_start: Vec<u32>,
         shading_normals: bool,
         shadow_rays: bool,
     ) -> Self {
-        let groups = packet::group(found);
+        let mut groups = packet::group(found, |h| h.gloss.is_none());
+        let first_glossy = groups.len();
+        if !gloss.is_empty() {
+            groups.extend(packet::group(found, |h| h.gloss.is_some()));
+        }
+        let mut gloss_slots = vec![None; (groups.len() - first_glossy) * LANES];
         let mut packets = Vec::with_capacity(groups.len());
         let mut normals = Vec::with_capacity(if shading_normals { groups.len() } else { 0 });
         let mut slot_of = vec![0u32; found.len()];
@@ -82,6 +113,9 @@ impl HitPoints {
                 let h = &found[i as usize];
                 slot_of[i as usize] = slot as u32;
                 statistics_slots[slot] = Statistics::new(h.radius2);
+                if let Some(g) = h.gloss {
+                    gloss_slots[slot - first_glossy * LANES] = Some(gloss[g as usize]);
+                }
                 if let Some(shadow) = shadow_slots.get_mut(slot) {
                     *shadow = ShadowOrigin { origin: h.origin, shading_normal: h.shading_normal };
                 }
@@ -89,6 +123,8 @@ impl HitPoints {
         }
         Self {
             packets,
+            first_glossy,
+            gloss_slots,
             shading_normals: normals,
             shadow_slots,
             statistics_slots,
@@ -96,6 +132,11 @@ impl HitPoints {
             weights: found.iter().map(|h| h.weight).collect(),
             pixel_start,
         }
+    }
+
+    /// How a slot weighs light, where that is not Lambertian.
+    pub(crate) fn gloss(&self, slot: usize) -> Option<&Gloss> {
+        self.gloss_slots.get(slot.checked_sub(self.first_glossy * LANES)?)?.as_ref()
     }
 
     /// How many there are.
@@ -111,6 +152,7 @@ impl HitPoints {
     /// Bytes held.
     pub(crate) const fn bytes(&self) -> usize {
         size_of::<Packet>() * self.packets.len()
+            + size_of::<Option<Gloss>>() * self.gloss_slots.len()
             + size_of::<[[f32; LANES]; 3]>() * self.shading_normals.len()
             + size_of::<ShadowOrigin>() * self.shadow_slots.len()
             + size_of::<Statistics>() * self.statistics_slots.len()

@@ -6,7 +6,7 @@ use foton_math::{Purpose, Rgb};
 use foton_scene::Scene;
 
 use crate::eye_pass::EyePass;
-use crate::hit_point::{HitPoint, Irradiance, ShadowOrigin};
+use crate::hit_point::{Gloss, HitPoint, Irradiance, ShadowOrigin};
 use crate::packet::{LANES, Packet};
 use crate::photon::Photon;
 use crate::radiance::Radiance;
@@ -54,9 +54,11 @@ impl MemoryEstimate {
         let looked_at = pixels.min(u64::from(PILOT_PIXELS));
         let one_sample = Settings { samples_per_pixel: std::num::NonZeroU32::MIN, ..settings.clone() };
         let pass = EyePass { scene, settings: &one_sample, max_depth, purpose: Purpose::Pilot };
-        let found = pass.follow((0..looked_at).map(|i| (i * pixels / looked_at) as u32)).hit_points.len();
+        let pilot = pass.follow((0..looked_at).map(|i| (i * pixels / looked_at) as u32));
+        let (found, glossy) = (pilot.hit_points.len(), pilot.gloss.len());
         let samples = pixels as f64 * f64::from(settings.samples_per_pixel.get());
         let hit_points = found as f64 / looked_at as f64 * samples;
+        let glossy = glossy as f64 / looked_at as f64 * samples;
         let layers = if settings.layers { 3.0 } else { 1.0 };
         let shadow = settings.direct_light == DirectLight::ShadowRays;
         let shaded = scene.census().shading_normals;
@@ -71,11 +73,12 @@ impl MemoryEstimate {
         Self {
             hit_points,
             scene_bytes: scene.bytes() as f64,
-            hit_point_bytes: hit_points * (slot / FILL + (size_of::<u32>() + size_of::<Rgb>()) as f64),
+            hit_point_bytes: hit_points * (slot / FILL + (size_of::<u32>() + size_of::<Rgb>()) as f64)
+                + glossy * size_of::<Option<Gloss>>() as f64 / FILL,
             pixel_bytes: pixels as f64 * (per_pixel + 2 * size_of::<u32>() + size_of::<Rgb>()) as f64,
             photon_bytes: f64::from(settings.photons_per_pass.get()) * STORED_PER_EMITTED * photon,
             // Found hit points twice while chunks are joined, or once beside the points that are being grouped.
-            layout_bytes: hit_points * 2.0 * size_of::<HitPoint>() as f64,
+            layout_bytes: 2.0 * (hit_points * size_of::<HitPoint>() as f64 + glossy * size_of::<Gloss>() as f64),
         }
     }
 }

@@ -76,12 +76,13 @@ struct Point {
     index: u32,
 }
 
-/// Groups hit points into packets: halved at the median of the longest axis until at most [`LANES`] are close together.
+/// Groups those hit points that `belongs` picks into packets: halved at the median of the longest axis until at most [`LANES`] are close together.
 /// Returns indices into `found`; the same for any number of threads.
-pub(crate) fn group(found: &[HitPoint]) -> Vec<Vec<u32>> {
+pub(crate) fn group(found: &[HitPoint], belongs: impl Fn(&HitPoint) -> bool) -> Vec<Vec<u32>> {
     let mut points: Vec<Point> = found
         .iter()
         .enumerate()
+        .filter(|(_, h)| belongs(h))
         .map(|(i, h)| Point { position: h.position, radius: h.radius2.sqrt(), index: i as u32 })
         .collect();
     halve(&mut points)
@@ -131,6 +132,7 @@ mod tests {
                     shading_normal: Vec3::Z,
                     origin: Vec3::ZERO,
                     weight: Rgb::WHITE,
+                    gloss: None,
                     radius2: 4.0,
                     slab2: 1.0,
                     budget: 9,
@@ -142,7 +144,7 @@ mod tests {
     #[test]
     fn each_hit_point_is_in_one_group_and_groups_are_full_and_narrow() {
         let found = scattered(50_000);
-        let groups = group(&found);
+        let groups = group(&found, |_| true);
         let mut seen = vec![false; found.len()];
         for g in &groups {
             assert!(!g.is_empty() && g.len() <= LANES);
@@ -163,6 +165,6 @@ mod tests {
         for h in &mut found {
             h.position = Vec3::ONE;
         }
-        assert_eq!(group(&found).iter().map(Vec::len).sum::<usize>(), 100);
+        assert_eq!(group(&found, |_| true).iter().map(Vec::len).sum::<usize>(), 100);
     }
 }

@@ -9,9 +9,9 @@ use foton_math::{Rgb, octahedral};
 pub enum PathClass {
     /// Straight from an emitter: LD.
     Direct = 0,
-    /// By mirrors and glass only: LS⁺D.
+    /// By mirrors, glass and gloss that eye paths follow only: LS⁺D.
     Caustic = 1,
-    /// By at least one diffuse surface: L(S|D)*DS*D.
+    /// By at least one surface that spreads light: L(S|D)*DS*D.
     Indirect = 2,
 }
 
@@ -20,8 +20,8 @@ impl PathClass {
     pub const ALL: [Self; 3] = [Self::Direct, Self::Caustic, Self::Indirect];
 
     /// The class after one more scattering.
-    pub(crate) const fn scattered(self, delta: bool) -> Self {
-        match (self, delta) {
+    pub(crate) const fn scattered(self, followed: bool) -> Self {
+        match (self, followed) {
             (Self::Direct | Self::Caustic, true) => Self::Caustic,
             _ => Self::Indirect,
         }

@@ -1,7 +1,7 @@
 //! One pass of photons: from emitters, from surface to surface, stored wherever light spreads near a hit point.
 
 use foton_math::glam::Vec3;
-use foton_math::{Frame, Purpose, Ray, Rgb, Stream};
+use foton_math::{Purpose, Ray, Rgb, Stream};
 use foton_scene::{Lobe, Scene, Surface, Transport};
 use rayon::prelude::*;
 
@@ -117,17 +117,17 @@ impl PhotonPass<'_> {
     ) -> Option<Flight> {
         let wo = -flight.ray.direction;
         let outward = wo.dot(surface.normal) > 0.0;
-        let Some(bsdf) = self.scene.bsdf(surface.shape, outward) else {
+        let Some(scattering) = self.scene.scattering(surface, outward) else {
             chunk.ledger.absorbed += energy(flight.power);
             return None;
         };
-        if !bsdf.is_delta() {
+        if scattering.bsdf.keeps() {
             self.store(&flight, surface, wo, chunk);
         }
         let normal = shading_normal_towards(surface, wo);
-        let frame = Frame::from_normal(normal);
+        let frame = self.scene.shading_frame(surface, normal);
         let local = frame.to_local(wo);
-        let sample = bsdf.sample(local, Transport::Importance, numbers.next_1d(), numbers.next_2d());
+        let sample = scattering.sample(local, Transport::Importance, numbers.next_1d(), numbers.next_2d());
         let Some(sample) = sample else {
             chunk.ledger.absorbed += energy(flight.power);
             return None;
@@ -138,6 +138,9 @@ impl PhotonPass<'_> {
         let reflects = sample.wi.z * local.z > 0.0;
         let correction = if leaves_wrongly(surface, wo, direction, reflects) {
             0.0
+        } else if sample.wi == -local {
+            // Straight on, as if there were no surface.
+            1.0
         } else {
             adjoint_correction(surface.normal, normal, wo, direction)
         };
@@ -156,7 +159,7 @@ impl PhotonPass<'_> {
         Some(Flight {
             ray: Ray::new(surface.ray_origin(direction), direction),
             power,
-            class: flight.class.scattered(sample.lobe == Lobe::Delta),
+            class: flight.class.scattered(sample.lobe == Lobe::Followed),
             edges: flight.edges + 1,
         })
     }

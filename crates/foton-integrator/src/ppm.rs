@@ -141,9 +141,9 @@ impl Ppm {
         watch(Stage::Layout);
         let shadow_rays = settings.direct_light == DirectLight::ShadowRays;
         let normals = scene.census().shading_normals;
-        let hit_points = HitPoints::new(&eye.hit_points, eye.pixel_start(), normals, shadow_rays);
+        let hit_points = HitPoints::new(&eye.hit_points, &eye.gloss, eye.pixel_start(), normals, shadow_rays);
         let start = Start { hit_points: hit_points.len() as u64, eye_rays: eye.rays };
-        drop(eye.hit_points);
+        drop((eye.hit_points, eye.gloss));
         let grid = Grid::new(&hit_points.packets);
         let light = Light::new(eye.emission, &hit_points, &settings);
         cancel.check()?;
