@@ -120,11 +120,13 @@ pub enum ReadError {
         /// What it said.
         cause: io::Error,
     },
-    /// It is no EXR file, or a broken one.
-    #[error("cannot read {} as EXR: {reason}", path.display())]
+    /// It is no file of its format, or a broken one.
+    #[error("cannot read {} as {format}: {reason}", path.display())]
     Malformed {
         /// The file asked for.
         path: PathBuf,
+        /// What it should be: `EXR` or `PNG`.
+        format: &'static str,
         /// What is wrong with it.
         reason: String,
     },

@@ -22,7 +22,7 @@ const PIXELS_PER_BYTE: usize = 4096;
 /// # Errors
 /// [`ReadError`] with the path: it cannot be opened, is no EXR file or a broken one, or has no R, G, B.
 pub fn read_exr(path: &Path) -> Result<(Image, Metadata), ReadError> {
-    let malformed = |reason: String| ReadError::Malformed { path: path.into(), reason };
+    let malformed = |reason: String| ReadError::Malformed { path: path.into(), format: "EXR", reason };
     let bytes = fs::read(path).map_err(|cause| ReadError::Io { path: path.into(), cause })?;
     let meta = MetaData::read_from_buffered(Cursor::new(&bytes), false)
         .map_err(|cause| malformed(cause.to_string()))?;
@@ -60,7 +60,7 @@ fn check(meta: &MetaData, file_bytes: usize, path: &Path) -> Result<(), ReadErro
         let pixels = fits(width).zip(fits(height)).map(|(width, height)| area(width, height));
         if pixels.is_none_or(|pixels| pixels / PIXELS_PER_BYTE > file_bytes) {
             let reason = format!("{width} × {height} pixels cannot be in {file_bytes} bytes");
-            return Err(ReadError::Malformed { path: path.into(), reason });
+            return Err(ReadError::Malformed { path: path.into(), format: "EXR", reason });
         }
     }
     Ok(())

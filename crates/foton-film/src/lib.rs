@@ -35,6 +35,7 @@ mod exr_read;
 mod exr_write;
 mod image;
 mod metadata;
+mod png_read;
 mod png_write;
 pub mod tone_map;
 
@@ -44,5 +45,6 @@ pub use exr_read::read_exr;
 pub use exr_write::write_exr;
 pub use image::{Image, Layer, LayerData, Plane};
 pub use metadata::{Metadata, MetadataError};
+pub use png_read::read_png;
 pub use png_write::write_png;
 pub use tone_map::ToneMap;

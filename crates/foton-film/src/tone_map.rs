@@ -79,6 +79,12 @@ pub fn srgb_encode(v: f32) -> f32 {
     if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
 }
 
+/// The inverse of [`srgb_encode`]: from encoded to linear, on [0, 1].
+#[must_use]
+pub fn srgb_decode(v: f32) -> f32 {
+    if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+}
+
 /// The nearest of the 256 steps of [0, 1]; values outside are clamped.
 #[must_use]
 pub fn quantise(v: f32) -> u8 {

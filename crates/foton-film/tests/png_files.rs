@@ -7,7 +7,7 @@ use std::io::BufReader;
 use std::path::Path;
 
 use common::Folder;
-use foton_film::{Image, Metadata, ToneMap, tone_map, write_png};
+use foton_film::{Image, Metadata, ReadError, ToneMap, read_png, tone_map, write_png};
 use foton_math::Rgb;
 
 /// The header and the pixels, three bytes each.
@@ -103,4 +103,77 @@ fn an_image_without_pixels_is_refused() {
     let message = error.unwrap_err().to_string();
     assert!(message.ends_with("out.png: an image of 0 × 0 pixels has nothing to store"), "{message}");
     assert!(folder.names().is_empty());
+}
+
+/// Writes samples as they are, to read files that we do not write.
+fn encode(path: &Path, color: png::ColorType, depth: png::BitDepth, palette: &[u8], samples: &[u8]) {
+    let mut encoder = png::Encoder::new(File::create(path).unwrap(), 2, 1);
+    encoder.set_color(color);
+    encoder.set_depth(depth);
+    if !palette.is_empty() {
+        encoder.set_palette(palette);
+    }
+    encoder.write_header().unwrap().write_image_data(samples).unwrap();
+}
+
+#[test]
+fn a_clipped_picture_comes_back_to_half_a_step_of_255() {
+    let folder = Folder::new("png-back");
+    let path = folder.file("out.png");
+    let pixels = (0..=255u8).map(|v| Rgb::new(f32::from(v) / 255.0, 1.5, -1.0)).collect();
+    let image = Image { width: 16, height: 16, pixels };
+    write_png(&path, &image, ToneMap::Linear, 0.0, &Metadata::default()).unwrap();
+    let again = read_png(&path).unwrap();
+    assert_eq!((again.width, again.height), (16, 16));
+    for (read, written) in again.pixels.iter().zip(&image.pixels) {
+        assert_eq!((read.g, read.b), (1.0, 0.0));
+        let steps = 255.0 * (tone_map::srgb_encode(read.r) - tone_map::srgb_encode(written.r));
+        assert!(steps.abs() <= 0.5001, "{read:?} for {written:?}");
+    }
+}
+
+#[test]
+fn grey_palettes_transparency_and_sixteen_bits_are_read() {
+    let folder = Folder::new("png-kinds");
+    let path = folder.file("in.png");
+    // sRGB 188 is 0.5029 linear (the table of IEC 61966-2-1), and 0x0A0A of 0xFFFF is 10/255 on the linear toe.
+    let half = |v: f32| (v - 0.502_9).abs() < 1e-4;
+    let toe = |v: f32| (v - 10.0 / 255.0 / 12.92).abs() < 1e-7;
+    use png::{BitDepth, ColorType};
+
+    encode(&path, ColorType::GrayscaleAlpha, BitDepth::Eight, &[], &[188, 0, 255, 7]);
+    let image = read_png(&path).unwrap();
+    assert!(half(image.pixels[0].r) && half(image.pixels[0].b) && image.pixels[1] == Rgb::WHITE);
+
+    encode(&path, ColorType::Indexed, BitDepth::One, &[0, 0, 0, 255, 0, 188], &[0b0100_0000]);
+    let image = read_png(&path).unwrap();
+    assert!(image.pixels[0] == Rgb::BLACK && image.pixels[1].r == 1.0 && half(image.pixels[1].b));
+
+    let samples = [10, 10, 0, 0, 255, 255, 0, 0, 10, 10, 0, 0];
+    encode(&path, ColorType::Rgb, BitDepth::Sixteen, &[], &samples);
+    let image = read_png(&path).unwrap();
+    assert!(toe(image.pixels[0].r) && image.pixels[0].b == 1.0 && toe(image.pixels[1].g), "{image:?}");
+}
+
+#[test]
+fn a_broken_picture_is_refused_with_its_name() {
+    let folder = Folder::new("png-broken");
+    let path = folder.file("in.png");
+    assert!(matches!(read_png(&path).unwrap_err(), ReadError::Io { .. }));
+    write_png(&path, &image(), ToneMap::Linear, 0.0, &Metadata::default()).unwrap();
+    let whole = fs::read(&path).unwrap();
+    for length in [0, 7, 20, 60, whole.len() / 2] {
+        fs::write(&path, &whole[..length]).unwrap();
+        let message = read_png(&path).unwrap_err().to_string();
+        assert!(message.contains("in.png as PNG: "), "{length}: {message}");
+    }
+}
+
+#[test]
+fn decoding_undoes_encoding() {
+    for step in 0..=1000u16 {
+        let v = f32::from(step) / 1000.0;
+        assert!((tone_map::srgb_decode(tone_map::srgb_encode(v)) - v).abs() < 1e-6, "{v}");
+    }
+    assert_eq!((tone_map::srgb_decode(0.0), tone_map::srgb_decode(1.0)), (0.0, 1.0));
 }

@@ -3,6 +3,7 @@
 //! No rendering of source excerpts and no colours; the binary prints these as they are.
 
 use std::fmt;
+use std::path::{Path, PathBuf};
 
 /// How bad a finding is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,28 +66,98 @@ fn errors_by_line(diagnostics: &[Diagnostic]) -> String {
     errors.map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
+/// A scene file, or one that it includes.
+struct Source {
+    /// As the caller or the scene named it.
+    file: String,
+    /// Where the files that it names are looked for, the best place first.
+    folders: Vec<PathBuf>,
+    /// How many lines come before it: lines of included files are counted on behind those of all files before.
+    lines_before: u32,
+    /// How many lines it has.
+    lines: u32,
+}
+
 /// Collects findings about a scene file and the files that it names.
 pub(crate) struct Report {
-    file: String,
+    sources: Vec<Source>,
     diagnostics: Vec<Diagnostic>,
 }
 
 impl Report {
-    pub(crate) fn new(file: &str) -> Self {
-        Self { file: file.to_owned(), diagnostics: Vec::new() }
+    /// For a scene called `file`, which looks for files in `folder`.
+    pub(crate) fn new(file: &str, folder: &Path) -> Self {
+        let folders = vec![folder.to_owned()];
+        let main = Source { file: file.to_owned(), folders, lines_before: 0, lines: 0 };
+        Self { sources: vec![main], diagnostics: Vec::new() }
+    }
+
+    /// Says how long the scene's own text is, before anything is included.
+    pub(crate) fn main_text(&mut self, text: &str) {
+        self.sources[0].lines = lines(text);
+    }
+
+    /// Adds a file that is included at `place`. The number of lines to add to places in it.
+    pub(crate) fn include(&mut self, file: &str, folder: &Path, text: &str, place: Place) -> u32 {
+        let lines_before = self.sources.last().map_or(0, |s| s.lines_before.saturating_add(s.lines));
+        let mut folders = self.folders(place).to_vec();
+        folders.insert(0, folder.to_owned());
+        self.sources.push(Source { file: file.to_owned(), folders, lines_before, lines: lines(text) });
+        lines_before
+    }
+
+    /// Where files that are named at `place` are looked for, the best place first.
+    pub(crate) fn folders(&self, place: Place) -> &[PathBuf] {
+        &self.source(place).folders
+    }
+
+    /// Looks in `folder` before all others, for files named in the file of `place`.
+    pub(crate) fn look_in(&mut self, folder: PathBuf, place: Place) {
+        let index = self.source_index(place);
+        self.sources[index].folders.insert(0, folder);
+    }
+
+    fn source_index(&self, place: Place) -> usize {
+        self.sources.partition_point(|s| s.lines_before < place.line).saturating_sub(1)
+    }
+
+    fn source(&self, place: Place) -> &Source {
+        &self.sources[self.source_index(place)]
+    }
+
+    /// `line 3`, with the name of the file unless `seen_from` is in it.
+    pub(crate) fn line(&self, place: Place, seen_from: Place) -> String {
+        let source = self.source(place);
+        let line = place.line - source.lines_before;
+        if self.source_index(seen_from) == self.source_index(place) {
+            format!("line {line}")
+        } else {
+            format!("line {line} of {}", source.file)
+        }
     }
 
     pub(crate) fn error(&mut self, place: Place, message: impl Into<String>) {
-        self.push(Severity::Error, self.file.clone(), place, message.into());
+        self.push_here(Severity::Error, place, message.into());
     }
 
     pub(crate) fn warning(&mut self, place: Place, message: impl Into<String>) {
-        self.push(Severity::Warning, self.file.clone(), place, message.into());
+        self.push_here(Severity::Warning, place, message.into());
     }
 
     /// An error in another file than the scene's own.
     pub(crate) fn error_in(&mut self, file: &str, place: Place, message: impl Into<String>) {
         self.push(Severity::Error, file.to_owned(), place, message.into());
+    }
+
+    /// A warning about another file than the scene's own.
+    pub(crate) fn warning_in(&mut self, file: &str, place: Place, message: impl Into<String>) {
+        self.push(Severity::Warning, file.to_owned(), place, message.into());
+    }
+
+    fn push_here(&mut self, severity: Severity, mut place: Place, message: String) {
+        let source = self.source(place);
+        place.line -= source.lines_before;
+        self.push(severity, source.file.clone(), place, message);
     }
 
     fn push(&mut self, severity: Severity, file: String, Place { line, column }: Place, message: String) {
@@ -101,7 +172,7 @@ impl Report {
 
     /// The findings by place, those about the scene file first; the error if there is one among them.
     pub(crate) fn finish(mut self) -> Result<Vec<Diagnostic>, OpenError> {
-        let main = self.file;
+        let main = self.sources.swap_remove(0).file;
         self.diagnostics.sort_by(|a, b| {
             let key = |d: &Diagnostic| (d.file != main, d.line, d.column);
             key(a).0.cmp(&key(b).0).then_with(|| a.file.cmp(&b.file)).then_with(|| key(a).cmp(&key(b)))
@@ -112,4 +183,9 @@ impl Report {
             Ok(self.diagnostics)
         }
     }
+}
+
+/// Lines of a text, the last one counted even if it is empty.
+fn lines(text: &str) -> u32 {
+    u32::try_from(text.matches('\n').count() + 1).unwrap_or(u32::MAX)
 }

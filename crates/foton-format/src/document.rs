@@ -164,11 +164,27 @@ impl Document {
         })
     }
 
-    pub(crate) fn elements_mut(&mut self) -> impl Iterator<Item = &mut Element> {
-        self.nodes.iter_mut().filter_map(|node| match node {
-            Node::Element(element) => Some(element),
-            _ => None,
-        })
+    pub(crate) fn node_mut(&mut self, id: NodeId) -> Option<&mut Node> {
+        self.nodes.get_mut(id.0 as usize)
+    }
+
+    /// Adds the nodes of another document behind all others, in no element, their lines counted on from
+    /// `lines_before`. The first of them and the root; `None` if there are too many.
+    pub(crate) fn append(&mut self, other: Self, lines_before: u32) -> Option<(NodeId, NodeId)> {
+        let shift = u32::try_from(self.nodes.len()).ok()?;
+        shift.checked_add(u32::try_from(other.nodes.len()).ok()?)?;
+        let moved = |id: NodeId| NodeId(id.0 + shift);
+        for mut node in other.nodes {
+            if let Node::Element(element) = &mut node {
+                element.children.iter_mut().for_each(|child| *child = moved(*child));
+                let places = element.attributes.iter_mut().flat_map(|a| [&mut a.place, &mut a.value_place]);
+                for place in places.chain([&mut element.place]) {
+                    place.line = place.line.saturating_add(lines_before);
+                }
+            }
+            self.nodes.push(node);
+        }
+        Some((NodeId(shift), moved(other.root)))
     }
 
     fn children_mut(&mut self, id: NodeId) -> &mut Vec<NodeId> {

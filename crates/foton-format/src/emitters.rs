@@ -1,4 +1,4 @@
-//! `<emitter>` elements: area (inside shapes), point, spot and constant.
+//! `<emitter>` elements: area (inside shapes), point, spot, directional, constant and envmap.
 
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
@@ -8,6 +8,7 @@ use crate::document::NodeId;
 use crate::names::EMITTERS;
 use crate::properties::{Object, Properties};
 use crate::reader::Reader;
+use crate::transform::even_scale;
 
 impl Reader<'_> {
     /// An emitter directly inside the scene.
@@ -22,6 +23,8 @@ impl Reader<'_> {
         let kind = match plugin {
             "point" => self.point(&mut p),
             "spot" => self.spot(&mut p),
+            "directional" => self.directional(&mut p),
+            "envmap" => self.envmap(&mut p),
             _ => self.constant(&mut p),
         };
         p.finish(&mut self.report);
@@ -46,13 +49,13 @@ impl Reader<'_> {
         if let Some(to_world) = p.transform("to_world", &mut self.report) {
             self.report.error(to_world.place, "an area emitter takes its transform from its shape");
         }
-        let radiance = p.emission("radiance", &mut self.report).unwrap_or(Rgb::WHITE);
+        let radiance = self.emission(&mut p, "radiance");
         p.finish(&mut self.report);
         Some(radiance)
     }
 
     fn point(&mut self, p: &mut Properties<'_>) -> Option<EmitterKind> {
-        let intensity = p.emission("intensity", &mut self.report).unwrap_or(Rgb::WHITE);
+        let intensity = self.emission(p, "intensity");
         let position = p.point("position", &mut self.report);
         let to_world = p.transform("to_world", &mut self.report);
         if let (Some(position), Some(_)) = (position, to_world) {
@@ -65,7 +68,7 @@ impl Reader<'_> {
     }
 
     fn spot(&mut self, p: &mut Properties<'_>) -> Option<EmitterKind> {
-        let intensity = p.emission("intensity", &mut self.report).unwrap_or(Rgb::WHITE);
+        let intensity = self.emission(p, "intensity");
         let to_world = p.transform("to_world", &mut self.report).map_or(DAffine3::IDENTITY, |t| t.value);
         let cutoff = p.number("cutoff_angle", &mut self.report);
         let beam = p.number("beam_width", &mut self.report);
@@ -87,13 +90,62 @@ impl Reader<'_> {
         Some(EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees })
     }
 
-    fn constant(&mut self, p: &mut Properties<'_>) -> Option<EmitterKind> {
-        let radiance = p.emission("radiance", &mut self.report).unwrap_or(Rgb::WHITE);
-        p.ignore(&["to_world"]);
-        if self.description.emitters.iter().any(|e| matches!(e.kind, EmitterKind::Constant { .. })) {
-            self.report.error(p.place, "a scene has only one emitter around it");
+    fn directional(&mut self, p: &mut Properties<'_>) -> Option<EmitterKind> {
+        let irradiance = self.emission(p, "irradiance");
+        let direction = p.point("direction", &mut self.report);
+        let to_world = p.transform("to_world", &mut self.report);
+        if let (Some(direction), Some(_)) = (direction, to_world) {
+            let message = "a directional emitter has a \"direction\" or a \"to_world\", not both";
+            self.report.error(direction.place, message);
             return None;
         }
-        Some(EmitterKind::Constant { radiance })
+        if let Some(direction) = direction.filter(|d| d.value.try_normalize().is_none()) {
+            self.report.error(direction.place, "\"direction\" must not be zero");
+            return None;
+        }
+        let turned = to_world.map(|t| t.value.matrix3.z_axis);
+        let direction = direction.map(|d| d.value).or(turned).unwrap_or(DVec3::Z);
+        Some(EmitterKind::Directional { direction, irradiance })
+    }
+
+    fn constant(&mut self, p: &mut Properties<'_>) -> Option<EmitterKind> {
+        let radiance = self.emission(p, "radiance");
+        p.ignore(&["to_world"]);
+        self.is_first_around(p).then_some(EmitterKind::Constant { radiance })
+    }
+
+    #[allow(clippy::cast_possible_truncation, reason = "radiance is single precision")]
+    fn envmap(&mut self, p: &mut Properties<'_>) -> Option<EmitterKind> {
+        let scale = p.number("scale", &mut self.report);
+        if let Some(scale) = scale.filter(|s| !(0.0..=1e30).contains(&s.value)) {
+            self.report.error(scale.place, "\"scale\" must not be negative or above 1e30");
+        }
+        let transform = p.transform("to_world", &mut self.report);
+        if let Some(t) = transform.filter(|t| even_scale(t.value.matrix3, 1e-3).is_none()) {
+            self.report.error(t.place, "the transform of an envmap must not stretch or shear");
+        }
+        p.ignore(&["mis_compensation"]);
+        if !p.has("filename") {
+            self.report.error(p.place, "an envmap needs a \"filename\"");
+        }
+        let filename = p.string("filename", &mut self.report)?;
+        if !self.is_first_around(p) {
+            return None;
+        }
+        let bitmap = self.images.read(&filename, false, false, &mut self.files, &mut self.report)?;
+        let to_world = transform.map_or(DAffine3::IDENTITY, |t| t.value);
+        Some(EmitterKind::Environment { to_world, bitmap, scale: scale.map_or(1.0, |s| s.value as f32) })
+    }
+
+    /// Whether there is no other emitter all around; otherwise an error.
+    fn is_first_around(&mut self, p: &Properties<'_>) -> bool {
+        let around = |e: &EmitterDescription| {
+            matches!(e.kind, EmitterKind::Constant { .. } | EmitterKind::Environment { .. })
+        };
+        let first = !self.description.emitters.iter().any(around);
+        if !first {
+            self.report.error(p.place, "a scene has only one emitter around it");
+        }
+        first
     }
 }

@@ -29,6 +29,13 @@ impl Fnv1a {
     }
 }
 
+/// The hash of some parts.
+pub(crate) fn of_parts<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> u64 {
+    let mut hash = Fnv1a::default();
+    parts.into_iter().for_each(|part| hash.add(part));
+    hash.finish()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -42,11 +49,7 @@ mod tests {
 
     #[test]
     fn parts_are_told_apart() {
-        let of = |parts: [&[u8]; 2]| {
-            let mut hash = Fnv1a::default();
-            parts.iter().for_each(|p| hash.add(p));
-            hash.finish()
-        };
-        assert_ne!(of([b"ab", b"c"]), of([b"a", b"bc"]));
+        let (ab_c, a_bc): ([&[u8]; 2], [&[u8]; 2]) = ([b"ab", b"c"], [b"a", b"bc"]);
+        assert_ne!(of_parts(ab_c), of_parts(a_bc));
     }
 }

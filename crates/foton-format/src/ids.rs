@@ -1,11 +1,12 @@
 //! Elements by their `id`, and references to them.
 //!
-//! As in Mitsuba 3, an id may be referred to before its element, from anywhere, and belongs to one element only.
+//! As in Mitsuba 3, an id may be referred to before its element, from anywhere, and belongs to one element only. An
+//! `<alias>` gives an element a second id.
 
 use std::collections::HashMap;
 
 use crate::diagnostic::Report;
-use crate::document::{Document, Element, NodeId};
+use crate::document::{Attribute, Document, Element, NodeId};
 use crate::names::did_you_mean;
 use crate::properties::check_attributes;
 
@@ -18,16 +19,34 @@ impl<'a> Ids<'a> {
     /// Collects ids; an id used twice is an error.
     pub(crate) fn collect(document: &'a Document, report: &mut Report) -> Self {
         let mut elements: HashMap<&str, (NodeId, &Element)> = HashMap::new();
-        for (node, element) in document.elements().filter(|(_, e)| e.name != "ref") {
+        let is_reference = |e: &Element| matches!(e.name.as_str(), "ref" | "alias");
+        for (node, element) in document.elements().filter(|(_, e)| !is_reference(e)) {
             let Some(id) = element.attribute("id").filter(|id| !id.broken) else { continue };
             if let Some((_, first)) = elements.get(id.value.as_str()) {
-                let line = first.place.line;
-                report.error(id.value_place, format!("the id \"{}\" is taken since line {line}", id.value));
+                let line = report.line(first.place, id.value_place);
+                report.error(id.value_place, format!("the id \"{}\" is taken since {line}", id.value));
             } else {
                 elements.insert(&id.value, (node, element));
             }
         }
-        Self { elements }
+        let mut ids = Self { elements };
+        for (_, alias) in document.elements().filter(|(_, e)| e.name == "alias") {
+            ids.add_alias(alias, report);
+        }
+        ids
+    }
+
+    fn add_alias(&mut self, alias: &'a Element, report: &mut Report) {
+        if !check_attributes(alias, &["id", "as"], &[], report) {
+            return;
+        }
+        let (Some(id), Some(name)) = (alias.attribute("id"), alias.attribute("as")) else { return };
+        if let Some((_, first)) = self.elements.get(name.value.as_str()) {
+            let line = report.line(first.place, name.value_place);
+            report.error(name.value_place, format!("the id \"{}\" is taken since {line}", name.value));
+        } else if let Some(target) = self.find(id, report) {
+            self.elements.insert(&name.value, target);
+        }
     }
 
     /// The element that a `<ref>` means.
@@ -35,7 +54,13 @@ impl<'a> Ids<'a> {
         if !check_attributes(reference, &["id"], &["name"], report) {
             return None;
         }
-        let id = reference.attribute("id").filter(|id| !id.broken)?;
+        self.find(reference.attribute("id")?, report)
+    }
+
+    fn find(&self, id: &Attribute, report: &mut Report) -> Option<(NodeId, &'a Element)> {
+        if id.broken {
+            return None;
+        }
         let found = self.elements.get(id.value.as_str()).copied();
         if found.is_none() {
             // A library of materials that is not there at all must not take minutes to report.

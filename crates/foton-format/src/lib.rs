@@ -1,8 +1,8 @@
 //! Scene files and meshes to scene descriptions; the only reader of scene files.
 //!
-//! The format is a subset of Mitsuba 3's XML, so that one file renders alike in both. All problems of a file are
-//! found in one go, each with its place and the nearest known name. Nothing is rendered, downloaded or written here,
-//! and textures, media and `<include>` are not read yet.
+//! The format is a subset of Mitsuba 3's XML, so that one file renders alike in both; files of its predecessor (version
+//! 0.6) are read, too. All problems of a file are found in one go, each with its place and the nearest known name.
+//! Nothing is rendered or downloaded here, and media are not read.
 //!
 //! ```
 //! let xml = r#"<scene version="3.0.0">
@@ -16,22 +16,38 @@
 //! assert_eq!(opened.description.shapes.len(), 1);
 //! ```
 
+mod bare;
+mod bsdfs;
+mod colours;
 mod diagnostic;
 mod document;
 mod emitters;
+mod files;
 mod hash;
 mod ids;
+mod images;
+mod include;
+mod integrator;
 mod materials;
 mod meshes;
+mod metals;
+mod mtl;
 mod names;
 mod obj;
+mod ply;
 mod properties;
 mod reader;
 mod sensor;
+mod serialized;
 mod shapes;
+mod spectrum;
+mod stl;
 mod substitute;
+mod textures;
 mod transform;
+mod upgrade;
 mod values;
+mod write;
 
 use std::io;
 use std::path::Path;
@@ -40,8 +56,11 @@ use foton_scene::description::SceneDescription;
 
 pub use diagnostic::{Diagnostic, OpenError, Place, Severity};
 pub use document::{Attribute, Document, Element, MAX_DEPTH, Node, NodeId};
+pub use integrator::Suggested;
+pub use write::write_scene;
 
 use diagnostic::Report;
+use files::Files;
 use hash::Fnv1a;
 use reader::Reader;
 
@@ -62,21 +81,28 @@ pub struct Opened {
     pub description: SceneDescription,
     /// The file's tree as it was written, before parameters were replaced.
     pub document: Document,
-    /// The element of each shape of the description, in its order.
+    /// The element of each shape of the description, in its order; for those of another file its `<include>`.
     pub shape_nodes: Vec<NodeId>,
+    /// Settings that the file asks for.
+    pub suggested: Suggested,
     /// What the file says without effect.
     pub warnings: Vec<Diagnostic>,
-    /// Hash of the contents of the file and its meshes, and of the defines. The same on every platform.
+    /// Hash of the contents of the file and of those it names, and of the defines. The same on every platform.
     pub source_hash: u64,
 }
 
-/// Opens a scene file; the files that it names are found from its folder.
+/// Opens a scene file; the files that it names are found from its folder. An OBJ, PLY or STL file is a whole scene: what
+/// it lacks is added, and a warning says so.
 ///
 /// # Errors
 /// Everything that is wrong with the file, unless it is not well-formed XML: then the first problem.
 pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
+    if let Some(kind) = bare::Kind::of(path) {
+        return bare::open(path, kind, &|file| std::fs::read(file), options);
+    }
     let name = path.to_string_lossy();
-    let report = Report::new(&name);
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let report = Report::new(&name, folder);
     let text = match std::fs::read(path).map(String::from_utf8) {
         Ok(Ok(text)) => text,
         Ok(Err(error)) => {
@@ -87,45 +113,38 @@ pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
         }
         Err(error) => return Err(report.fail(Place::default(), format!("cannot be read: {error}"))),
     };
-    let folder = path.parent().unwrap_or(Path::new(""));
-    read(report, &text, folder, &|file| std::fs::read(file), options)
+    read(report, &text, &|file| std::fs::read(file), options)
 }
 
-/// Reads a scene from memory. `name` stands in messages; `files` is asked for the meshes by the names in the scene.
+/// Reads a scene from memory. `name` stands in messages; `files` is asked for other files by the names in the
+/// scene; EXR images must lie on the disk by the same name.
 ///
 /// # Errors
 /// As [`open`].
 pub fn read_str(name: &str, xml: &str, files: &ReadFile<'_>, options: &Options) -> Result<Opened, OpenError> {
-    read(Report::new(name), xml, Path::new(""), files, options)
+    read(Report::new(name, Path::new("")), xml, files, options)
 }
 
-fn read(
-    mut report: Report,
-    xml: &str,
-    folder: &Path,
-    files: &ReadFile<'_>,
-    options: &Options,
-) -> Result<Opened, OpenError> {
-    let document = match Document::parse(xml.strip_prefix('\u{feff}').unwrap_or(xml)) {
+fn read(mut report: Report, xml: &str, files: &ReadFile<'_>, options: &Options) -> Result<Opened, OpenError> {
+    let text = xml.strip_prefix('\u{feff}').unwrap_or(xml);
+    report.main_text(text);
+    let document = match Document::parse(text) {
         Ok(document) => document,
         Err((place, message)) => return Err(report.fail(place, message)),
     };
-    let resolved = substitute::substitute(&document, &options.defines, &mut report);
-    let mut reader = Reader::new(&resolved, folder, files, report);
+    let mut files = Files::new(files);
+    let expanded = include::expand(&document, &options.defines, &mut files, &mut report);
+    let mut reader = Reader::new(&expanded.document, files, report);
     reader.scene();
-    let Reader { report, meshes, description, shape_nodes, .. } = reader;
+    let Reader { report, files, description, shape_nodes, suggested, .. } = reader;
     let warnings = report.finish()?;
-    let source_hash = hash(xml, options, meshes.hash);
-    Ok(Opened { description, document, shape_nodes, warnings, source_hash })
+    let source_hash = source_hash(xml, options, files.hash);
+    let shape_nodes = shape_nodes.into_iter().map(|node| expanded.origin(node)).collect();
+    Ok(Opened { description, document, shape_nodes, suggested, warnings, source_hash })
 }
 
-fn hash(xml: &str, options: &Options, meshes: Fnv1a) -> u64 {
-    let mut hash = Fnv1a::default();
-    hash.add(xml.as_bytes());
-    for (name, value) in &options.defines {
-        hash.add(name.as_bytes());
-        hash.add(value.as_bytes());
-    }
-    hash.add(&meshes.finish().to_le_bytes());
-    hash.finish()
+fn source_hash(xml: &str, options: &Options, files: Fnv1a) -> u64 {
+    let defines = options.defines.iter().flat_map(|(name, value)| [name.as_bytes(), value.as_bytes()]);
+    let files = files.finish().to_le_bytes();
+    hash::of_parts(std::iter::once(xml.as_bytes()).chain(defines).chain([&files[..]]))
 }

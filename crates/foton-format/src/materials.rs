@@ -1,15 +1,15 @@
-//! `<bsdf>` elements to materials: diffuse, dielectric, conductor without a metal, and two sides of these.
+//! `<bsdf>` elements to materials: BSDFs with what may stand around them, two sides and holes.
 //!
 //! A material that several shapes refer to is read once and stands once in the description.
 
 use std::collections::HashMap;
 
 use foton_math::Rgb;
-use foton_scene::description::{Bsdf, Material};
+use foton_scene::description::{Bsdf, Colour, Material};
 
 use crate::diagnostic::Place;
 use crate::document::NodeId;
-use crate::names::{BSDFS, REFRACTION, did_you_mean};
+use crate::names::BSDFS;
 use crate::properties::{Object, Properties};
 use crate::reader::Reader;
 
@@ -33,12 +33,7 @@ pub(crate) struct Materials {
 struct Sides {
     front: Bsdf,
     back: Option<Bsdf>,
-}
-
-impl Sides {
-    fn one(front: Bsdf) -> Self {
-        Self { front, back: None }
-    }
+    opacity: Option<Colour>,
 }
 
 impl Reader<'_> {
@@ -47,12 +42,12 @@ impl Reader<'_> {
         if let Some(&index) = self.materials.indices.get(&node) {
             return Some(index);
         }
-        let Sides { front, back } = self.sides(node)?;
+        let Sides { front, back, opacity } = self.sides(node)?;
         let element = self.document.element(node)?;
         let index = self.description.materials.len();
         let kind = element.attribute("type").map_or("bsdf", |t| &t.value);
         let name = self.name(element, kind, index + 1);
-        self.description.materials.push(Material { name, front, back });
+        self.description.materials.push(Material { name, front, back, opacity });
         self.materials.indices.insert(node, index);
         Some(index)
     }
@@ -66,8 +61,8 @@ impl Reader<'_> {
         let index = self.description.materials.len();
         let (name, reflectance) =
             if emits { ("default-black", Rgb::BLACK) } else { ("default-grey", Rgb::splat(0.5)) };
-        let front = Bsdf::Diffuse { reflectance };
-        self.description.materials.push(Material { name: name.to_owned(), front, back: None });
+        let front = Bsdf::Diffuse { reflectance: reflectance.into() };
+        self.description.materials.push(Material { name: name.to_owned(), front, back: None, opacity: None });
         self.materials.defaults[slot] = Some(index);
         index
     }
@@ -88,65 +83,33 @@ impl Reader<'_> {
         let plugin = self.plugin(element, &BSDFS)?;
         let mut p = self.properties(node, plugin);
         let sides = match plugin {
-            "diffuse" => {
-                let reflectance = p.reflectance("reflectance", &mut self.report).unwrap_or(Rgb::splat(0.5));
-                Some(Sides::one(Bsdf::Diffuse { reflectance }))
-            }
-            "dielectric" => self.dielectric(&mut p),
-            "conductor" => self.conductor(&mut p),
-            _ => self.twosided(&mut p),
+            "twosided" => self.twosided(&mut p),
+            "mask" => self.mask(&mut p),
+            _ => self.bsdf(plugin, &mut p).map(|front| Sides { front, back: None, opacity: None }),
         };
         p.finish(&mut self.report);
         sides
     }
 
-    fn dielectric(&mut self, p: &mut Properties<'_>) -> Option<Sides> {
-        let int_ior = self.refraction(p, "int_ior", 1.5046);
-        let ext_ior = self.refraction(p, "ext_ior", 1.000_277);
-        let mut factor = |name| p.reflectance(name, &mut self.report).unwrap_or(Rgb::WHITE);
-        let specular_reflectance = factor("specular_reflectance");
-        let specular_transmittance = factor("specular_transmittance");
-        let (int_ior, ext_ior) = int_ior.zip(ext_ior)?;
-        Some(Sides::one(Bsdf::Dielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance }))
-    }
-
-    /// An index of refraction, a number or the name of a substance.
-    #[allow(clippy::cast_possible_truncation, reason = "optics is single precision")]
-    fn refraction(&mut self, p: &mut Properties<'_>, name: &'static str, default: f32) -> Option<f32> {
-        if p.is_string(name) {
-            let substance = p.string(name, &mut self.report)?;
-            let lower = substance.value.to_lowercase();
-            let found = REFRACTION.iter().find(|(known, _)| *known == lower);
-            if found.is_none() {
-                let hint = did_you_mean(&lower, REFRACTION.iter().map(|(known, _)| *known));
-                let message = format!("no index of refraction is known for \"{}\"{hint}", substance.value);
-                self.report.error(substance.place, message);
+    /// A bsdf with holes.
+    fn mask(&mut self, p: &mut Properties<'_>) -> Option<Sides> {
+        let opacity = self.share(p, "opacity", 0.5);
+        let nested = p.nested("bsdf");
+        let [nested] = nested[..] else {
+            self.report.error(p.place, format!("a mask needs one bsdf inside, not {}", nested.len()));
+            return None;
+        };
+        let sides = self.nested_sides(nested)?;
+        let opacity = match (opacity, sides.opacity) {
+            (outer, None) => outer,
+            (Colour::Constant(outer), Some(Colour::Constant(inner))) => Colour::Constant(outer * inner),
+            _ => {
+                self.report
+                    .error(nested.place, "a mask with a texture inside another mask is not supported yet");
+                return None;
             }
-            return found.map(|(_, ior)| *ior);
-        }
-        let Some(ior) = p.number(name, &mut self.report) else { return Some(default) };
-        let single = ior.value as f32;
-        if single.is_normal() && single > 0.0 {
-            return Some(single);
-        }
-        self.report.error(ior.place, "an index of refraction must be above zero");
-        None
-    }
-
-    /// A mirror; real metals need complex indices of refraction.
-    fn conductor(&mut self, p: &mut Properties<'_>) -> Option<Sides> {
-        let material = p.string("material", &mut self.report);
-        p.refuse(&["eta", "k"], &mut self.report);
-        let reflectance = p.reflectance("specular_reflectance", &mut self.report).unwrap_or(Rgb::WHITE);
-        match material {
-            Some(metal) if metal.value != "none" => {
-                let message =
-                    format!("conductor material \"{}\" is not supported yet, only \"none\"", metal.value);
-                self.report.error(metal.place, message);
-                None
-            }
-            _ => Some(Sides::one(Bsdf::Mirror { reflectance })),
-        }
+        };
+        Some(Sides { opacity: Some(opacity), ..sides })
     }
 
     fn twosided(&mut self, p: &mut Properties<'_>) -> Option<Sides> {
@@ -154,11 +117,11 @@ impl Reader<'_> {
         match nested[..] {
             [both] => {
                 let front = self.reflecting(both)?;
-                Some(Sides { front, back: Some(front) })
+                Some(Sides { front, back: Some(front), opacity: None })
             }
             [front, back] => {
                 let (front, back) = (self.reflecting(front), self.reflecting(back));
-                Some(Sides { front: front?, back: Some(back?) })
+                Some(Sides { front: front?, back: Some(back?), opacity: None })
             }
             _ => {
                 let message = format!("a twosided bsdf needs one or two bsdfs inside, not {}", nested.len());
@@ -170,17 +133,23 @@ impl Reader<'_> {
 
     /// The front of a BSDF inside a twosided one, which must not transmit light.
     fn reflecting(&mut self, nested: Object<'_>) -> Option<Bsdf> {
+        let Sides { front, opacity, .. } = self.nested_sides(nested)?;
+        if front.transmits() || opacity.is_some() {
+            let kind = nested.element.attribute("type").map_or("bsdf", |t| &t.value);
+            let message = format!("a {kind} transmits light and cannot stand inside a twosided bsdf");
+            self.report.error(nested.place, message);
+            return None;
+        }
+        Some(front)
+    }
+
+    /// A BSDF inside another one.
+    fn nested_sides(&mut self, nested: Object<'_>) -> Option<Sides> {
         if self.materials.open.contains(&nested.node) || self.materials.open.len() >= LONGEST_CHAIN {
             self.refuse_chain(nested.place);
             return None;
         }
-        let front = self.sides(nested.node)?.front;
-        if matches!(front, Bsdf::Dielectric { .. }) {
-            self.report
-                .error(nested.place, "a dielectric transmits light and cannot stand inside a twosided bsdf");
-            return None;
-        }
-        Some(front)
+        self.sides(nested.node)
     }
 
     fn refuse_chain(&mut self, place: Place) {

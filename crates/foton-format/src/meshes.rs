@@ -1,90 +1,141 @@
 //! Mesh files of a scene: each is read once, and becomes vertices that triangles share.
 //!
 //! Mitsuba 3.9 was asked what it makes of an OBJ file, and this follows it:
-//! - Corners with the same position and normal share a vertex. Normals of the file are kept.
+//! - Corners with the same position, texture coordinate and normal share a vertex. Normals of the file are kept.
 //! - Without normals, smooth ones are computed: the mean of the adjoining faces' unit normals, weighted by the angle
-//!   at the vertex, *after* `to_world`; so they follow the winding in the world. Corners that differ in their texture
-//!   coordinate do not share a vertex then, so a texture seam is a crease. Where the mean vanishes it is the x axis.
+//!   at the vertex, *after* `to_world`; so they follow the winding in the world. A texture seam is a
+//!   crease, since corners on it do not share a vertex. Where the mean vanishes it is the x axis.
 //! - `face_normals` drops all normals.
+//! - Texture coordinates of an OBJ file are turned upside down (`flip_tex_coords`), so that v begins at a bitmap's top.
 //!
 //! In a file with normals for some corners only, Mitsuba leaves the others undefined; here they are computed.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use foton_math::glam::{DAffine3, DVec3};
+use foton_math::glam::{DAffine3, DVec2, DVec3};
 use foton_scene::description::Mesh;
 
-use crate::ReadFile;
-use crate::diagnostic::{Place, Report};
-use crate::hash::Fnv1a;
-use crate::obj::{Corner, Obj};
+use crate::diagnostic::Report;
+use crate::files::Files;
+use crate::obj::{Corner, Obj, Problem};
+use crate::properties::Located;
+use crate::{ply, serialized, stl};
 
-/// The files that a scene names.
-pub(crate) struct Meshes<'a> {
-    folder: &'a Path,
-    files: &'a ReadFile<'a>,
-    /// What each file holds; `None` if it could not be read, which was reported.
-    read: HashMap<PathBuf, Option<Rc<Obj>>>,
-    /// Meshes that do not depend on a transform, by file and `face_normals`.
-    built: HashMap<(PathBuf, bool), Arc<Mesh>>,
-    /// The contents of all files, in the order in which they were first named.
-    pub(crate) hash: Fnv1a,
+/// How a mesh file is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Format {
+    /// Wavefront OBJ.
+    Obj,
+    /// PLY.
+    Ply,
+    /// STL, which only we read.
+    Stl,
+    /// The mesh of that number, from 0, in a file of Mitsuba's.
+    Serialized(u32),
 }
 
-impl<'a> Meshes<'a> {
-    pub(crate) fn new(folder: &'a Path, files: &'a ReadFile<'a>) -> Self {
-        Self { folder, files, read: HashMap::new(), built: HashMap::new(), hash: Fnv1a::default() }
-    }
+/// What a shape says about its mesh file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Wanted {
+    /// How it is read.
+    pub(crate) format: Format,
+    /// Flat faces, whatever the file says.
+    pub(crate) face_normals: bool,
+    /// Texture coordinates with v → 1 − v.
+    pub(crate) flip_v: bool,
+}
 
-    /// The mesh of an OBJ file named at `place`.
-    pub(crate) fn obj(
+/// What a file holds.
+enum Contents {
+    Obj(Obj),
+    Mesh(Mesh),
+}
+
+/// The mesh files read so far.
+#[derive(Default)]
+pub(crate) struct Meshes {
+    /// What each file holds; `None` if it could not be read, which was reported.
+    read: HashMap<(PathBuf, Format), Option<Rc<Contents>>>,
+    /// Meshes that do not depend on a transform.
+    built: HashMap<(PathBuf, Wanted), Arc<Mesh>>,
+}
+
+impl Meshes {
+    /// The mesh of a file.
+    pub(crate) fn read(
         &mut self,
-        filename: &str,
-        place: Place,
-        face_normals: bool,
+        filename: &Located<String>,
+        wanted: Wanted,
         to_world: &DAffine3,
+        files: &mut Files<'_>,
         report: &mut Report,
     ) -> Option<Arc<Mesh>> {
-        let path = self.folder.join(filename);
-        let key = (path, face_normals);
+        let path = Files::key(&filename.value, filename.place, report);
+        let key = (path.clone(), wanted);
         if let Some(mesh) = self.built.get(&key) {
             return Some(Arc::clone(mesh));
         }
-        if !self.read.contains_key(&key.0) {
-            let obj = self.read_obj(&key.0, place, report).map(Rc::new);
-            self.read.insert(key.0.clone(), obj);
-        }
-        let obj = Rc::clone(self.read.get(&key.0)?.as_ref()?);
-        let mesh = Arc::new(build(&obj, face_normals, to_world));
-        let depends_on_transform = !face_normals && obj.triangles.iter().flatten().any(|c| c.normal == 0);
+        let contents = self
+            .read
+            .entry((path, wanted.format))
+            .or_insert_with(|| read(filename, wanted.format, files, report).map(Rc::new))
+            .clone()?;
+        let (mesh, depends_on_transform) = match &*contents {
+            Contents::Obj(obj) => {
+                let smooth = !wanted.face_normals && obj.triangles.iter().flatten().any(|c| c.normal == 0);
+                (build(obj, wanted, to_world), smooth)
+            }
+            Contents::Mesh(mesh) => {
+                let smooth = !wanted.face_normals && mesh.normals.is_empty();
+                (finished(mesh, wanted, to_world), smooth)
+            }
+        };
+        let mesh = Arc::new(mesh);
         if !depends_on_transform {
             self.built.insert(key, Arc::clone(&mesh));
         }
         Some(mesh)
     }
+}
 
-    fn read_obj(&mut self, path: &Path, place: Place, report: &mut Report) -> Option<Obj> {
-        let file = path.to_string_lossy();
-        let bytes = match (self.files)(path) {
-            Ok(bytes) => bytes,
-            Err(error) => {
-                report.error(place, format!("cannot read {file}: {error}"));
-                return None;
-            }
-        };
-        self.hash.add(&bytes);
-        let problems = match Obj::parse(&bytes) {
-            Ok(obj) => return Some(obj),
-            Err(problems) => problems,
-        };
+fn read(
+    filename: &Located<String>,
+    format: Format,
+    files: &mut Files<'_>,
+    report: &mut Report,
+) -> Option<Contents> {
+    let (path, bytes) = files.read(&filename.value, filename.place, report)?;
+    let one = |mesh: Result<Mesh, Problem>| mesh.map(Contents::Mesh).map_err(|problem| vec![problem]);
+    let contents = match format {
+        Format::Obj => Obj::parse(&bytes).map(Contents::Obj),
+        Format::Ply => one(ply::parse(&bytes)),
+        Format::Stl => one(stl::parse(&bytes)),
+        Format::Serialized(number) => one(serialized::parse(&bytes, number)),
+    };
+    let file = path.to_string_lossy();
+    let report_all = |problems: Vec<Problem>| {
         for (place, message) in problems {
             report.error_in(&file, place, message);
         }
-        None
+    };
+    contents.map_err(report_all).ok()
+}
+
+/// A mesh as a shape wants it.
+pub(crate) fn finished(mesh: &Mesh, wanted: Wanted, to_world: &DAffine3) -> Mesh {
+    let mut mesh = mesh.clone();
+    if wanted.face_normals {
+        mesh.normals = Vec::new();
+    } else if mesh.normals.is_empty() {
+        mesh.normals = smooth_normals(&mesh.positions, &mesh.triangles, to_world);
     }
+    if wanted.flip_v {
+        mesh.texture_coordinates.iter_mut().for_each(|uv| uv.y = 1.0 - uv.y);
+    }
+    mesh
 }
 
 /// Vertices that corners share, found by chains of those with the same position.
@@ -118,18 +169,15 @@ impl Vertices {
     }
 }
 
-fn build(obj: &Obj, face_normals: bool, to_world: &DAffine3) -> Mesh {
+/// The mesh of an OBJ file as a shape wants it, its triangles in the order of the file.
+pub(crate) fn build(obj: &Obj, wanted: Wanted, to_world: &DAffine3) -> Mesh {
     let mut vertices = Vertices::new(obj.positions.len());
-    let key = |c: Corner| match c {
-        Corner { position, .. } if face_normals => Corner { position, ..Corner::default() },
-        Corner { normal: 0, .. } => c,
-        _ => Corner { texture: 0, ..c },
-    };
+    let key = |c: Corner| if wanted.face_normals { Corner { normal: 0, ..c } } else { c };
     let triangles: Vec<[u32; 3]> =
         obj.triangles.iter().map(|corners| corners.map(|c| vertices.index(key(c)))).collect();
     let positions: Vec<DVec3> = vertices.keys.iter().map(|k| obj.positions[k.position as usize]).collect();
     let mut normals = Vec::new();
-    if !face_normals {
+    if !wanted.face_normals {
         normals = vertices.keys.iter().map(|k| stated_normal(obj, *k)).collect();
         if vertices.keys.iter().any(|k| k.normal == 0) {
             let smooth = smooth_normals(&positions, &triangles, to_world);
@@ -140,7 +188,18 @@ fn build(obj: &Obj, face_normals: bool, to_world: &DAffine3) -> Mesh {
             }
         }
     }
-    Mesh { positions, normals, triangles }
+    let mut texture_coordinates = Vec::new();
+    if vertices.keys.iter().any(|k| k.texture != 0) {
+        texture_coordinates = vertices.keys.iter().map(|k| texture(obj, *k, wanted.flip_v)).collect();
+    }
+    Mesh { positions, normals, texture_coordinates, triangles }
+}
+
+/// The texture coordinate of a corner; the origin if it has none.
+fn texture(obj: &Obj, key: Corner, flip_v: bool) -> DVec2 {
+    let Some(index) = (key.texture as usize).checked_sub(1) else { return DVec2::ZERO };
+    let uv = obj.textures[index];
+    if flip_v { DVec2::new(uv.x, 1.0 - uv.y) } else { uv }
 }
 
 fn stated_normal(obj: &Obj, key: Corner) -> DVec3 {
@@ -150,7 +209,7 @@ fn stated_normal(obj: &Obj, key: Corner) -> DVec3 {
 
 /// Angle-weighted normals of the mesh as it stands in the world, brought back to object space so that the inverse
 /// transpose of `to_world` yields them.
-fn smooth_normals(positions: &[DVec3], triangles: &[[u32; 3]], to_world: &DAffine3) -> Vec<DVec3> {
+pub(crate) fn smooth_normals(positions: &[DVec3], triangles: &[[u32; 3]], to_world: &DAffine3) -> Vec<DVec3> {
     let m = to_world.matrix3;
     let mut sums = vec![DVec3::ZERO; positions.len()];
     for triangle in triangles {
@@ -177,7 +236,8 @@ mod tests {
     const DIAGONAL: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
     fn mesh(text: &str, face_normals: bool, to_world: DAffine3) -> Mesh {
-        build(&Obj::parse(text.as_bytes()).map_err(|p| format!("{p:?}")).unwrap(), face_normals, &to_world)
+        let obj = Obj::parse(text.as_bytes()).map_err(|p| format!("{p:?}")).unwrap();
+        build(&obj, Wanted { format: Format::Obj, face_normals, flip_v: true }, &to_world)
     }
 
     fn world_normals(mesh: &Mesh, to_world: DAffine3) -> Vec<DVec3> {
@@ -234,9 +294,23 @@ mod tests {
         assert_close(&computed.normals, &[z, z, z, y, y, y]);
         let stated =
             mesh(&format!("{seam}f 1/1/1 2/1/1 3/1/1\nf 1/2/1 4/2/1 2/2/1\n"), false, DAffine3::IDENTITY);
-        assert_eq!(stated.positions.len(), 4);
+        assert_eq!((stated.positions.len(), stated.normals[0], stated.normals[5]), (6, DVec3::Z, DVec3::Z));
         let flat = mesh(&format!("{seam}f 1/1/1 2/1/1 3/1/1\nf 1/2 4/2 2/2\n"), true, DAffine3::IDENTITY);
-        assert_eq!((flat.positions.len(), flat.normals.len()), (4, 0));
+        assert_eq!((flat.positions.len(), flat.normals.len()), (6, 0));
+    }
+
+    #[test]
+    fn texture_coordinates_are_those_of_mitsuba() {
+        // Printed by Mitsuba 3.9.1.
+        let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0.25\nvt 0 1\nvt 0.5\nvn 0 0 1\n\
+                    f 1/1/1 2/2/1 3/3/1\nf 1/4/1 3/3/1 2/2/1\n";
+        let found = mesh(text, false, DAffine3::IDENTITY);
+        let uvs = [[0.0, 1.0], [1.0, 0.75], [0.0, 0.0], [0.5, 1.0]];
+        assert_eq!(found.texture_coordinates, uvs.map(DVec2::from_array));
+        assert_eq!(found.triangles, [[0, 1, 2], [3, 2, 1]]);
+        assert!(mesh(CORNER, false, DAffine3::IDENTITY).texture_coordinates.is_empty());
+        let partly = mesh("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1 1\nf 1/1 2 3\n", true, DAffine3::IDENTITY);
+        assert_eq!(partly.texture_coordinates, [DVec2::X, DVec2::ZERO, DVec2::ZERO]);
     }
 
     #[test]

@@ -12,11 +12,8 @@ pub(crate) struct Plugins {
 
 pub(crate) const SHAPES: Plugins = Plugins {
     kind: "shape",
-    supported: &["obj", "rectangle", "cube", "sphere", "disk"],
+    supported: &["obj", "ply", "stl", "serialized", "rectangle", "cube", "sphere", "disk", "cylinder"],
     elsewhere: &[
-        "ply",
-        "serialized",
-        "cylinder",
         "instance",
         "shapegroup",
         "merge",
@@ -31,19 +28,24 @@ pub(crate) const SHAPES: Plugins = Plugins {
 
 pub(crate) const BSDFS: Plugins = Plugins {
     kind: "bsdf",
-    supported: &["diffuse", "twosided", "dielectric", "conductor"],
-    elsewhere: &[
-        "roughconductor",
-        "roughdielectric",
+    supported: &[
+        "diffuse",
+        "twosided",
+        "mask",
+        "null",
+        "dielectric",
         "thindielectric",
+        "roughdielectric",
+        "conductor",
+        "roughconductor",
         "plastic",
         "roughplastic",
+    ],
+    elsewhere: &[
         "pplastic",
         "principled",
         "principledthin",
         "blendbsdf",
-        "mask",
-        "null",
         "bumpmap",
         "normalmap",
         "hair",
@@ -52,13 +54,41 @@ pub(crate) const BSDFS: Plugins = Plugins {
         "polarizer",
         "retarder",
         "circular",
+        "roughdiffuse",
+        "coating",
+        "roughcoating",
+        "mixturebsdf",
+        "phong",
+        "ward",
+        "difftrans",
+    ],
+};
+
+pub(crate) const TEXTURES: Plugins = Plugins {
+    kind: "texture",
+    supported: &["bitmap", "checkerboard"],
+    elsewhere: &[
+        "mesh_attribute",
+        "volume",
+        "uniform",
+        "regular",
+        "irregular",
+        "rawconstant",
+        "srgb",
+        "d65",
+        "blackbody",
+        "scale",
+        "vertexcolors",
+        "gridtexture",
+        "wireframe",
+        "curvature",
     ],
 };
 
 pub(crate) const EMITTERS: Plugins = Plugins {
     kind: "emitter",
-    supported: &["area", "point", "spot", "constant"],
-    elsewhere: &["envmap", "directional", "directionalarea", "projector", "sunsky", "timed_sunsky"],
+    supported: &["area", "point", "spot", "constant", "directional", "envmap"],
+    elsewhere: &["directionalarea", "projector", "sunsky", "timed_sunsky", "sky", "sun", "collimated"],
 };
 
 pub(crate) const SENSORS: Plugins = Plugins {
@@ -77,7 +107,7 @@ pub(crate) const FILTERS: Plugins = Plugins {
 
 /// Tags of single values.
 pub(crate) const VALUE_TAGS: &[&str] =
-    &["boolean", "integer", "float", "string", "point", "vector", "spectrum", "rgb", "transform"];
+    &["boolean", "integer", "float", "string", "point", "vector", "spectrum", "rgb", "srgb", "transform"];
 
 /// Tags of nested plugins.
 pub(crate) const OBJECT_TAGS: &[&str] = &[

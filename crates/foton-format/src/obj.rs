@@ -1,9 +1,10 @@
-//! Wavefront OBJ to positions, normals and triangles by index. Materials, groups and curves are not read.
+//! Wavefront OBJ to positions, normals, texture coordinates and triangles by index. Groups and curves are not
+//! read; materials are kept by name.
 //!
 //! Our own reader, because errors must name the line. Two passes over the bytes: the first counts, so that the
 //! second allocates once and can check every index where it stands.
 
-use foton_math::glam::DVec3;
+use foton_math::glam::{DVec2, DVec3};
 
 use crate::diagnostic::Place;
 
@@ -14,7 +15,13 @@ const MOST_PROBLEMS: usize = 20;
 pub(crate) struct Obj {
     pub(crate) positions: Vec<DVec3>,
     pub(crate) normals: Vec<DVec3>,
+    /// Texture coordinates, v upwards as a rule.
+    pub(crate) textures: Vec<DVec2>,
     pub(crate) triangles: Vec<[Corner; 3]>,
+    /// Files with materials, and where they are named.
+    pub(crate) libraries: Vec<(Place, String)>,
+    /// Names of materials, each with the number of triangles before the first that has it.
+    pub(crate) materials: Vec<(usize, String)>,
 }
 
 /// A corner of a face.
@@ -43,13 +50,15 @@ impl Obj {
         let totals = Totals::count(bytes);
         let mut parser = Parser {
             totals,
-            textures: 0,
             face: Vec::new(),
             problems: Vec::new(),
             obj: Self {
                 positions: Vec::with_capacity(totals.positions),
                 normals: Vec::with_capacity(totals.normals),
+                textures: Vec::with_capacity(totals.textures),
                 triangles: Vec::with_capacity(totals.faces),
+                libraries: Vec::new(),
+                materials: Vec::new(),
             },
         };
         let mut unlisted = 0;
@@ -68,7 +77,19 @@ impl Obj {
         } else if parser.problems.is_empty() && parser.obj.triangles.is_empty() {
             parser.problems.push((Place::default(), "the file has no faces".to_owned()));
         }
+        parser.obj.drop_zero_normals();
         if parser.problems.is_empty() { Ok(parser.obj) } else { Err(parser.problems) }
+    }
+}
+
+impl Obj {
+    /// Corners whose normal is zero have none.
+    fn drop_zero_normals(&mut self) {
+        for corner in self.triangles.iter_mut().flatten().filter(|c| c.normal != 0) {
+            if self.normals[corner.normal as usize - 1].try_normalize().is_none() {
+                corner.normal = 0;
+            }
+        }
     }
 }
 
@@ -100,7 +121,6 @@ impl Totals {
 
 struct Parser {
     totals: Totals,
-    textures: usize,
     /// Corners of the face being read.
     face: Vec<Corner>,
     problems: Vec<Problem>,
@@ -120,18 +140,22 @@ impl Parser {
             b"vn" => {
                 let normal = vector(keyword, words);
                 self.obj.normals.push(normal.as_ref().map_or(DVec3::Z, |n| *n));
-                match normal {
-                    Ok(normal) if normal.try_normalize().is_none() => {
-                        Err((keyword.place, "a normal must not be zero".to_owned()))
-                    }
-                    other => other.map(|_| ()),
-                }
+                normal.map(|_| ())
             }
             b"vt" => {
-                self.textures += 1;
-                Ok(())
+                let texture = texture_coordinate(keyword, words);
+                self.obj.textures.push(texture.as_ref().map_or(DVec2::ZERO, |t| *t));
+                texture.map(|_| ())
             }
             b"f" => self.face(keyword, words),
+            b"mtllib" => {
+                self.obj.libraries.push((keyword.place, words.rest_of_line()));
+                Ok(())
+            }
+            b"usemtl" => {
+                self.obj.materials.push((self.obj.triangles.len(), words.rest_of_line()));
+                Ok(())
+            }
             _ => Ok(()),
         }
     }
@@ -160,7 +184,7 @@ impl Parser {
         if parts.next().is_some() || position.is_empty() {
             return Err(format!("\"{}\" is not a corner such as 1, 1/2 or 1/2/3", shown(text)));
         }
-        let seen = (self.obj.positions.len(), self.textures, self.obj.normals.len());
+        let seen = (self.obj.positions.len(), self.obj.textures.len(), self.obj.normals.len());
         let position = number("vertex", position, self.totals.positions, seen.0)?;
         let texture = number("texture coordinate", texture, self.totals.textures, seen.1)?;
         let normal = number("normal", normal, self.totals.normals, seen.2)?;
@@ -184,41 +208,47 @@ fn number(what: &str, text: &[u8], total: usize, seen: usize) -> Result<u32, Str
 }
 
 /// The three finite numbers after a keyword; more are ignored.
-fn vector(keyword: Word<'_>, words: &mut Words<'_>) -> Result<DVec3, Problem> {
+pub(crate) fn vector(keyword: Word<'_>, words: &mut Words<'_>) -> Result<DVec3, Problem> {
     let mut v = [0.0; 3];
     for (count, number) in v.iter_mut().enumerate() {
         let Some(word) = words.next() else {
             let name = shown(keyword.text);
             return Err((keyword.place, format!("\"{name}\" needs three numbers, not {count}")));
         };
-        let parsed = std::str::from_utf8(word.text).ok().and_then(|t| t.parse::<f64>().ok());
-        let quality = match parsed {
-            Some(value) if value.is_finite() => {
-                *number = value;
-                continue;
-            }
-            Some(_) => "finite number",
-            None => "number",
-        };
-        return Err((word.place, format!("\"{}\" is not a {quality}", shown(word.text))));
+        *number = finite(word)?;
     }
     Ok(DVec3::from_array(v))
 }
 
+/// One or two finite numbers after a keyword, the second 0 if it is missing; more are ignored.
+fn texture_coordinate(keyword: Word<'_>, words: &mut Words<'_>) -> Result<DVec2, Problem> {
+    let u = words.next().ok_or_else(|| (keyword.place, "\"vt\" needs two numbers, not 0".to_owned()))?;
+    Ok(DVec2::new(finite(u)?, words.next().map_or(Ok(0.0), finite)?))
+}
+
+fn finite(word: Word<'_>) -> Result<f64, Problem> {
+    let quality = match std::str::from_utf8(word.text).ok().and_then(|t| t.parse::<f64>().ok()) {
+        Some(value) if value.is_finite() => return Ok(value),
+        Some(_) => "finite number",
+        None => "number",
+    };
+    Err((word.place, format!("\"{}\" is not a {quality}", shown(word.text))))
+}
+
 /// The beginning of a word as it may stand in a message.
-fn shown(text: &[u8]) -> String {
+pub(crate) fn shown(text: &[u8]) -> String {
     text[..text.len().min(40)].escape_ascii().to_string()
 }
 
 /// A word and its place.
 #[derive(Clone, Copy)]
-struct Word<'a> {
-    text: &'a [u8],
-    place: Place,
+pub(crate) struct Word<'a> {
+    pub(crate) text: &'a [u8],
+    pub(crate) place: Place,
 }
 
 /// The words of each line. Comments are skipped, and a backslash at the end of a line continues it.
-struct Words<'a> {
+pub(crate) struct Words<'a> {
     bytes: &'a [u8],
     at: usize,
     line: u32,
@@ -227,7 +257,7 @@ struct Words<'a> {
 }
 
 impl<'a> Words<'a> {
-    fn new(bytes: &'a [u8]) -> Self {
+    pub(crate) fn new(bytes: &'a [u8]) -> Self {
         let bom = b"\xEF\xBB\xBF";
         Self {
             bytes: bytes.strip_prefix(bom).unwrap_or(bytes),
@@ -239,7 +269,7 @@ impl<'a> Words<'a> {
     }
 
     /// Goes to the beginning of the next line; whether there is one.
-    fn next_line(&mut self) -> bool {
+    pub(crate) fn next_line(&mut self) -> bool {
         if self.started {
             while self.next().is_some() {}
             self.at += 1;
@@ -251,7 +281,7 @@ impl<'a> Words<'a> {
     }
 
     /// The next word of this line.
-    fn next(&mut self) -> Option<Word<'a>> {
+    pub(crate) fn next(&mut self) -> Option<Word<'a>> {
         loop {
             match *self.bytes.get(self.at)? {
                 b'\n' => return None,
@@ -277,6 +307,14 @@ impl<'a> Words<'a> {
         }
         let column = u32::try_from(start - self.line_start + 1).unwrap_or(0);
         Some(Word { text: &self.bytes[start..self.at], place: Place { line: self.line, column } })
+    }
+
+    /// What is left of this line as one text, white space around it removed.
+    pub(crate) fn rest_of_line(&mut self) -> String {
+        let rest = &self.bytes[self.at..];
+        let length = rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
+        self.at += length;
+        String::from_utf8_lossy(&rest[..length]).trim().to_owned()
     }
 
     /// The length of a backslash with the end of line after it, or 0.
@@ -357,7 +395,6 @@ mod tests {
                 "2:5: \"x\" is not a number",
                 "3:1: \"v\" needs three numbers, not 2",
                 "4:5: \"nan\" is not a finite number",
-                "5:1: a normal must not be zero",
                 "6:1: a face needs three corners, not 2",
                 "7:1: a face needs three corners, not 0",
                 "8:7: there is no vertex 9, the file has 4",

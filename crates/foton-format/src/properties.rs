@@ -3,7 +3,6 @@
 //! Whoever reads a plugin takes from here what it knows; what nobody took is reported at the end, with the nearest
 //! name that was asked for. References are followed here.
 
-use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 
 use crate::diagnostic::{Place, Report};
@@ -111,7 +110,7 @@ impl<'a> Properties<'a> {
     }
 
     /// The element of a value, if it is there and of one of the tags.
-    fn take(
+    pub(crate) fn take(
         &mut self,
         name: &'static str,
         tags: &[&str],
@@ -199,56 +198,18 @@ impl<'a> Properties<'a> {
         Some(Located { value, place: element.place })
     }
 
-    /// A share of light, each channel in [0, 1].
-    pub(crate) fn reflectance(&mut self, name: &'static str, report: &mut Report) -> Option<Rgb> {
-        let (_, colour) = self.colour(name, report)?;
-        if colour.value.to_array().iter().all(|c| (0.0..=1.0).contains(c)) {
-            return Some(colour.value);
-        }
-        let subject = self.subject;
-        report.error(colour.place, format!("\"{name}\" of \"{subject}\" must lie between 0 and 1"));
-        None
+    /// The texture that stands for a value.
+    pub(crate) fn texture(&mut self, name: &'static str) -> Option<Object<'a>> {
+        self.asked.push(name);
+        let is_it = |o: &&mut Object<'_>| o.name == name && is_texture(&o.element.name);
+        let object = self.objects.iter_mut().find(is_it)?;
+        object.taken = true;
+        Some(*object)
     }
 
-    /// Emitted light, no channel below zero.
-    ///
-    /// A `<spectrum>` of one number is the same at every wavelength, which is not white in sRGB: Mitsuba 3 takes its
-    /// colour from the matching functions, and so do we.
-    pub(crate) fn emission(&mut self, name: &'static str, report: &mut Report) -> Option<Rgb> {
-        /// Linear sRGB of CIE XYZ (1, 1, 1).
-        const EQUAL_ENERGY: Rgb = Rgb::new(1.204_794, 0.948_291, 0.908_916);
-        let (tag, colour) = self.colour(name, report)?;
-        if colour.value.to_array().iter().all(|&c| c >= 0.0) {
-            return Some(if tag == "spectrum" { colour.value * EQUAL_ENERGY } else { colour.value });
-        }
-        report.error(colour.place, format!("\"{name}\" must not be negative"));
-        None
-    }
-
-    fn colour(&mut self, name: &'static str, report: &mut Report) -> Option<(&'a str, Located<Rgb>)> {
-        let (_, element) = self.take(name, &["rgb", "float", "integer", "spectrum"], report)?;
-        let tag = element.name.as_str();
-        let Some(attribute) = element.attribute("value") else {
-            let place = element.value_place("filename");
-            report.error(place, "a spectrum over wavelengths is not supported yet, give an <rgb>");
-            return None;
-        };
-        if tag == "spectrum"
-            && values::number(&attribute.value).is_err()
-            && attribute.value.contains([':', ','])
-        {
-            report.error(
-                attribute.value_place,
-                "a spectrum over wavelengths is not supported yet, give an <rgb>",
-            );
-            return None;
-        }
-        let parse = |text: &str| match tag {
-            "rgb" => values::colour(text),
-            _ => values::number(text).and_then(|_| values::colour(text)),
-        };
-        let value = parse_attribute(attribute, parse, report)?;
-        Some((tag, Located { value, place: attribute.value_place }))
+    /// The plugin's name, for messages.
+    pub(crate) fn subject(&self) -> &'a str {
+        self.subject
     }
 
     /// Nested plugins with that tag, references followed.
@@ -315,10 +276,13 @@ fn is_texture(tag: &str) -> bool {
 fn report_tag(element: &Element, report: &mut Report) {
     let tag = element.name.as_str();
     match tag {
-        "default" => {}
-        "include" | "alias" | "path" => report.error(element.place, format!("<{tag}> is not supported yet")),
+        "default" | "alias" => {}
         _ => {
-            let known = VALUE_TAGS.iter().chain(OBJECT_TAGS).copied().chain(["default", "ref"]);
+            let known = VALUE_TAGS
+                .iter()
+                .chain(OBJECT_TAGS)
+                .copied()
+                .chain(["default", "ref", "include", "alias", "path"]);
             let hint = did_you_mean(tag, known);
             report.error(element.place, format!("unknown element <{tag}>{hint}"));
         }

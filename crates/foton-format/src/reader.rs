@@ -1,47 +1,53 @@
 //! Walks a `<scene>` and fills a description; what each plugin means is in the file of its kind.
 
 use std::collections::HashMap;
-use std::path::Path;
 
 use foton_scene::description::SceneDescription;
 
-use crate::ReadFile;
 use crate::diagnostic::Report;
 use crate::document::{Document, Element, NodeId};
+use crate::files::Files;
 use crate::ids::Ids;
+use crate::images::Images;
+use crate::integrator::Suggested;
 use crate::materials::Materials;
 use crate::meshes::Meshes;
 use crate::names::{Plugins, did_you_mean};
 use crate::properties::{Properties, check_attributes, parse_attribute};
+use crate::textures::Textures;
+use crate::values;
 
 /// What is known while a scene is read.
 pub(crate) struct Reader<'a> {
     pub(crate) document: &'a Document,
     pub(crate) ids: Ids<'a>,
     pub(crate) report: Report,
-    pub(crate) meshes: Meshes<'a>,
+    pub(crate) files: Files<'a>,
+    pub(crate) meshes: Meshes,
+    pub(crate) images: Images,
+    pub(crate) textures: Textures,
     pub(crate) materials: Materials,
     pub(crate) description: SceneDescription,
+    pub(crate) suggested: Suggested,
     pub(crate) shape_nodes: Vec<NodeId>,
     /// Area emitters of the scene itself, and whether a shape refers to them.
     pub(crate) loose_areas: HashMap<NodeId, bool>,
 }
 
 impl<'a> Reader<'a> {
-    pub(crate) fn new(
-        document: &'a Document,
-        folder: &'a Path,
-        files: &'a ReadFile<'a>,
-        mut report: Report,
-    ) -> Self {
+    pub(crate) fn new(document: &'a Document, files: Files<'a>, mut report: Report) -> Self {
         let ids = Ids::collect(document, &mut report);
         Self {
             document,
             ids,
             report,
-            meshes: Meshes::new(folder, files),
+            files,
+            meshes: Meshes::default(),
+            images: Images::default(),
+            textures: Textures::default(),
             materials: Materials::default(),
             description: SceneDescription::default(),
+            suggested: Suggested::default(),
             shape_nodes: Vec::new(),
             loose_areas: HashMap::new(),
         }
@@ -69,6 +75,9 @@ impl<'a> Reader<'a> {
         }
         // Samplers do not change what an image converges to.
         contents.nested("sampler");
+        for texture in contents.nested("texture") {
+            self.texture(texture);
+        }
         for bsdf in contents.nested("bsdf") {
             self.material(bsdf.node);
         }
@@ -98,34 +107,10 @@ impl<'a> Reader<'a> {
             return false;
         }
         check_attributes(element, &["version"], &["id", "name", "type"], &mut self.report);
-        let major = element.attribute("version").and_then(|v| parse_attribute(v, major, &mut self.report));
-        if let Some(0 | 1) = major {
-            let place = element.value_place("version");
-            self.report.error(place, "files of versions before 2 are not read yet");
-        }
-        major.is_some_and(|m| m >= 2)
-    }
-
-    /// Any integrator will do; only the length of paths counts, that of the innermost one where they nest.
-    fn integrator(&mut self, node: NodeId) {
-        let mut p = self.properties(node, "integrator");
-        if let Some(depth) = p.integer("max_depth", &mut self.report) {
-            match u32::try_from(depth.value) {
-                Ok(bound) => self.description.max_depth = Some(bound),
-                Err(_) if depth.value == -1 => self.description.max_depth = None,
-                Err(_) => {
-                    self.report.error(depth.place, "\"max_depth\" must be -1 (no bound), 0 or more");
-                }
-            }
-        }
-        if let Some(hide) = p.boolean("hide_emitters", &mut self.report).filter(|hide| hide.value) {
-            self.report.warning(hide.place, "\"hide_emitters\" is not supported, emitters stay visible");
-        }
-        p.ignore(&["rr_depth"]);
-        for inner in p.nested("integrator").into_iter().filter(|inner| inner.node > node) {
-            self.integrator(inner.node);
-        }
-        p.finish_leniently(&mut self.report);
+        let major = element
+            .attribute("version")
+            .and_then(|v| parse_attribute(v, values::major_version, &mut self.report));
+        major.is_some()
     }
 
     /// The contents of a plugin's element.
@@ -155,14 +140,5 @@ impl<'a> Reader<'a> {
     pub(crate) fn name(&self, element: &Element, kind: &str, number: usize) -> String {
         let id = element.attribute("id").map(|id| id.value.clone());
         id.unwrap_or_else(|| format!("{kind}-{number}"))
-    }
-}
-
-/// The first part of a version such as `3.0.0`.
-fn major(version: &str) -> Result<u32, String> {
-    let parts: Result<Vec<u32>, _> = version.trim().split('.').map(str::parse).collect();
-    match parts {
-        Ok(parts) if parts.len() <= 3 => Ok(parts[0]),
-        _ => Err(format!("\"{version}\" is not a version such as 3.0.0")),
     }
 }

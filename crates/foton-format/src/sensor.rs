@@ -139,7 +139,14 @@ impl Reader<'_> {
         let mut p = self.properties(node, plugin);
         let width = self.pixels(&mut p, "width", 768);
         let height = self.pixels(&mut p, "height", 576);
-        p.refuse(&["crop_offset_x", "crop_offset_y", "crop_width", "crop_height"], &mut self.report);
+        for (name, whole) in
+            [("crop_offset_x", 0), ("crop_offset_y", 0), ("crop_width", width), ("crop_height", height)]
+        {
+            let crop = p.integer(name, &mut self.report);
+            if let Some(crop) = crop.filter(|c| c.value != i64::from(whole)) {
+                self.report.error(crop.place, "a crop of the image is not supported yet");
+            }
+        }
         p.ignore(&[
             "file_format",
             "pixel_format",

@@ -1,4 +1,4 @@
-//! `<shape>` elements: meshes, rectangle, cube, sphere and disk, each with its material and emission.
+//! `<shape>` elements: meshes, rectangle, cube, sphere, disk and cylinder, each with its material and emission.
 
 use std::sync::Arc;
 
@@ -8,6 +8,7 @@ use foton_scene::description::{Geometry, Mesh, ShapeDescription};
 
 use crate::diagnostic::Place;
 use crate::document::NodeId;
+use crate::meshes::{Format, Wanted};
 use crate::names::SHAPES;
 use crate::properties::Properties;
 use crate::reader::Reader;
@@ -28,13 +29,14 @@ impl Reader<'_> {
         };
         let mut p = self.properties(node, plugin);
         let transform = p.transform("to_world", &mut self.report);
-        let to_world = transform.map_or(DAffine3::IDENTITY, |t| t.value);
+        let mut to_world = transform.map_or(DAffine3::IDENTITY, |t| t.value);
         let place = transform.map_or(element.place, |t| t.place);
         let mirrored = to_world.matrix3.determinant() < 0.0;
         let flip = p.boolean("flip_normals", &mut self.report).is_some_and(|f| f.value);
         let (material, radiance) = self.surface(&mut p);
         let geometry = match plugin {
-            "obj" => self.obj(&mut p, &to_world),
+            "obj" | "ply" | "stl" | "serialized" => self.mesh_file(&mut p, plugin, &to_world),
+            "cylinder" => self.cylinder(&mut p, &mut to_world, place),
             "sphere" => self.sphere(&mut p, to_world.matrix3, place),
             "disk" => self.disk(to_world.matrix3, place),
             "cube" => Some(Geometry::Mesh(Arc::new(Mesh::cube()))),
@@ -77,17 +79,67 @@ impl Reader<'_> {
         (material, radiance)
     }
 
-    fn obj(&mut self, p: &mut Properties<'_>, to_world: &DAffine3) -> Option<Geometry> {
+    fn mesh_file(&mut self, p: &mut Properties<'_>, plugin: &str, to_world: &DAffine3) -> Option<Geometry> {
         let face_normals = p.boolean("face_normals", &mut self.report).is_some_and(|f| f.value);
-        // There are no textures yet.
-        p.ignore(&["flip_tex_coords"]);
+        let flip = p.boolean("flip_tex_coords", &mut self.report).map(|f| f.value);
+        let format = match plugin {
+            "obj" => Format::Obj,
+            "ply" => Format::Ply,
+            "stl" => Format::Stl,
+            _ => Format::Serialized(self.shape_index(p)),
+        };
+        let flip_v = flip.unwrap_or(plugin == "obj");
         if !p.has("filename") {
-            self.report.error(p.place, "an obj shape needs a \"filename\"");
+            let article = if plugin == "obj" { "an" } else { "a" };
+            self.report.error(p.place, format!("{article} {plugin} shape needs a \"filename\""));
         }
         let filename = p.string("filename", &mut self.report)?;
-        let mesh =
-            self.meshes.obj(&filename.value, filename.place, face_normals, to_world, &mut self.report)?;
+        let wanted = Wanted { format, face_normals, flip_v };
+        let mesh = self.meshes.read(&filename, wanted, to_world, &mut self.files, &mut self.report)?;
         Some(Geometry::Mesh(mesh))
+    }
+
+    /// Which mesh of several in a file.
+    fn shape_index(&mut self, p: &mut Properties<'_>) -> u32 {
+        let Some(index) = p.integer("shape_index", &mut self.report) else { return 0 };
+        u32::try_from(index.value).unwrap_or_else(|_| {
+            self.report.error(index.place, "\"shape_index\" must not be negative");
+            0
+        })
+    }
+
+    /// A tube; one that its transform makes longer or shorter than it makes it wide is brought into the world here.
+    fn cylinder(
+        &mut self,
+        p: &mut Properties<'_>,
+        to_world: &mut DAffine3,
+        place: Place,
+    ) -> Option<Geometry> {
+        let from = p.point("p0", &mut self.report).map_or(DVec3::ZERO, |p| p.value);
+        let to = p.point("p1", &mut self.report).map_or(DVec3::Z, |p| p.value);
+        let radius = p.number("radius", &mut self.report);
+        if let Some(radius) = radius.filter(|r| r.value <= 0.0) {
+            self.report.error(radius.place, "\"radius\" must be above zero");
+            return None;
+        }
+        let radius = radius.map_or(1.0, |r| r.value);
+        let Some(axis) = (to - from).try_normalize() else {
+            self.report.error(p.place, "the ends \"p0\" and \"p1\" of a cylinder are the same point");
+            return None;
+        };
+        if even_scale(to_world.matrix3, ROUNDNESS).is_some() {
+            return Some(Geometry::Cylinder { from, to, radius });
+        }
+        let across = to_world.matrix3 * axis.any_orthonormal_vector();
+        let along = (to_world.matrix3 * axis).normalize_or_zero() * across.length();
+        let other = to_world.matrix3 * axis.cross(axis.any_orthonormal_vector());
+        let Some(scale) = even_scale(DMat3::from_cols(across, other, along), ROUNDNESS) else {
+            self.report.error(place, "a cylinder must stay round: its transform stretches or shears it");
+            return None;
+        };
+        let [from, to] = [from, to].map(|end| to_world.transform_point3(end));
+        *to_world = DAffine3::IDENTITY;
+        Some(Geometry::Cylinder { from, to, radius: radius * scale })
     }
 
     fn sphere(&mut self, p: &mut Properties<'_>, m: DMat3, place: Place) -> Option<Geometry> {
@@ -121,10 +173,10 @@ impl Reader<'_> {
 /// Whether Mitsuba 3 turns the normals around when a transform mirrors the surface: those of a sphere, and those that
 /// follow the winding of an OBJ file's faces in the world. In a description outside stays outside, as it does for the
 /// other shapes of Mitsuba.
-fn is_turned_inside_out(plugin: &str, geometry: &Geometry) -> bool {
+pub(crate) fn is_turned_inside_out(plugin: &str, geometry: &Geometry) -> bool {
     match geometry {
         Geometry::Sphere { .. } => true,
-        Geometry::Mesh(mesh) => plugin == "obj" && mesh.normals.is_empty(),
-        Geometry::Disc => false,
+        Geometry::Mesh(mesh) => !matches!(plugin, "cube" | "rectangle") && mesh.normals.is_empty(),
+        Geometry::Disc | Geometry::Cylinder { .. } => false,
     }
 }

@@ -5,7 +5,7 @@
 //! may be followed by other letters. `\$` is a plain dollar sign.
 
 use crate::diagnostic::{Place, Report};
-use crate::document::{Attribute, Document, Element};
+use crate::document::{Attribute, Element};
 use crate::names::{did_you_mean, nearest};
 
 /// A parameter with its value.
@@ -16,36 +16,47 @@ struct Parameter {
     meant_by_file: bool,
 }
 
-/// The document with every `$name` replaced, node ids unchanged. Attributes with an unknown name are marked broken.
-pub(crate) fn substitute(document: &Document, defines: &[(String, String)], report: &mut Report) -> Document {
-    let mut parameters: Vec<Parameter> = Vec::new();
-    for (name, value) in defines {
-        parameters.retain(|p| p.name != *name);
-        parameters.push(Parameter {
-            name: name.clone(),
-            value: value.clone(),
-            from_outside: true,
-            meant_by_file: false,
-        });
+/// All parameters known so far.
+pub(crate) struct Parameters(Vec<Parameter>);
+
+impl Parameters {
+    /// Those given from outside.
+    pub(crate) fn new(defines: &[(String, String)]) -> Self {
+        let mut parameters: Vec<Parameter> = Vec::new();
+        for (name, value) in defines {
+            parameters.retain(|p| p.name != *name);
+            parameters.push(Parameter {
+                name: name.clone(),
+                value: value.clone(),
+                from_outside: true,
+                meant_by_file: false,
+            });
+        }
+        Self(parameters)
     }
-    let mut document = document.clone();
-    for element in document.elements_mut() {
+
+    /// Replaces every `$name` in an element, and learns what a `<default>` says. To be called in the order of the
+    /// file. Attributes with an unknown name are marked broken.
+    pub(crate) fn apply(&mut self, element: &mut Element, report: &mut Report) {
         for attribute in &mut element.attributes {
-            replace(attribute, &mut parameters, report);
+            replace(attribute, &mut self.0, report);
         }
         if element.name == "default" {
-            add_default(element, &mut parameters, report);
+            add_default(element, &mut self.0, report);
         }
     }
-    let known = || parameters.iter().filter(|p| p.meant_by_file).map(|p| p.name.as_str());
-    for p in parameters.iter().filter(|p| p.from_outside && !p.meant_by_file) {
-        let hint = did_you_mean(&p.name, known());
-        report.error(
-            Place::default(),
-            format!("-D {}={}: the scene has no such parameter{hint}", p.name, p.value),
-        );
+
+    /// Reports parameters from outside that the file has no use for.
+    pub(crate) fn finish(&self, report: &mut Report) {
+        let known = || self.0.iter().filter(|p| p.meant_by_file).map(|p| p.name.as_str());
+        for p in self.0.iter().filter(|p| p.from_outside && !p.meant_by_file) {
+            let hint = did_you_mean(&p.name, known());
+            report.error(
+                Place::default(),
+                format!("-D {}={}: the scene has no such parameter{hint}", p.name, p.value),
+            );
+        }
     }
-    document
 }
 
 fn add_default(element: &Element, parameters: &mut Vec<Parameter>, report: &mut Report) {
@@ -101,14 +112,20 @@ fn replace(attribute: &mut Attribute, parameters: &mut [Parameter], report: &mut
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
+    use crate::document::Document;
+    use crate::files::Files;
+    use crate::include::expand;
 
     /// The `v` attribute of the last element, and the messages.
     fn last(xml: &str, defines: &[(&str, &str)]) -> (String, Vec<String>) {
-        let mut report = Report::new("s");
+        let mut report = Report::new("s", Path::new(""));
         let defines: Vec<_> = defines.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())).collect();
         let document = Document::parse(&format!("<scene>{xml}</scene>")).unwrap();
-        let document = substitute(&document, &defines, &mut report);
+        let no_files = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
+        let document = expand(&document, &defines, &mut Files::new(&no_files), &mut report).document;
         let value = document.elements().last().and_then(|(_, e)| e.attribute("v").map(|a| a.value.clone()));
         let messages = match report.finish() {
             Ok(all) => all,

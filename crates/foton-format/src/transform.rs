@@ -171,7 +171,7 @@ mod tests {
 
     fn product(steps: &str) -> DAffine3 {
         let document = Document::parse(&format!("<transform name='to_world'>{steps}</transform>")).unwrap();
-        let mut report = Report::new("t");
+        let mut report = Report::new("t", std::path::Path::new(""));
         let transform = read(&document, document.root(), &mut report);
         assert_eq!(report.finish().unwrap(), []);
         transform.unwrap()

@@ -47,10 +47,42 @@ pub(crate) fn one_or_three(text: &str) -> Result<DVec3, String> {
     }
 }
 
-/// Three linear RGB components, or one for all three.
+/// Three linear RGB components, one for all three, or `#rrggbb` with linear components, as Mitsuba reads that.
 pub(crate) fn colour(text: &str) -> Result<Rgb, String> {
-    let colour = rgb(one_or_three(text)?);
+    let colour = rgb(hexadecimal(text).unwrap_or_else(|| one_or_three(text))?);
     if colour.is_finite() { Ok(colour) } else { Err(format!("\"{text}\" is too large")) }
+}
+
+/// Three components of sRGB, or `#rrggbb`, made linear.
+pub(crate) fn srgb(text: &str) -> Result<Rgb, String> {
+    let encoded = hexadecimal(text).unwrap_or_else(|| one_or_three(text))?;
+    let colour = rgb(DVec3::from_array(encoded.to_array().map(srgb_to_linear)));
+    if colour.is_finite() { Ok(colour) } else { Err(format!("\"{text}\" is too large")) }
+}
+
+/// `#rrggbb` to three components in [0, 1]; `None` if there is no `#`.
+fn hexadecimal(text: &str) -> Option<Result<DVec3, String>> {
+    let digits = text.trim().strip_prefix('#')?;
+    let all_digits = digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_hexdigit());
+    let number = u32::from_str_radix(digits, 16).ok().filter(|_| all_digits);
+    Some(number.ok_or_else(|| format!("\"{text}\" is not a colour such as #ff8000")).map(|n| {
+        let [_, r, g, b] = n.to_be_bytes().map(|byte| f64::from(byte) / 255.0);
+        DVec3::new(r, g, b)
+    }))
+}
+
+/// The linear value of an sRGB component (IEC 61966-2-1).
+pub(crate) fn srgb_to_linear(encoded: f64) -> f64 {
+    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}
+
+/// The first part of a version such as `3.0.0`.
+pub(crate) fn major_version(version: &str) -> Result<u32, String> {
+    let parts: Result<Vec<u32>, _> = version.trim().split('.').map(str::parse).collect();
+    match parts {
+        Ok(parts) if parts.len() <= 3 => Ok(parts[0]),
+        _ => Err(format!("\"{version}\" is not a version such as 3.0.0")),
+    }
 }
 
 /// The colour of three components, rounded to single precision.

@@ -36,7 +36,7 @@ fn bsdf(snippet: &str) -> (Bsdf, Option<Bsdf>) {
 }
 
 fn grey(value: f32) -> Bsdf {
-    Bsdf::Diffuse { reflectance: Rgb::splat(value) }
+    Bsdf::Diffuse { reflectance: Rgb::splat(value).into() }
 }
 
 fn mesh(geometry: &Geometry) -> &Arc<Mesh> {
@@ -54,7 +54,7 @@ fn reflectance_is_read_from_every_tag() {
     }
     assert_eq!(bsdf("<bsdf type='diffuse'><spectrum name='reflectance' value='0.3'/></bsdf>").0, grey(0.3));
     let colour = bsdf("<bsdf type='diffuse'><rgb name='reflectance' value='.1 .2, .3'/></bsdf>").0;
-    assert_eq!(colour, Bsdf::Diffuse { reflectance: Rgb::new(0.1, 0.2, 0.3) });
+    assert_eq!(colour, Bsdf::Diffuse { reflectance: Rgb::new(0.1, 0.2, 0.3).into() });
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn a_shape_without_a_bsdf_is_grey_and_an_emitter_black() {
 
 #[test]
 fn two_sides_come_from_one_bsdf_or_two() {
-    let mirror = Bsdf::Mirror { reflectance: Rgb::splat(0.25) };
+    let mirror = Bsdf::Mirror { reflectance: Rgb::splat(0.25).into() };
     let conductor = "<bsdf type='conductor'><string name='material' value='none'/>\
                      <rgb name='specular_reflectance' value='0.25'/></bsdf>";
     assert_eq!(bsdf(conductor), (mirror, None));
@@ -91,7 +91,10 @@ fn indices_of_refraction_are_numbers_or_substances() {
     let Bsdf::Dielectric { specular_reflectance, specular_transmittance, .. } = tinted else {
         panic!("{tinted:?}")
     };
-    assert_eq!((specular_reflectance, specular_transmittance), (Rgb::WHITE, Rgb::new(0.0, 1.0, 0.0)));
+    assert_eq!(
+        (specular_reflectance, specular_transmittance),
+        (Rgb::WHITE.into(), Rgb::new(0.0, 1.0, 0.0).into())
+    );
 }
 
 #[test]
@@ -272,9 +275,14 @@ fn the_hash_follows_everything_that_was_read() {
 #[test]
 fn shared_scenes_open() {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/scenes");
-    for (name, shapes, triangles) in
-        [("box-spheres", 9, 10), ("cornell-box", 8, 36), ("cornell-water", 9, 7088)]
-    {
+    for (name, shapes, triangles) in [
+        ("box-spheres", 9, 10),
+        ("cornell-box", 8, 36),
+        ("cornell-water", 9, 7088),
+        ("ring-glass", 8, 18_893),
+        ("veach-bidir", 14, 11_544),
+        ("veach-mis", 9, 52),
+    ] {
         let path = scenes.join(name).join("scene.xml");
         if !path.exists() {
             continue;
@@ -287,6 +295,7 @@ fn shared_scenes_open() {
             _ => 0,
         });
         assert_eq!(count.sum::<usize>(), triangles, "{name}");
+        assert!(foton_scene::Scene::build(&opened.description).is_ok(), "{name}");
         let resized = Options { defines: vec![("resx".to_owned(), "64".to_owned())] };
         assert_eq!(open(&path, &resized).unwrap().description.sensors[0].width, 64);
     }

@@ -6,6 +6,7 @@
 mod cancel;
 mod direct_light;
 mod eye_pass;
+mod features;
 mod gather;
 mod grid;
 mod hit_point;
@@ -25,6 +26,7 @@ mod sampling;
 mod settings;
 
 pub use cancel::{Cancel, Cancelled};
+pub use features::{Feature, features};
 pub use layers::LayerKind;
 pub use ledger::Ledger;
 pub use memory::MemoryEstimate;

@@ -116,6 +116,30 @@ impl Emitter {
         matches!(self.kind, Kind::Constant { .. } | Kind::Environment { .. })
     }
 
+    /// Whether half of its photons are aimed at what focuses light.
+    #[must_use]
+    pub const fn aims_at_casters(&self) -> bool {
+        match &self.kind {
+            Kind::Constant { reach, .. } | Kind::Directional { reach, .. } | Kind::Environment { reach, .. } => {
+                reach.casters.is_some()
+            }
+            _ => false,
+        }
+    }
+
+    /// What kind it is, in a word.
+    #[must_use]
+    pub const fn kind_name(&self) -> &'static str {
+        match self.kind {
+            Kind::Area(_) => "area",
+            Kind::Point { .. } => "point",
+            Kind::Spot(_) => "spot",
+            Kind::Constant { .. } => "constant",
+            Kind::Directional { .. } => "directional",
+            Kind::Environment { .. } => "envmap",
+        }
+    }
+
     /// Radiance that a ray which leaves the scene along `direction` sees.
     #[must_use]
     pub fn escaped_radiance(&self, direction: Vec3) -> Rgb {

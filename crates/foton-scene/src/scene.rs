@@ -205,6 +205,12 @@ impl Scene {
         Some((i, self.emitter_choice.probability(i)))
     }
 
+    /// The chance that a photon starts from the emitter of that index.
+    #[must_use]
+    pub fn emitter_share(&self, index: usize) -> f64 {
+        if self.emitter_choice.is_empty() { 0.0 } else { self.emitter_choice.probability(index) }
+    }
+
     /// All emitters.
     #[must_use]
     pub fn emitters(&self) -> &[Emitter] {

@@ -25,6 +25,43 @@ pub(crate) struct Args {
 pub(crate) enum Command {
     /// Render a scene to an image file
     Render(Box<Render>),
+    /// Say what a scene contains, what that switches on, and what a render of it would take
+    Info(Info),
+    /// Say how far an image is from a reference: RMSE, relMSE, means, FLIP
+    Compare(Compare),
+}
+
+/// `foton compare`.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Compare {
+    /// Image to judge, .exr or .png
+    #[arg(value_parser = image)]
+    pub(crate) a: (PathBuf, Format),
+    /// Its reference, .exr or .png
+    #[arg(value_parser = image)]
+    pub(crate) b: (PathBuf, Format),
+    /// Picture of where they differ, .png (relative error as colours) or .exr (the numbers)
+    #[arg(short, value_name = "DIFF.{exr,png}", value_parser = image)]
+    pub(crate) output: Option<(PathBuf, Format)>,
+    /// Print one JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// `foton info`.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Info {
+    /// Scene file (Mitsuba 3 XML)
+    pub(crate) scene: PathBuf,
+    /// The sensor to look through, by its id [the first]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) sensor: Option<String>,
+    /// Set a parameter of the scene file
+    #[arg(short = 'D', value_name = "name=value", value_parser = define)]
+    pub(crate) defines: Vec<(String, String)>,
+    /// Print one JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// `foton render`.
@@ -33,7 +70,7 @@ pub(crate) struct Render {
     /// Scene file (Mitsuba 3 XML)
     pub(crate) scene: PathBuf,
     /// Image to write, .exr (linear radiance) or .png (tone-mapped)
-    #[arg(short, value_name = "OUT.{exr,png}", value_parser = output)]
+    #[arg(short, value_name = "OUT.{exr,png}", value_parser = image)]
     pub(crate) output: (PathBuf, Format),
     /// Stop after this many passes
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
@@ -174,7 +211,7 @@ fn radius(s: &str) -> Result<f64, String> {
     good.ok_or_else(|| "expected a length above 0, in world units".to_owned())
 }
 
-fn output(s: &str) -> Result<(PathBuf, Format), String> {
+fn image(s: &str) -> Result<(PathBuf, Format), String> {
     let path = PathBuf::from(s);
     let format = Format::of(&path).ok_or_else(|| "expected a name that ends in .exr or .png".to_owned())?;
     Ok((path, format))

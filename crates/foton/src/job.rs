@@ -84,13 +84,17 @@ pub(crate) fn build(
     if census.degenerate_triangles > 0 {
         talk.warning(&format!("left out {} triangles without area", census.degenerate_triangles));
     }
+    if census.narrow_gloss {
+        talk.note("gloss of roughness up to 0.1 is followed in directions chosen once: its noise stays; --spp lowers it");
+    }
     if census.emitters == 0 {
         talk.warning("nothing in the scene emits light: the image will be black");
     }
     Ok((Arc::new(scene), identity))
 }
 
-fn choose_sensor(opened: &Opened, name: Option<&str>) -> Result<usize, Failure> {
+/// The index of the sensor of that name; the first without one.
+pub(crate) fn choose_sensor(opened: &Opened, name: Option<&str>) -> Result<usize, Failure> {
     let Some(name) = name else { return Ok(0) };
     let sensors = &opened.description.sensors;
     sensors.iter().position(|s| s.name == name).ok_or_else(|| Failure::Sensor {

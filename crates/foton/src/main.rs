@@ -1,9 +1,11 @@
 //! The `foton` command: reads arguments, renders, says how it goes.
 //!
-//! Exit codes: 0 done, 1 could not render, 2 bad usage.
+//! Exit codes: 0 done, 1 could not render or compare, 2 bad usage.
 
 mod args;
+mod compare;
 mod embedded;
+mod info;
 mod job;
 mod memory;
 mod metadata;
@@ -24,6 +26,14 @@ fn main() -> ExitCode {
         Some(Command::Render(render)) => {
             let mut talk = Talk::new(render.json);
             (job::render(&render, &mut talk), talk)
+        }
+        Some(Command::Info(args)) => {
+            let talk = Talk::new(args.json);
+            (info::print(&args, &talk), talk)
+        }
+        Some(Command::Compare(args)) => {
+            let talk = Talk::new(args.json);
+            (compare::run(&args, &talk), talk)
         }
         None => {
             let mut talk = Talk::new(false);

@@ -3,9 +3,10 @@
 use std::fmt;
 use std::io::Write;
 
-use foton_film::WriteError;
+use foton_film::{ReadError, WriteError};
 use foton_format::{Diagnostic, OpenError};
 use foton_integrator::Ledger;
+use foton_measure::CompareError;
 use foton_scene::BuildError;
 use foton_session::{Progress, Session, StartError, StopRule};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -20,6 +21,8 @@ pub(crate) enum Failure {
     Sensor { asked: String, known: Vec<String> },
     Start(StartError),
     Write(WriteError),
+    Read(ReadError),
+    Compare { a: String, b: String, cause: CompareError },
 }
 
 impl fmt::Display for Failure {
@@ -38,6 +41,8 @@ impl fmt::Display for Failure {
             }
             Self::Start(cause) => cause.fmt(f),
             Self::Write(cause) => cause.fmt(f),
+            Self::Read(cause) => cause.fmt(f),
+            Self::Compare { a, b, cause } => write!(f, "A is {a}, B is {b}: {cause}"),
         }
     }
 }
@@ -45,6 +50,12 @@ impl fmt::Display for Failure {
 impl From<WriteError> for Failure {
     fn from(cause: WriteError) -> Self {
         Self::Write(cause)
+    }
+}
+
+impl From<ReadError> for Failure {
+    fn from(cause: ReadError) -> Self {
+        Self::Read(cause)
     }
 }
 
@@ -65,8 +76,13 @@ impl Talk {
         Self { json, bar: ProgressBar::hidden() }
     }
 
+    /// A line on stdout: what was asked for.
+    pub(crate) fn out(&self, text: &str) {
+        let _ = writeln!(std::io::stdout().lock(), "{text}");
+    }
+
     /// A line of JSON, if any was asked for.
-    fn event(&self, event: &Value) {
+    pub(crate) fn event(&self, event: &Value) {
         if self.json {
             // A reader that has gone away is no reason to stop rendering.
             let _ = writeln!(std::io::stdout().lock(), "{event}");
@@ -84,6 +100,12 @@ impl Talk {
     pub(crate) fn warning(&self, message: &str) {
         self.event(&json!({ "event": "warning", "message": message }));
         self.line(&format!("warning: {message}"));
+    }
+
+    /// Something that a picture does not show of itself.
+    pub(crate) fn note(&self, message: &str) {
+        self.event(&json!({ "event": "note", "message": message }));
+        self.line(&format!("note: {message}"));
     }
 
     /// A finding in a scene file that does not stop the render.

@@ -1,0 +1,392 @@
+//! A mesh file as a whole scene: what it lacks is added, and a warning says so.
+//!
+//! - Camera: 45° wide, as near as it can be with the whole model in view. Normally it looks from three quarters in
+//!   front and above. A model that emits light, or that is a box open to one side (at least four of the other five faces
+//!   of its bounds are at least half covered by triangles), is looked at straight through its open side: the first one
+//!   of front (+z), right, back and left that is not covered.
+//! - Light: only if nothing in the file emits. Above the model, or under the lid of a box; with it a dim sky and, outside
+//!   of boxes, a floor.
+//!
+//! OBJ and PLY models stand on the xz plane with +z towards the viewer; STL models on the xy plane with −y there, as
+//! printers and the programs that make these files have it.
+
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use foton_math::Rgb;
+use foton_math::glam::{DAffine3, DMat3, DVec3};
+use foton_scene::description::{
+    Bsdf, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
+    SensorDescription, ShapeDescription,
+};
+
+use crate::diagnostic::{Diagnostic, OpenError, Place, Report};
+use crate::document::Document;
+use crate::hash::Fnv1a;
+use crate::integrator::Suggested;
+use crate::meshes::{self, Format, Wanted};
+use crate::obj::{Obj, Problem};
+use crate::{Opened, Options, ReadFile, mtl, ply, stl};
+
+/// Field of view along the shorter side of the image.
+const FOV_DEGREES: f64 = 45.0;
+/// Share of the image's half that the model may fill.
+const FILL: f64 = 0.95;
+/// How near to a face of the bounds a triangle covers it, as a share of the bounds' extent.
+const COVERING: f64 = 0.05;
+/// Irradiance that the default light brings to the middle of the model: a white surface there has radiance 1.
+const KEY_IRRADIANCE: f64 = std::f64::consts::PI;
+/// Radiance of the default sky.
+const SKY: f32 = 0.2;
+
+/// A kind of mesh file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Kind {
+    Obj,
+    Ply,
+    Stl,
+}
+
+impl Kind {
+    /// The kind that a file's extension says.
+    pub(crate) fn of(path: &Path) -> Option<Self> {
+        match path.extension()?.to_ascii_lowercase().to_str()? {
+            "obj" => Some(Self::Obj),
+            "ply" => Some(Self::Ply),
+            "stl" => Some(Self::Stl),
+            _ => None,
+        }
+    }
+
+    fn axes(self) -> Axes {
+        match self {
+            Self::Obj | Self::Ply => Axes { right: DVec3::X, up: DVec3::Y, front: DVec3::Z },
+            Self::Stl => Axes { right: DVec3::X, up: DVec3::Z, front: DVec3::NEG_Y },
+        }
+    }
+}
+
+/// How a model stands; right × up = front.
+#[derive(Clone, Copy)]
+struct Axes {
+    right: DVec3,
+    up: DVec3,
+    front: DVec3,
+}
+
+/// Opens a mesh file as a scene.
+pub(crate) fn open(
+    path: &Path,
+    kind: Kind,
+    files: &ReadFile<'_>,
+    options: &Options,
+) -> Result<Opened, OpenError> {
+    let name = path.to_string_lossy();
+    let mut report = Report::new(&name, path.parent().unwrap_or(Path::new("")));
+    for (name, value) in &options.defines {
+        report.error(Place::default(), format!("-D {name}={value}: a mesh file has no parameters"));
+    }
+    let bytes = match files(path) {
+        Ok(bytes) => bytes,
+        Err(error) => return Err(report.fail(Place::default(), format!("cannot be read: {error}"))),
+    };
+    let mut hash = Fnv1a::default();
+    hash.add(&bytes);
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut library = |name: &str| {
+        let found = [name.to_owned(), name.replace('\\', "/")].into_iter().find_map(|name| {
+            let path = folder.join(name);
+            files(&path).ok().map(|bytes| (path.to_string_lossy().into_owned(), bytes))
+        })?;
+        hash.add(&found.1);
+        Some(found)
+    };
+    let description = match read(&bytes, kind, &mut library, &mut report) {
+        Ok(description) => description,
+        Err(problems) => {
+            problems.into_iter().for_each(|(place, message)| report.error(place, message));
+            SceneDescription::default()
+        }
+    };
+    let warnings: Vec<Diagnostic> = report.finish()?;
+    // There is no XML to keep; an empty scene stands for it, and its root for every shape.
+    let document = Document::parse("<scene version=\"3.0.0\"/>")
+        .map_err(|(place, message)| Report::new(&name, Path::new("")).fail(place, message))?;
+    let shape_nodes = vec![document.root(); description.shapes.len()];
+    Ok(Opened {
+        description,
+        document,
+        shape_nodes,
+        suggested: Suggested::default(),
+        warnings,
+        source_hash: hash.finish(),
+    })
+}
+
+/// Finds a file of materials: its path and its contents.
+type Library<'a> = dyn FnMut(&str) -> Option<(String, Vec<u8>)> + 'a;
+
+fn read(
+    bytes: &[u8],
+    kind: Kind,
+    library: &mut Library<'_>,
+    report: &mut Report,
+) -> Result<SceneDescription, Vec<Problem>> {
+    let mut scene = SceneDescription::default();
+    match kind {
+        Kind::Obj => add_obj(&Obj::parse(bytes)?, library, report, &mut scene),
+        Kind::Ply => {
+            let wanted = Wanted { format: Format::Ply, face_normals: false, flip_v: false };
+            let mesh = ply::parse(bytes).map_err(|problem| vec![problem])?;
+            add_shape("mesh", meshes::finished(&mesh, wanted, &DAffine3::IDENTITY), None, &mut scene);
+        }
+        Kind::Stl => {
+            add_shape("mesh", stl::parse(bytes).map_err(|problem| vec![problem])?, None, &mut scene);
+        }
+    }
+    let Some(model) = Model::of(&scene, kind.axes()) else {
+        return Err(vec![(Place::default(), "the model has no extent".to_owned())]);
+    };
+    model.add_camera(&mut scene, report);
+    if !model.emits {
+        model.add_light(&mut scene, report);
+    }
+    Ok(scene)
+}
+
+/// Grey, from both sides.
+fn grey(name: &str) -> Material {
+    let front = Bsdf::Diffuse { reflectance: Rgb::splat(0.5).into() };
+    Material { name: name.to_owned(), front, back: Some(front), opacity: None }
+}
+
+fn add_shape(name: &str, mesh: Mesh, known: Option<&mtl::Entry>, scene: &mut SceneDescription) {
+    let material = known.map_or_else(|| grey(name), |entry| entry.material.clone());
+    scene.materials.push(material);
+    scene.shapes.push(ShapeDescription {
+        name: name.to_owned(),
+        geometry: Geometry::Mesh(Arc::new(mesh)),
+        to_world: DAffine3::IDENTITY,
+        flip_normals: false,
+        material: scene.materials.len() - 1,
+        radiance: known.and_then(|entry| entry.radiance),
+    });
+}
+
+/// Adds a shape for each material of an OBJ file, in the order in which they are first used.
+fn add_obj(obj: &Obj, library: &mut Library<'_>, report: &mut Report, scene: &mut SceneDescription) {
+    let mut known: HashMap<String, mtl::Entry> = HashMap::new();
+    for (place, filename) in &obj.libraries {
+        let Some((path, bytes)) = library(filename) else {
+            report.warning(*place, format!("{filename} is not there: its materials are grey"));
+            continue;
+        };
+        let (entries, problems) = mtl::parse(&bytes);
+        for (place, message) in problems {
+            report.warning_in(&path, place, message);
+        }
+        for entry in entries {
+            known.entry(entry.material.name.clone()).or_insert(entry);
+        }
+    }
+    let wanted = Wanted { format: Format::Obj, face_normals: false, flip_v: true };
+    let mesh = meshes::build(obj, wanted, &DAffine3::IDENTITY);
+    let mut remap = vec![u32::MAX; mesh.positions.len()];
+    for (name, triangles) in by_material(obj, &mesh) {
+        let entry = known.get(name);
+        if entry.is_none() && !name.is_empty() && !obj.libraries.is_empty() {
+            report.warning(Place::default(), format!("there is no material \"{name}\": it is grey"));
+        }
+        let name = if name.is_empty() { "mesh" } else { name };
+        add_shape(name, part(&mesh, &triangles, &mut remap), entry, scene);
+    }
+}
+
+/// The triangles of each material that has any.
+fn by_material<'a>(obj: &'a Obj, mesh: &Mesh) -> Vec<(&'a str, Vec<[u32; 3]>)> {
+    let mut parts: Vec<(&str, Vec<[u32; 3]>)> = Vec::new();
+    let mut indices: HashMap<&str, usize> = HashMap::new();
+    let mut runs = vec![(0, "")];
+    runs.extend(obj.materials.iter().map(|(before, name)| (*before, name.as_str())));
+    for (i, (from, name)) in runs.iter().enumerate() {
+        let to = runs.get(i + 1).map_or(mesh.triangles.len(), |next| next.0);
+        if to > *from {
+            let index = *indices.entry(name).or_insert_with(|| {
+                parts.push((name, Vec::new()));
+                parts.len() - 1
+            });
+            parts[index].1.extend_from_slice(&mesh.triangles[*from..to]);
+        }
+    }
+    parts
+}
+
+/// Some triangles of a mesh with the vertices that they need. `remap` is all `u32::MAX`, before and after.
+fn part(mesh: &Mesh, triangles: &[[u32; 3]], remap: &mut [u32]) -> Mesh {
+    let mut used: Vec<usize> = Vec::new();
+    let triangles = triangles
+        .iter()
+        .map(|corners| {
+            corners.map(|i| {
+                let slot = &mut remap[i as usize];
+                if *slot == u32::MAX {
+                    *slot = used.len() as u32;
+                    used.push(i as usize);
+                }
+                *slot
+            })
+        })
+        .collect();
+    used.iter().for_each(|&i| remap[i] = u32::MAX);
+    let normals = if mesh.normals.is_empty() { Vec::new() } else { pick(&mesh.normals, &used) };
+    let has_uv = !mesh.texture_coordinates.is_empty();
+    let texture_coordinates = if has_uv { pick(&mesh.texture_coordinates, &used) } else { Vec::new() };
+    Mesh { positions: pick(&mesh.positions, &used), normals, texture_coordinates, triangles }
+}
+
+fn pick<T: Copy>(values: &[T], indices: &[usize]) -> Vec<T> {
+    indices.iter().map(|&i| values[i]).collect()
+}
+
+/// What is to be looked at and lit.
+struct Model {
+    axes: Axes,
+    low: DVec3,
+    high: DVec3,
+    emits: bool,
+    /// The side through which it is looked into, if it is a box.
+    open_side: Option<DVec3>,
+}
+
+impl Model {
+    /// `None` if it is a point or nothing at all.
+    fn of(scene: &SceneDescription, axes: Axes) -> Option<Self> {
+        let meshes: Vec<&Mesh> = scene
+            .shapes
+            .iter()
+            .filter_map(|s| if let Geometry::Mesh(mesh) = &s.geometry { Some(&**mesh) } else { None })
+            .collect();
+        let points =
+            || meshes.iter().flat_map(|m| m.triangles.iter().flatten().map(|&i| m.positions[i as usize]));
+        let low = points().reduce(DVec3::min)?;
+        let high = points().reduce(DVec3::max)?;
+        let emits = scene.shapes.iter().any(|s| s.radiance.is_some());
+        let mut model = Self { axes, low, high, emits, open_side: None };
+        if !(model.size().max_element() > 0.0 && model.size().is_finite()) {
+            return None;
+        }
+        let Axes { right, up, front } = axes;
+        let sides =
+            [front, right, -front, -right, up, -up].map(|side| (side, model.is_covered(side, &meshes)));
+        let open = sides[..4].iter().find(|(_, covered)| !covered).map(|(side, _)| *side);
+        let covered = sides.iter().filter(|(_, covered)| *covered).count();
+        model.open_side = if covered >= 4 { open } else { None };
+        if emits {
+            model.open_side = Some(open.unwrap_or(front));
+        }
+        Some(model)
+    }
+
+    fn size(&self) -> DVec3 {
+        self.high - self.low
+    }
+
+    fn centre(&self) -> DVec3 {
+        0.5 * (self.low + self.high)
+    }
+
+    /// The middle of the face of the bounds that looks in a direction along an axis.
+    fn face(&self, direction: DVec3) -> DVec3 {
+        self.centre() + 0.5 * self.size() * direction
+    }
+
+    /// Whether triangles near that face of the bounds make up half of its area.
+    fn is_covered(&self, side: DVec3, meshes: &[&Mesh]) -> bool {
+        let depth = side.abs().dot(self.size());
+        let plane = side.dot(self.face(side));
+        let near = |p: DVec3| plane - side.dot(p) <= COVERING * depth;
+        let area: f64 = meshes
+            .iter()
+            .flat_map(|mesh| mesh.triangles.iter().map(|t| t.map(|i| mesh.positions[i as usize])))
+            .filter(|corners| corners.iter().all(|&p| near(p)))
+            .map(|[a, b, c]| 0.5 * (b - a).cross(c - a).dot(side).abs())
+            .sum();
+        let across = DVec3::ONE - side.abs();
+        let extents = (self.size() * across + side.abs()).element_product();
+        area >= 0.5 * extents && extents > 0.0
+    }
+
+    fn add_camera(&self, scene: &mut SceneDescription, report: &mut Report) {
+        let (width, height) = (768, 576);
+        let Axes { right, up, front } = self.axes;
+        let (towards_viewer, place) = match self.open_side {
+            Some(side) => (side, "straight in front"),
+            None => ((front + 0.7 * right + 0.5 * up).normalize(), "three quarters in front"),
+        };
+        let forward = -towards_viewer;
+        let left = up.cross(forward).normalize();
+        let up = forward.cross(left);
+        let tangent = (0.5 * FOV_DEGREES).to_radians().tan() * FILL;
+        let wide = tangent * f64::from(width) / f64::from(height);
+        let distance = (0..8)
+            .map(|corner| {
+                let side = |bit: i32| if corner & bit == 0 { -0.5 } else { 0.5 };
+                let p = DVec3::new(side(1), side(2), side(4)) * self.size();
+                (p.dot(left).abs() / wide).max(p.dot(up).abs() / tangent) - p.dot(forward)
+            })
+            .fold(0.0, f64::max);
+        let origin = self.centre() - distance * forward;
+        scene.sensors.push(SensorDescription {
+            name: "sensor".to_owned(),
+            to_world: DAffine3::from_mat3_translation(DMat3::from_cols(left, up, forward), origin),
+            fov_degrees: FOV_DEGREES,
+            fov_axis: FovAxis::Smaller,
+            width,
+            height,
+            filter: Filter::Gaussian { stddev: 0.5 },
+            near_clip: None,
+            far_clip: None,
+        });
+        report.warning(Place::default(), format!("a mesh file has no camera: one is placed {place}"));
+    }
+
+    fn add_light(&self, scene: &mut SceneDescription, report: &mut Report) {
+        let Axes { right, up, front } = self.axes;
+        let height = self.size().dot(up.abs());
+        let length = self.size().length();
+        let (floor, centre) = (self.face(-up).dot(up), self.centre());
+        let (at, half) = if self.open_side.is_some() {
+            (floor + 0.95 * height, 0.125 * self.size().dot(right.abs()).min(self.size().dot(front.abs())))
+        } else {
+            (centre.dot(up) + 1.25 * length, 0.375 * length)
+        };
+        let half = if half > 0.0 { half } else { 0.05 * length };
+        let along = |height: f64| centre + (height - centre.dot(up)) * up;
+        let distance = (at - centre.dot(up)).max(half);
+        let radiance = (KEY_IRRADIANCE * distance * distance / (4.0 * half * half)) as f32;
+        let down = DMat3::from_cols(half * right, half * front, -half * up);
+        let light = DAffine3::from_mat3_translation(down, along(at));
+        add_rectangle("default-light", light, Some(Rgb::splat(radiance)), scene);
+        let kind = EmitterKind::Constant { radiance: Rgb::splat(SKY) };
+        scene.emitters.push(EmitterDescription { name: "default-sky".to_owned(), kind });
+        let mut added = "a light and a dim sky";
+        if self.open_side.is_none() {
+            let side = 10.0 * length;
+            let flat = DMat3::from_cols(side * right, -side * front, side * up);
+            // A little lower, so that it does not coincide with the model's own bottom.
+            let floor = DAffine3::from_mat3_translation(flat, along(floor - 1e-4 * length));
+            add_rectangle("default-floor", floor, None, scene);
+            added = "a light, a dim sky and a floor";
+        }
+        report.warning(Place::default(), format!("nothing in the file emits light: {added} are added"));
+    }
+}
+
+fn add_rectangle(name: &str, to_world: DAffine3, radiance: Option<Rgb>, scene: &mut SceneDescription) {
+    add_shape(name, Mesh::rectangle(), None, scene);
+    if let Some(shape) = scene.shapes.last_mut() {
+        shape.to_world = to_world;
+        shape.radiance = radiance;
+    }
+}

@@ -1,0 +1,70 @@
+//! The files that a scene names: looked for folder by folder, read through the caller, hashed.
+
+use std::collections::HashSet;
+use std::io;
+use std::path::PathBuf;
+
+use crate::ReadFile;
+use crate::diagnostic::{Place, Report};
+use crate::hash::Fnv1a;
+
+/// Reads files and remembers which.
+pub(crate) struct Files<'a> {
+    read: &'a ReadFile<'a>,
+    seen: HashSet<PathBuf>,
+    /// The contents of all files, in the order in which they were first read.
+    pub(crate) hash: Fnv1a,
+}
+
+impl<'a> Files<'a> {
+    pub(crate) fn new(read: &'a ReadFile<'a>) -> Self {
+        Self { read, seen: HashSet::new(), hash: Fnv1a::default() }
+    }
+
+    /// The path where a file named at `place` is looked for first: its identity, whether it is there or not.
+    pub(crate) fn key(filename: &str, place: Place, report: &Report) -> PathBuf {
+        candidates(filename, place, report).swap_remove(0)
+    }
+
+    /// The path and contents of a file; an error at `place` if it cannot be read.
+    pub(crate) fn read(
+        &mut self,
+        filename: &str,
+        place: Place,
+        report: &mut Report,
+    ) -> Option<(PathBuf, Vec<u8>)> {
+        let mut failure = None;
+        for path in candidates(filename, place, report) {
+            match (self.read)(&path) {
+                Ok(bytes) => {
+                    if self.seen.insert(path.clone()) {
+                        self.hash.add(&bytes);
+                    }
+                    return Some((path, bytes));
+                }
+                Err(error) => {
+                    let found = error.kind() != io::ErrorKind::NotFound;
+                    failure.get_or_insert((path, error));
+                    if found {
+                        break;
+                    }
+                }
+            }
+        }
+        if let Some((path, error)) = failure {
+            report.error(place, format!("cannot read {}: {error}", path.display()));
+        }
+        None
+    }
+}
+
+/// Where a file may lie; names written on Windows are tried with slashes, too. At least one path.
+fn candidates(filename: &str, place: Place, report: &Report) -> Vec<PathBuf> {
+    let folders = report.folders(place);
+    let mut paths: Vec<_> = folders.iter().map(|folder| folder.join(filename)).collect();
+    if filename.contains('\\') {
+        let slashes = filename.replace('\\', "/");
+        paths.extend(folders.iter().map(|folder| folder.join(&slashes)));
+    }
+    paths
+}

@@ -1,0 +1,133 @@
+//! Image files to linear pixels: PNG and JPEG from 8 or 16 bits of sRGB, Radiance HDR and OpenEXR as they are.
+//!
+//! Alpha is not read. Every image is decoded once for each way to read it.
+
+use std::collections::HashMap;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use foton_math::Rgb;
+use foton_scene::description::Bitmap;
+use image::{ImageDecoder, ImageFormat, ImageReader};
+
+use crate::diagnostic::Report;
+use crate::files::Files;
+use crate::properties::Located;
+use crate::values::srgb_to_linear;
+
+/// Pixels of one image: 2²⁸ fill 3 GiB.
+const MOST_PIXELS: u64 = 1 << 28;
+
+/// Images read so far, by file, whether they are raw, and whether they are shares of light.
+#[derive(Default)]
+pub(crate) struct Images(HashMap<(PathBuf, bool, bool), Option<Arc<Bitmap>>>);
+
+impl Images {
+    /// An image. `raw`: 8 and 16 bits are linear already; `share`: pixels are cut to [0, 1], with a warning.
+    pub(crate) fn read(
+        &mut self,
+        filename: &Located<String>,
+        raw: bool,
+        share: bool,
+        files: &mut Files<'_>,
+        report: &mut Report,
+    ) -> Option<Arc<Bitmap>> {
+        let key = (Files::key(&filename.value, filename.place, report), raw, share);
+        if let Some(known) = self.0.get(&key) {
+            return known.clone();
+        }
+        let bitmap = read(filename, raw, share, files, report).map(Arc::new);
+        self.0.insert(key, bitmap.clone());
+        bitmap
+    }
+}
+
+fn read(
+    filename: &Located<String>,
+    raw: bool,
+    share: bool,
+    files: &mut Files<'_>,
+    report: &mut Report,
+) -> Option<Bitmap> {
+    let place = filename.place;
+    let (path, bytes) = files.read(&filename.value, place, report)?;
+    let mut bitmap = match decode(&path, &bytes, raw) {
+        Ok(bitmap) => bitmap,
+        Err(message) => {
+            report.error(place, format!("cannot read {}: {message}", path.display()));
+            return None;
+        }
+    };
+    let outside = |c: &f32| !(0.0..=1.0).contains(c);
+    if bitmap.pixels.iter().any(|p| !p.is_finite()) {
+        report.error(place, format!("{} has pixels that are not finite numbers", path.display()));
+        return None;
+    }
+    if share && bitmap.pixels.iter().any(|p| p.to_array().iter().any(outside)) {
+        report.warning(place, format!("{} has pixels outside 0 to 1, they are cut to that", path.display()));
+        bitmap.pixels.iter_mut().for_each(|p| *p = p.map(|c| c.clamp(0.0, 1.0)));
+    }
+    if bitmap.pixels.iter().any(|p| p.to_array().iter().any(|c| *c < 0.0)) {
+        report.warning(place, format!("{} has negative pixels, they are black", path.display()));
+        bitmap.pixels.iter_mut().for_each(|p| *p = p.map(|c| c.max(0.0)));
+    }
+    Some(bitmap)
+}
+
+fn decode(path: &Path, bytes: &[u8], raw: bool) -> Result<Bitmap, String> {
+    if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
+        return decode_exr(path, bytes);
+    }
+    let format = image::guess_format(bytes).ok();
+    let Some(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::Hdr)) = format else {
+        return Err("it is no PNG, JPEG, Radiance HDR or EXR image".to_owned());
+    };
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    reader.no_limits();
+    let decoder = reader.into_decoder().map_err(|e| e.to_string())?;
+    let (width, height) = decoder.dimensions();
+    check_size(width, height)?;
+    let image = image::DynamicImage::from_decoder(decoder).map_err(|e| e.to_string())?;
+    let linear = |encoded: f32| if raw { encoded } else { srgb_to_linear(f64::from(encoded)) as f32 };
+    let pixels = match image.color() {
+        image::ColorType::Rgb32F | image::ColorType::Rgba32F => {
+            image.into_rgb32f().pixels().map(|p| Rgb::from_array(p.0)).collect()
+        }
+        c if c.bytes_per_pixel() == c.channel_count() => {
+            let table: [f32; 256] = std::array::from_fn(|i| linear(i as f32 / 255.0));
+            let pixel = |p: &image::Rgb<u8>| Rgb::from_array(p.0.map(|c| table[usize::from(c)]));
+            image.into_rgb8().pixels().map(pixel).collect()
+        }
+        _ => {
+            let pixel = |p: &image::Rgb<u16>| Rgb::from_array(p.0.map(|c| linear(f32::from(c) / 65_535.0)));
+            image.into_rgb16().pixels().map(pixel).collect()
+        }
+    };
+    Ok(Bitmap { width, height, pixels })
+}
+
+fn decode_exr(path: &Path, bytes: &[u8]) -> Result<Bitmap, String> {
+    // EXR files are read by path; what the caller gave must be what lies there.
+    if std::fs::read(path).ok().as_deref() != Some(bytes) {
+        return Err("an EXR image must lie on the disk".to_owned());
+    }
+    let image = match foton_film::read_exr(path) {
+        Ok((image, _)) => image,
+        Err(foton_film::ReadError::Malformed { reason, .. }) => return Err(reason),
+        Err(foton_film::ReadError::NoRgb { channels, .. }) => {
+            return Err(format!("it has no channels R, G and B, only {channels}"));
+        }
+        Err(other) => return Err(other.to_string()),
+    };
+    check_size(image.width, image.height)?;
+    Ok(Bitmap { width: image.width, height: image.height, pixels: image.pixels })
+}
+
+fn check_size(width: u32, height: u32) -> Result<(), String> {
+    let pixels = u64::from(width) * u64::from(height);
+    if pixels == 0 || pixels > MOST_PIXELS {
+        return Err(format!("{width} × {height} pixels are none or too many"));
+    }
+    Ok(())
+}

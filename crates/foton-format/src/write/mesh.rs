@@ -1,0 +1,61 @@
+//! A mesh as a binary PLY file, little-endian: single precision where that loses nothing, double elsewhere.
+
+use std::io::{self, Write};
+
+use foton_math::glam::{DVec2, DVec3};
+use foton_scene::description::Mesh;
+
+/// Whether two meshes are the same, number by number.
+pub(super) fn same(a: &Mesh, b: &Mesh) -> bool {
+    a.triangles == b.triangles
+        && a.positions == b.positions
+        && a.normals == b.normals
+        && a.texture_coordinates == b.texture_coordinates
+}
+
+/// Writes a mesh.
+pub(super) fn write_ply(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
+    let Mesh { positions, normals, texture_coordinates, triangles } = mesh;
+    let is_narrow = positions.iter().chain(normals).all(|v| v.to_array().into_iter().all(is_single))
+        && texture_coordinates.iter().all(|v| v.to_array().into_iter().all(is_single));
+    let kind = if is_narrow { "float" } else { "double" };
+    writeln!(out, "ply\nformat binary_little_endian 1.0\nelement vertex {}", positions.len())?;
+    let mut names = vec!["x", "y", "z"];
+    names.extend(if normals.is_empty() { &[][..] } else { &["nx", "ny", "nz"] });
+    names.extend(if texture_coordinates.is_empty() { &[][..] } else { &["u", "v"] });
+    for name in names {
+        writeln!(out, "property {kind} {name}")?;
+    }
+    let index = if i32::try_from(positions.len()).is_ok() { "int" } else { "uint" };
+    writeln!(
+        out,
+        "element face {}\nproperty list uchar {index} vertex_indices\nend_header",
+        triangles.len()
+    )?;
+    for i in 0..positions.len() {
+        let normal = normals.get(i).map(DVec3::to_array);
+        let uv = texture_coordinates.get(i).map(DVec2::to_array);
+        let normal = normal.as_ref().map_or(&[][..], |n| n);
+        let uv = uv.as_ref().map_or(&[][..], |uv| uv);
+        for value in positions[i].to_array().iter().chain(normal).chain(uv) {
+            write_number(*value, is_narrow, out)?;
+        }
+    }
+    for triangle in triangles {
+        out.write_all(&[3])?;
+        for corner in triangle {
+            out.write_all(&corner.to_le_bytes())?;
+        }
+    }
+    Ok(())
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "this asks whether it loses something")]
+fn is_single(value: f64) -> bool {
+    f64::from(value as f32).to_bits() == value.to_bits()
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "only where it loses nothing")]
+fn write_number(value: f64, is_narrow: bool, out: &mut impl Write) -> io::Result<()> {
+    if is_narrow { out.write_all(&(value as f32).to_le_bytes()) } else { out.write_all(&value.to_le_bytes()) }
+}

@@ -1,0 +1,106 @@
+//! `foton info`: what a scene contains, what that switches on, and what a render of it would take.
+
+use foton_format::Options;
+use foton_integrator::{Feature, Settings, features};
+use foton_scene::Scene;
+use foton_session::Session;
+use serde_json::{Value, json};
+
+use crate::args::Info;
+use crate::job::{build, choose_sensor};
+use crate::talk::{Failure, Talk};
+
+/// Runs `foton info`.
+pub(crate) fn print(args: &Info, talk: &Talk) -> Result<(), Failure> {
+    let options = Options { defines: args.defines.clone() };
+    let opened = foton_format::open(&args.scene, &options).map_err(Failure::Open)?;
+    let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
+    let (scene, identity) = build(opened, &name, None, talk)?;
+    let settings = Settings { sensor, ..Settings::default() };
+    if args.json {
+        talk.event(&as_json(&scene, &settings, &name, identity.hash));
+    } else {
+        for line in as_text(&scene, &settings, &name, identity.hash) {
+            talk.out(&line);
+        }
+    }
+    Ok(())
+}
+
+fn as_json(scene: &Scene, settings: &Settings, name: &str, hash: u64) -> Value {
+    let c = scene.census();
+    let memory = Session::estimate_memory(scene, settings);
+    let emitters: Vec<Value> = emitters(scene)
+        .map(|(name, kind, watts, share)| json!({ "name": name, "type": kind, "watts": watts, "share": share }))
+        .collect();
+    let parts: Vec<Value> = features(scene, settings)
+        .iter()
+        .map(|f| {
+            json!({
+                "name": f.name, "on": f.on, "why": f.why, "cost": f.cost,
+                "bytes_per_hit_point": f.bytes_per_hit_point, "bytes_per_pixel": f.bytes_per_pixel,
+            })
+        })
+        .collect();
+    json!({
+        "event": "info",
+        "scene": name,
+        "hash": format!("{hash:016x}"),
+        "census": {
+            "shapes": scene.shapes().len(), "triangles": c.triangles, "spheres": c.spheres, "discs": c.discs,
+            "tubes": c.tubes, "degenerate_triangles": c.degenerate_triangles, "emitters": c.emitters,
+        },
+        "sensors": scene.sensors().iter().map(|s| json!({ "name": s.name, "width": s.width, "height": s.height })).collect::<Vec<_>>(),
+        "emitters": emitters,
+        "features": parts,
+        "memory": {
+            "bytes": memory.peak_bytes(), "scene": memory.scene_bytes, "hit_points": memory.hit_point_bytes,
+            "pixels": memory.pixel_bytes, "photons": memory.photon_bytes, "layout": memory.layout_bytes,
+            "expected_hit_points": memory.hit_points,
+        },
+    })
+}
+
+fn as_text(scene: &Scene, settings: &Settings, name: &str, hash: u64) -> Vec<String> {
+    let c = scene.census();
+    let mut lines = vec![
+        format!("{name}  (hash {hash:016x})"),
+        format!(
+            "{} shapes: {} triangles, {} spheres, {} discs, {} tubes; {} triangles without area left out",
+            scene.shapes().len(),
+            c.triangles,
+            c.spheres,
+            c.discs,
+            c.tubes,
+            c.degenerate_triangles
+        ),
+    ];
+    for s in scene.sensors() {
+        lines.push(format!("sensor {}: {} x {} pixels", s.name, s.width, s.height));
+    }
+    for (name, kind, watts, share) in emitters(scene) {
+        lines.push(format!("emitter {name} ({kind}): {watts:.4} W, {:.1} % of the photons", share * 100.0));
+    }
+    let on = |f: &Feature| if f.on { "on " } else { "off" };
+    for f in features(scene, settings) {
+        let mut line = format!("{}  {}: {}", on(&f), f.name, f.why);
+        if f.on {
+            line += &format!("; costs {}", f.cost);
+            if f.bytes_per_hit_point + f.bytes_per_pixel > 0 {
+                line += &format!(" ({} B a hit point, {} B a pixel)", f.bytes_per_hit_point, f.bytes_per_pixel);
+            }
+        }
+        lines.push(line);
+    }
+    lines.push(format!("memory: about {}", Session::estimate_memory(scene, settings)));
+    lines
+}
+
+/// Name, kind, power (mean of the channels, W) and share of the photons of each emitter.
+fn emitters(scene: &Scene) -> impl Iterator<Item = (&str, &'static str, f64, f64)> {
+    let area = scene.normalisation().scale().powi(2);
+    scene.emitters().iter().enumerate().map(move |(i, e)| {
+        (e.name.as_str(), e.kind_name(), f64::from(e.power().mean()) / area, scene.emitter_share(i))
+    })
+}

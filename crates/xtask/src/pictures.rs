@@ -1,0 +1,105 @@
+//! `cargo xtask pictures`: renders every scene in `assets/` to `docs/pictures/NAME.png`, for the documents to show.
+//!
+//! Passes, photons and seed are fixed and results do not depend on threads, so that the same program writes the same files.
+
+use std::collections::BTreeSet;
+use std::env;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// How one scene is rendered for its picture.
+struct Picture {
+    /// The scene's folder in `assets/`, and the picture's name.
+    scene: &'static str,
+    /// WIDTHxHEIGHT in pixels.
+    size: &'static str,
+    passes: u32,
+    /// Eye samples a pixel: more where gloss is seen, whose noise passes do not lower.
+    samples: u32,
+}
+
+const PICTURES: &[Picture] = &[
+    Picture { scene: "pool", size: "480x320", passes: 64, samples: 4 },
+    Picture { scene: "ring", size: "480x320", passes: 48, samples: 16 },
+    Picture { scene: "cornell-spheres", size: "480x480", passes: 32, samples: 4 },
+    Picture { scene: "cornell-diffuse", size: "480x480", passes: 24, samples: 4 },
+    Picture { scene: "box-spheres", size: "480x480", passes: 32, samples: 4 },
+    Picture { scene: "furnace", size: "128x128", passes: 8, samples: 1 },
+    Picture { scene: "glass-and-ring", size: "960x640", passes: 64, samples: 4 },
+];
+
+/// Renders all pictures with the release build. Takes minutes.
+///
+/// # Errors
+/// What could not be built, rendered or written, or a scene that has no picture here.
+pub(crate) fn render_all() -> Result<(), String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let forgotten = without_picture(&root.join("assets"))?;
+    if !forgotten.is_empty() {
+        return Err(format!("no picture is planned for {}", forgotten.join(", ")));
+    }
+    let folder = root.join("docs/pictures");
+    fs::create_dir_all(&folder).map_err(|cause| format!("{}: {cause}", folder.display()))?;
+    PICTURES.iter().try_for_each(|picture| picture.render(&root))
+}
+
+impl Picture {
+    fn render(&self, root: &Path) -> Result<(), String> {
+        let scene = format!("assets/{}/scene.xml", self.scene);
+        let output = format!("docs/pictures/{}.png", self.scene);
+        let (passes, samples) = (self.passes.to_string(), self.samples.to_string());
+        println!("{output}: {} at {passes} passes", self.size);
+        let status = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+            .args([
+                "run",
+                "--quiet",
+                "--release",
+                "--package",
+                "foton",
+                "--",
+                "render",
+                &scene,
+                "-o",
+                &output,
+            ])
+            .args(["--size", self.size, "--passes", &passes, "--spp", &samples, "--direct", "shadow-rays"])
+            .current_dir(root)
+            .status();
+        match status {
+            Ok(status) if status.success() => Ok(()),
+            Ok(status) => Err(format!("{output}: {status}")),
+            Err(cause) => Err(format!("cargo: {cause}")),
+        }
+    }
+}
+
+/// The scenes in a folder that [`PICTURES`] does not name.
+fn without_picture(assets: &Path) -> Result<Vec<String>, String> {
+    let trouble = |cause| format!("{}: {cause}", assets.display());
+    let mut scenes = BTreeSet::new();
+    for entry in fs::read_dir(assets).map_err(trouble)? {
+        let path = entry.map_err(trouble)?.path();
+        if path.join("scene.xml").is_file() {
+            scenes.extend(path.file_name().map(|name| name.to_string_lossy().into_owned()));
+        }
+    }
+    for picture in PICTURES {
+        scenes.remove(picture.scene);
+    }
+    Ok(scenes.into_iter().collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_scene_has_a_picture_and_every_picture_a_scene() {
+        let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets");
+        assert_eq!(without_picture(&assets), Ok(Vec::new()));
+        for picture in PICTURES {
+            assert!(assets.join(picture.scene).join("scene.xml").is_file(), "{}", picture.scene);
+        }
+    }
+}
