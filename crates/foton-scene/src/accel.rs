@@ -98,5 +98,6 @@ impl Accel {
 }
 
 fn tree_ray(ray: &Ray) -> TreeRay {
-    TreeRay::new(ray.origin.into(), ray.direction.into(), ray.t_min, ray.t_max)
+    // Adding zero makes −0 a +0: obvhs takes the two for different sides of a box and would miss it.
+    TreeRay::new(ray.origin.into(), (ray.direction + 0.0).into(), ray.t_min, ray.t_max)
 }

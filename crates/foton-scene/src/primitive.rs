@@ -80,18 +80,14 @@ impl ShearedRay {
         let s = self.shear;
         let [ax, bx, cx] = [a, b, c].map(|v| v[0] - s.x * v[2]);
         let [ay, by, cy] = [a, b, c].map(|v| v[1] - s.y * v[2]);
-        let mut u = cx * by - cy * bx;
-        let mut v = ax * cy - ay * cx;
-        let mut w = bx * ay - by * ax;
-        if u == 0.0 || v == 0.0 || w == 0.0 {
-            // On an edge in single precision: the products are exact in double precision, so the sign is right.
-            let cross = |x0: f32, y0: f32, x1: f32, y1: f32| {
-                (f64::from(x0) * f64::from(y0) - f64::from(x1) * f64::from(y1)) as f32
-            };
-            u = cross(cx, by, cy, bx);
-            v = cross(ax, cy, ay, cx);
-            w = cross(bx, ay, by, ax);
-        }
+        // Products of single precision numbers are exact in double precision: signs are right, on edges too, and a sliver
+        // keeps the digits of its weights.
+        let cross = |x0: f32, y0: f32, x1: f32, y1: f32| {
+            f64::from(x0) * f64::from(y0) - f64::from(x1) * f64::from(y1)
+        };
+        let u = cross(cx, by, cy, bx);
+        let v = cross(ax, cy, ay, cx);
+        let w = cross(bx, ay, by, ax);
         if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
             return None;
         }
@@ -100,8 +96,18 @@ impl ShearedRay {
             return None;
         }
         let inverse = 1.0 / determinant;
-        let t = (u * a[2] + v * b[2] + w * c[2]) * s.z * inverse;
-        self.accepts(t).then(|| PrimitiveHit { t, barycentric: Vec2::new(v, w) * inverse })
+        let t = self.plane_distance(vertices) as f32;
+        let barycentric = Vec2::new((v * inverse) as f32, (w * inverse) as f32);
+        // Along the plane t may be infinite.
+        (self.accepts(t) && t.is_finite()).then_some(PrimitiveHit { t, barycentric })
+    }
+
+    /// Where the ray meets a triangle's plane, in double precision: the sign is right for an origin just off a plane whose
+    /// corners are far away, where depths interpolated from the corners' are noise.
+    fn plane_distance(&self, vertices: &[Vec3; 3]) -> f64 {
+        let [a, b, c] = vertices.map(Vec3::as_dvec3);
+        let normal = (b - a).cross(c - a);
+        normal.dot(a - self.ray.origin.as_dvec3()) / normal.dot(self.ray.direction.as_dvec3())
     }
 
     /// Roots as in Haines et al., "Precision Improvements for Ray/Sphere Intersection" (2019): the discriminant from the

@@ -1,14 +1,17 @@
 //! A point on a surface, with the bound on its rounding error that robust ray origins need.
 
-use foton_math::glam::{Vec2, Vec3};
+use foton_math::glam::{DVec3, Vec2, Vec3};
 
 use crate::primitive::{Primitive, triangle_normal};
 
-/// Bound on the relative rounding error of a point interpolated in a triangle: γ₇ of `[PBR16]` section 3.9, doubled to cover
-/// the rounding of the barycentric coordinates.
-const TRIANGLE_ERROR: f32 = 2.0 * 7.0 * 0.5 * f32::EPSILON;
+/// Bound on the relative rounding error of a point in a triangle, which is interpolated in double precision: it is rounded
+/// once, and once more when a ray's origin is offset from it; doubled.
+const TRIANGLE_ERROR: f32 = 2.0 * 2.0 * 0.5 * f32::EPSILON;
 
-/// The same for a point projected onto a sphere or a disc: γ₅, doubled.
+/// Length over height beyond which a triangle's points may lie closer to its edges than others'.
+const SLENDER: f64 = 16.0;
+
+/// The same for a point projected onto a sphere or a disc in single precision: γ₅ of `[PBR16]` section 3.9, doubled.
 const QUADRIC_ERROR: f32 = 2.0 * 5.0 * 0.5 * f32::EPSILON;
 
 /// A point on a surface in scene units.
@@ -50,11 +53,11 @@ impl Surface {
 pub(crate) fn locate(primitive: &Primitive, barycentric: Vec2, approximate: Vec3) -> (Vec3, Vec3, Vec3) {
     match *primitive {
         Primitive::Triangle([a, b, c]) => {
-            let (v, w) = (barycentric.x, barycentric.y);
-            let u = 1.0 - v - w;
-            let terms = (a * u).abs() + (b * v).abs() + (c * w).abs();
-            let normal = triangle_normal([a, b, c]).unwrap_or(Vec3::Z);
-            (a * u + b * v + c * w, terms * TRIANGLE_ERROR, normal)
+            let corners = [a, b, c].map(Vec3::as_dvec3);
+            let (v, w) = (f64::from(barycentric.x), f64::from(barycentric.y));
+            let weights = off_edges([1.0 - v - w, v, w], &corners);
+            let position = (0..3).map(|i| corners[i] * weights[i]).sum::<DVec3>().as_vec3();
+            (position, position.abs() * TRIANGLE_ERROR, triangle_normal([a, b, c]).unwrap_or(Vec3::Z))
         }
         Primitive::Sphere { centre, radius, inward } => {
             let outward = (approximate - centre).normalize_or(Vec3::Z);
@@ -75,4 +78,17 @@ pub(crate) fn locate(primitive: &Primitive, barycentric: Vec2, approximate: Vec3
             (position, error, if radius < 0.0 { -outward } else { outward })
         }
     }
+}
+
+/// A point's weights in a triangle, moved off its edges by twice the point's error.
+///
+/// Errors along the triangle would else put the point beyond the next face of a corner, and a closed box would lose the rays
+/// that start in its edges. In a triangle longer than [`SLENDER`] times its height the move is cut short.
+fn off_edges(weights: [f64; 3], [a, b, c]: &[DVec3; 3]) -> [f64; 3] {
+    let margin = 2.0 * f64::from(TRIANGLE_ERROR) * a.abs().max(b.abs()).max(c.abs()).max_element();
+    let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared()).sqrt();
+    let height = (b - a).cross(c - a).length() / longest;
+    let least = margin / height.max(longest / SLENDER);
+    let kept = weights.map(|w| w.max(least));
+    kept.map(|w| w / kept.iter().sum::<f64>())
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
+use foton_film::check_writable;
 use foton_format::{Opened, Options};
 use foton_integrator::{LayerKind, Settings};
 use foton_scene::Scene;
@@ -20,6 +21,8 @@ const DEFAULT_TIME: Duration = Duration::from_secs(60);
 
 /// Runs `foton render`.
 pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
+    let (path, format) = &args.output;
+    check_writable(path)?;
     let options = Options { defines: args.defines.clone() };
     let opened = foton_format::open(&args.scene, &options).map_err(Failure::Open)?;
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -42,7 +45,6 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
         rule.time = Some(DEFAULT_TIME);
         talk.line("no --passes or --time: rendering for 60 s");
     }
-    let (path, format) = &args.output;
     refuse_beyond_memory(&scene, &settings, args.memory)?;
     let interrupt = interrupt_on_signals(talk);
     talk.begin();

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
+use foton_film::check_writable;
 use foton_format::Options;
 use foton_integrator::Settings;
 use foton_session::{Session, StopRule};
@@ -32,8 +33,9 @@ pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failur
     refuse_beyond_memory(&scene, &settings, None)?;
     let stem = output::next_free(Path::new(""));
     let (png, exr) = (stem.with_extension("png"), stem.with_extension("exr"));
-    talk.line(&format!("rendering {name} for a minute to {}; Ctrl-C stops earlier", png.display()));
+    check_writable(&png)?;
     let interrupt = interrupt_on_signals(talk);
+    talk.line(&format!("rendering {name} for a minute to {}; Ctrl-C stops earlier", png.display()));
     talk.begin();
     let mut session = Session::start(scene, settings, None, &interrupt)?;
     let rule = StopRule::time(TIME);

@@ -1,2 +1,49 @@
-//! Developer tasks: test, conformance, ci.
-fn main() {}
+//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `assets`, `pictures`.
+//!
+//! Nothing here is part of the program; what a task does is in the module of its name.
+#![allow(clippy::print_stdout, reason = "these tasks talk to the person who started them")]
+
+mod assets;
+mod ci;
+mod conformance;
+mod pictures;
+mod test;
+mod tools;
+
+use std::process::ExitCode;
+
+use tools::Trouble;
+
+const USAGE: &str = "\
+cargo xtask test [--install]        all tests, and a small comparison with Mitsuba 3;
+                                    --install fetches missing system packages with sudo
+cargo xtask ci                      formatting, lints, documentation, then the tests
+cargo xtask conformance [--quick]   the whole comparison with Mitsuba 3 (20 minutes and more), or the small one
+cargo xtask assets                  writes the generated meshes in assets/ again
+cargo xtask pictures                renders every scene in assets/ to docs/pictures (some minutes)";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let outcome = match arguments.as_slice() {
+        ["test"] => test::all(false),
+        ["test", "--install"] => test::all(true),
+        ["ci"] => ci::all(),
+        ["conformance"] => conformance::full(),
+        ["conformance", "--quick"] => conformance::quick(),
+        ["assets"] => assets::write_all(&tools::root().join("assets"))
+            .map_err(|cause| Trouble::Failed(cause.to_string())),
+        ["pictures"] => pictures::render_all().map_err(Trouble::Failed),
+        _ => {
+            eprintln!("{USAGE}");
+            return ExitCode::from(2);
+        }
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(trouble) => {
+            eprintln!("{trouble}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Descriptions that make no scene, and triangles that make no surface.
+//!
+//! Not here: `BuildError::TooLarge`, which takes 2^31 primitives to reach.
+
+use foton_math::glam::{DAffine3, DMat3, DVec3};
+use foton_math::{Ray, Rgb};
+use foton_scene::description::{Geometry, Mesh, SceneDescription, ShapeDescription};
+use foton_scene::{BuildError, Scene};
+
+use crate::{ball, build, describe, mesh, shape, smooth_geodesic};
+
+/// Two sound triangles and seven without area.
+fn torn() -> Mesh {
+    let mut mesh = Mesh::rectangle();
+    let first = mesh.positions.len() as u32;
+    // 4 and 5 are in one place, 6 is between 0 and 2.
+    mesh.positions.extend([DVec3::ONE, DVec3::ONE, DVec3::ZERO]);
+    let [a, b, middle] = [first, first + 1, first + 2];
+    let collapsed = [[0, 0, 1], [1, 0, 0], [0, 1, 0], [2, 2, 2], [a, b, 0], [b, 1, a], [0, middle, 2]];
+    mesh.triangles.extend(collapsed);
+    mesh
+}
+
+#[test]
+fn triangles_without_area_are_dropped_and_counted() {
+    let scene = build(vec![mesh(torn(), DAffine3::IDENTITY)]);
+    let census = scene.census();
+    assert_eq!((census.triangles, census.degenerate_triangles), (2, 7));
+    assert!(
+        scene
+            .nearest(Ray::new(scene.normalisation().point(DVec3::new(0.5, 0.25, 1.0)), -DVec3::Z.as_vec3()))
+            .is_some()
+    );
+}
+
+#[test]
+fn a_shining_shape_without_area_is_no_emitter() {
+    let mut flat = mesh(Mesh { triangles: torn().triangles[2..].to_vec(), ..torn() }, DAffine3::IDENTITY);
+    flat.radiance = Some(Rgb::WHITE);
+    let scene = build(vec![flat]);
+    let census = scene.census();
+    assert_eq!((census.triangles, census.degenerate_triangles, census.emitters), (0, 7, 0));
+    assert!(scene.choose_emitter(0.5).is_none());
+    assert!(scene.nearest(Ray::new(DVec3::Z.as_vec3(), -DVec3::Z.as_vec3())).is_none());
+}
+
+/// The error of a description with one thing wrong.
+fn error(spoil: impl FnOnce(&mut SceneDescription)) -> BuildError {
+    let mut description = describe(vec![ball(DVec3::ZERO, 1.0)]);
+    spoil(&mut description);
+    Scene::build(&description).err().expect("the description is spoilt")
+}
+
+fn error_of(shape: ShapeDescription) -> BuildError {
+    error(|description| description.shapes.push(ShapeDescription { name: "bad".into(), ..shape }))
+}
+
+fn bad() -> String {
+    "bad".into()
+}
+
+#[test]
+fn a_scene_needs_a_sensor_that_makes_an_image() {
+    assert_eq!(error(|d| d.sensors.clear()), BuildError::NoSensor);
+    let camera = |spoil: fn(&mut foton_scene::description::SensorDescription)| {
+        assert_eq!(error(|d| spoil(&mut d.sensors[0])), BuildError::BadSensor("camera".into()));
+    };
+    camera(|s| s.fov_degrees = 0.0);
+    camera(|s| s.fov_degrees = 180.0);
+    camera(|s| s.fov_degrees = f64::NAN);
+    camera(|s| s.width = 0);
+    camera(|s| s.height = 0);
+    camera(|s| s.to_world.matrix3.z_axis = DVec3::ZERO);
+    camera(|s| s.to_world.matrix3.x_axis.y = f64::NAN);
+    camera(|s| s.to_world.translation.x = f64::INFINITY);
+}
+
+#[test]
+fn coordinates_are_finite() {
+    for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let mut hole = Mesh::cube();
+        hole.positions[3].y = value;
+        let moved = DAffine3::from_translation(DVec3::X * value);
+        for shape in [
+            mesh(hole, DAffine3::IDENTITY),
+            mesh(Mesh::cube(), moved),
+            shape(Geometry::Disc, moved),
+            ball(DVec3::Z * value, 1.0),
+            ball(DVec3::ZERO, value),
+        ] {
+            assert_eq!(error_of(shape), BuildError::NotFinite(bad()));
+        }
+    }
+}
+
+#[test]
+fn transforms_keep_round_things_round_and_normals_upright() {
+    let flattened = DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(1.0, 1.0, 0.0)));
+    assert_eq!(error_of(mesh(smooth_geodesic(1), flattened)), BuildError::Singular(bad()));
+    let sheared = DAffine3::from_mat3(DMat3::from_cols(DVec3::X, DVec3::new(0.1, 1.0, 0.0), DVec3::Z));
+    let stretched = DAffine3::from_scale(DVec3::new(1.0, 1.001, 1.0));
+    let nothing = DAffine3::from_scale(DVec3::ZERO);
+    for to_world in [sheared, stretched, nothing] {
+        for geometry in [Geometry::Disc, Geometry::Sphere { centre: DVec3::ZERO, radius: 1.0 }] {
+            assert_eq!(error_of(shape(geometry, to_world)), BuildError::NotRound(bad()));
+        }
+    }
+    // A disc has no thickness to stretch.
+    let thick = DAffine3::from_scale(DVec3::new(2.0, 2.0, 7.0));
+    assert_eq!(build(vec![shape(Geometry::Disc, thick)]).census().discs, 1);
+}
+
+#[test]
+fn meshes_fit_their_vertices_and_shapes_their_materials() {
+    let mut beyond = Mesh::cube();
+    beyond.triangles[5][1] = 8;
+    let mut bald = smooth_geodesic(1);
+    bald.normals.pop();
+    for broken in [beyond, bald] {
+        assert_eq!(error_of(mesh(broken, DAffine3::IDENTITY)), BuildError::BadMesh(bad()));
+    }
+    let unpainted = ShapeDescription { material: 1, ..ball(DVec3::ZERO, 1.0) };
+    assert_eq!(error_of(unpainted), BuildError::NoMaterial(bad()));
+}
+
+#[test]
+fn an_empty_scene_is_a_scene() {
+    let scene = build(Vec::new());
+    assert!(scene.nearest(Ray::new(DVec3::ZERO.as_vec3(), DVec3::X.as_vec3())).is_none());
+    assert!(!scene.occluded(Ray::new(DVec3::ZERO.as_vec3(), DVec3::X.as_vec3())));
+}
