@@ -183,7 +183,7 @@ impl Writer<'_> {
     fn emitter(&mut self, emitter: &EmitterDescription) -> Result<(), WriteError> {
         let id = self.id(&emitter.name);
         let filename = match &emitter.kind {
-            EmitterKind::Environment { bitmap, .. } => self.bitmap(bitmap, &emitter.name)?,
+            EmitterKind::Environment { bitmap, .. } => self.bitmap(bitmap, &id)?,
             _ => String::new(),
         };
         let xml = &mut self.xml;
@@ -229,7 +229,7 @@ impl Writer<'_> {
             Geometry::Cylinder { .. } => ("cylinder", None),
             Geometry::Mesh(mesh) if mesh::same(mesh, &Mesh::rectangle()) => ("rectangle", None),
             Geometry::Mesh(mesh) if mesh::same(mesh, &Mesh::cube()) => ("cube", None),
-            Geometry::Mesh(mesh) => ("ply", Some(self.mesh(mesh, &shape.name)?)),
+            Geometry::Mesh(mesh) => ("ply", Some(self.mesh(mesh, &id)?)),
         };
         let xml = &mut self.xml;
         xml.open("shape", &[("type", plugin), ("id", &id)]);

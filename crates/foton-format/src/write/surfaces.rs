@@ -17,7 +17,7 @@ impl Writer<'_> {
         let id = self.id(&texture.name);
         match &texture.kind {
             TextureKind::Bitmap { bitmap, wrap, bilinear } => {
-                let filename = self.bitmap(bitmap, &texture.name)?;
+                let filename = self.bitmap(bitmap, &id)?;
                 let xml = &mut self.xml;
                 xml.open("texture", &[("type", "bitmap"), ("id", &id)]);
                 xml.value("string", "filename", &filename);

@@ -72,8 +72,8 @@ fn describe(shapes: Vec<ShapeDescription>) -> SceneDescription {
         near_clip: None,
         far_clip: None,
     };
-    let white = Bsdf::Diffuse { reflectance: Rgb::splat(0.5) };
-    let material = Material { name: "white".into(), front: white, back: Some(white) };
+    let white = Bsdf::Diffuse { reflectance: Rgb::splat(0.5).into() };
+    let material = Material { name: "white".into(), front: white, back: Some(white), opacity: None };
     SceneDescription {
         sensors: vec![sensor],
         materials: vec![material],
@@ -102,7 +102,7 @@ fn mesh(mesh: Mesh, to_world: DAffine3) -> ShapeDescription {
 }
 
 fn triangle(corners: [DVec3; 3]) -> ShapeDescription {
-    let single = Mesh { positions: corners.to_vec(), normals: Vec::new(), triangles: vec![[0, 1, 2]] };
+    let single = Mesh { positions: corners.to_vec(), triangles: vec![[0, 1, 2]], ..Mesh::default() };
     mesh(single, DAffine3::IDENTITY)
 }
 

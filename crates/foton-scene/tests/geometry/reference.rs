@@ -83,6 +83,7 @@ fn exact(shape: &ShapeDescription, units: &Normalisation) -> Exact {
             let normal = z.normalize().as_vec3().as_dvec3();
             Exact::Disc { centre: point(shape.to_world.translation), normal, radius: length(x.length()) }
         }
+        Geometry::Cylinder { .. } => unreachable!("the soup holds no tubes"),
     }
 }
 

@@ -1,0 +1,320 @@
+//! What is written reads back as an equal description.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use foton_format::{Options, open, write_scene};
+use foton_math::Rgb;
+use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
+use foton_scene::description::{
+    Bitmap, Bsdf, Colour, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh,
+    MicrofacetDistribution, Microfacets, SceneDescription, SensorDescription, ShapeDescription, Texture,
+    TextureKind, Wrap,
+};
+
+/// A folder of this test's own.
+fn folder(test: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("foton-writer-{}-{test}", std::process::id()));
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn read(path: &Path) -> SceneDescription {
+    let opened = open(path, &Options::default()).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(opened.warnings, [], "{}", path.display());
+    opened.description
+}
+
+fn written_and_read(scene: &SceneDescription, test: &str, name: &str) -> SceneDescription {
+    let path = folder(test).join(name);
+    write_scene(scene, &path).unwrap();
+    read(&path)
+}
+
+/// Panics where two descriptions differ, but for names, zeros of either sign, and the order of materials and textures.
+fn assert_same(a: &SceneDescription, b: &SceneDescription) {
+    assert_eq!(a.max_depth, b.max_depth);
+    assert_eq!(a.sensors.len(), b.sensors.len());
+    for (a, b) in a.sensors.iter().zip(&b.sensors) {
+        assert_eq!(a.to_world, b.to_world);
+        assert_eq!((a.fov_degrees, a.fov_axis, a.filter), (b.fov_degrees, b.fov_axis, b.filter));
+        assert_eq!(
+            (a.width, a.height, a.near_clip, a.far_clip),
+            (b.width, b.height, b.near_clip, b.far_clip)
+        );
+    }
+    assert_eq!(a.emitters.len(), b.emitters.len());
+    for (a, b) in a.emitters.iter().zip(&b.emitters) {
+        assert_eq!(emitter(&a.kind), emitter(&b.kind));
+    }
+    assert_eq!(a.shapes.len(), b.shapes.len());
+    for (x, y) in a.shapes.iter().zip(&b.shapes) {
+        assert_eq!(
+            (x.flip_normals, x.radiance, x.to_world),
+            (y.flip_normals, y.radiance, y.to_world),
+            "{}",
+            x.name
+        );
+        assert_same_geometry(&x.geometry, &y.geometry);
+        assert_eq!(material(a, x.material), material(b, y.material), "{}", x.name);
+    }
+}
+
+fn assert_same_geometry(a: &Geometry, b: &Geometry) {
+    match (a, b) {
+        (Geometry::Mesh(a), Geometry::Mesh(b)) => {
+            assert_eq!(a.positions, b.positions);
+            assert_eq!(a.normals, b.normals);
+            assert_eq!(a.texture_coordinates, b.texture_coordinates);
+            assert_eq!(a.triangles, b.triangles);
+        }
+        _ => assert_eq!(format!("{a:?}"), format!("{b:?}")),
+    }
+}
+
+/// What an emitter is, with numbers to all digits.
+fn emitter(kind: &EmitterKind) -> String {
+    match kind {
+        EmitterKind::Environment { to_world, bitmap, scale } => {
+            format!("{:?} {scale} {}", to_world.to_cols_array().map(|x| x + 0.0), bitmap_text(bitmap))
+        }
+        other => format!("{other:?}"),
+    }
+}
+
+fn bitmap_text(bitmap: &Bitmap) -> String {
+    format!("{} × {}: {:?}", bitmap.width, bitmap.height, bitmap.pixels)
+}
+
+/// What a material is, textures included, with numbers to all digits.
+fn material(scene: &SceneDescription, index: usize) -> String {
+    let Material { front, back, opacity, .. } = &scene.materials[index];
+    let mut text = format!("{front:?} {back:?} {opacity:?}");
+    while let Some(at) = text.find("Texture(") {
+        let end = at + text[at..].find(')').unwrap();
+        let Texture { to_uv, kind, .. } = &scene.textures[text[at + 8..end].parse::<usize>().unwrap()];
+        let kind = match kind {
+            TextureKind::Bitmap { bitmap, wrap, bilinear } => {
+                format!("{wrap:?} {bilinear} {}", bitmap_text(bitmap))
+            }
+            TextureKind::Checkerboard { colours } => format!("{colours:?}"),
+        };
+        text.replace_range(at..=end, &format!("{:?} {kind}", to_uv.to_cols_array().map(|x| x + 0.0)));
+    }
+    text
+}
+
+/// Numbers that no few decimals express.
+fn odd(i: u32) -> f64 {
+    (f64::from(i) + 0.1).sin()
+}
+
+fn odd_transform() -> DAffine3 {
+    let turn = DAffine3::from_axis_angle(DVec3::new(odd(1), odd(2), odd(3)).normalize(), odd(4));
+    DAffine3::from_translation(DVec3::new(odd(5), 1e-9 * odd(6), 1e17 * odd(7))) * turn
+}
+
+fn everything() -> SceneDescription {
+    let roughness = |distribution, alpha_u, alpha_v| Some(Microfacets { distribution, alpha_u, alpha_v });
+    let colour = |r, g, b| Colour::Constant(Rgb::new(r, g, b));
+    let white = colour(1.0, 1.0, 1.0);
+    let pixels = (0..6).map(|i| Rgb::new(i as f32 / 7.0, 0.1, 1.0 / 3.0)).collect();
+    let bitmap = Arc::new(Bitmap { width: 3, height: 2, pixels });
+    let to_uv = DAffine2::from_scale_angle_translation(DVec2::new(2.0, -4.0), 0.0, DVec2::new(0.5, 0.25));
+    let textures = [
+        TextureKind::Bitmap { bitmap: Arc::clone(&bitmap), wrap: Wrap::Mirror, bilinear: false },
+        TextureKind::Checkerboard { colours: [Rgb::new(0.1, 0.2, 0.3), Rgb::splat(0.7)] },
+        TextureKind::Bitmap { bitmap: Arc::clone(&bitmap), wrap: Wrap::Clamp, bilinear: true },
+    ];
+    let diffuse = Bsdf::Diffuse { reflectance: colour(0.1, 0.63, 1.0 / 3.0) };
+    let textured = Bsdf::Diffuse { reflectance: Colour::Texture(0) };
+    let plastic = |nonlinear, roughness| Bsdf::Plastic {
+        int_ior: 1.49,
+        ext_ior: 1.000_277,
+        diffuse_reflectance: Colour::Texture(1),
+        specular_reflectance: colour(0.9, 0.8, 0.7),
+        nonlinear,
+        roughness,
+    };
+    let (specular_reflectance, specular_transmittance) = (white, colour(0.5, 0.6, 0.7));
+    let glass = |roughness| Bsdf::Dielectric {
+        int_ior: 1.5046,
+        ext_ior: 1.000_277,
+        specular_reflectance,
+        specular_transmittance,
+        roughness,
+    };
+    let metal = |roughness| Bsdf::Conductor {
+        eta: Rgb::new(0.143_08, 0.374_95, 1.4424),
+        k: Rgb::new(3.9831, 2.3857, 1.6032),
+        specular_reflectance,
+        roughness,
+    };
+    let sides = [
+        (diffuse, None, None),
+        (diffuse, Some(diffuse), None),
+        (diffuse, Some(textured), Some(colour(0.3, 0.3, 0.3))),
+        (plastic(false, None), None, Some(Colour::Texture(2))),
+        (plastic(true, roughness(MicrofacetDistribution::Ggx, 0.3, 0.3)), None, None),
+        (glass(None), None, None),
+        (glass(roughness(MicrofacetDistribution::Beckmann, 0.1, 0.2)), None, None),
+        (
+            Bsdf::ThinDielectric { int_ior: 1.5, ext_ior: 1.0, specular_reflectance, specular_transmittance },
+            None,
+            None,
+        ),
+        (Bsdf::Mirror { reflectance: colour(0.999, 0.999, 0.999) }, None, None),
+        (metal(None), None, None),
+        (metal(roughness(MicrofacetDistribution::Ggx, 0.02, 0.02)), Some(diffuse), None),
+        (Bsdf::Null, None, None),
+    ];
+    let materials = sides.map(|(front, back, opacity)| Material {
+        // One name for all: ids must become different ones.
+        name: "a \"strange\" <name> & $more".to_owned(),
+        front,
+        back,
+        opacity,
+    });
+    let mesh = |narrow: bool, normals: bool| {
+        let value = |i| if narrow { f64::from(odd(i) as f32) } else { odd(i) };
+        let positions = (0..4).map(|i| DVec3::new(value(i), value(i + 4), value(i + 8))).collect();
+        let normals = if normals { vec![DVec3::new(odd(1), odd(2), odd(3)); 4] } else { Vec::new() };
+        let texture_coordinates = vec![DVec2::new(odd(1), 0.5); if narrow { 0 } else { 4 }];
+        Geometry::Mesh(Arc::new(Mesh {
+            positions,
+            normals,
+            texture_coordinates,
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+        }))
+    };
+    let shared = mesh(false, true);
+    let geometries = [
+        Geometry::Sphere { centre: DVec3::new(odd(1), odd(2), odd(3)), radius: 1.0 / 3.0 },
+        Geometry::Disc,
+        Geometry::Cylinder { from: DVec3::ZERO, to: DVec3::new(0.0, odd(2), 0.1), radius: 0.1 },
+        Geometry::Mesh(Arc::new(Mesh::rectangle())),
+        Geometry::Mesh(Arc::new(Mesh::cube())),
+        mesh(true, false),
+        mesh(false, false),
+        shared.clone(),
+        shared,
+    ];
+    let mirror = DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
+    let shapes = (0..24).map(|i| ShapeDescription {
+        name: if i % 2 == 0 { String::new() } else { "ä/b".to_owned() },
+        geometry: geometries[i % geometries.len()].clone(),
+        to_world: if i % 4 < 2 { odd_transform() } else { odd_transform() * mirror },
+        flip_normals: i % 3 == 0,
+        material: i % materials.len(),
+        radiance: (i % 5 == 0).then(|| Rgb::new(0.1, 1e-12, 1e12)),
+    });
+    let sensor = |fov_axis, filter, near_clip| SensorDescription {
+        name: "sensor".to_owned(),
+        to_world: DAffine3::from_axis_angle(DVec3::Y, odd(1)),
+        fov_degrees: 40.0 + odd(2),
+        fov_axis,
+        width: 320,
+        height: 200,
+        filter,
+        near_clip,
+        far_clip: near_clip.map(|near| near + 100.0),
+    };
+    let kinds = [
+        EmitterKind::Point { position: DVec3::new(odd(1), 2.0, 3.0), intensity: Rgb::new(0.1, 0.2, 0.3) },
+        EmitterKind::Spot {
+            to_world: odd_transform(),
+            intensity: Rgb::splat(10.0),
+            cutoff_degrees: 30.0 + odd(1),
+            beam_degrees: 20.0,
+        },
+        EmitterKind::Directional {
+            direction: DVec3::new(odd(1), odd(2), odd(3)),
+            irradiance: Rgb::splat(0.3),
+        },
+        EmitterKind::Environment { to_world: DAffine3::from_rotation_y(odd(1)), bitmap, scale: 0.7 },
+    ];
+    SceneDescription {
+        sensors: vec![
+            sensor(FovAxis::Larger, Filter::Box { radius: 0.5 }, Some(odd(1))),
+            sensor(FovAxis::Diagonal, Filter::Tent { radius: 1.1 }, None),
+            sensor(FovAxis::Y, Filter::Gaussian { stddev: 0.3 }, None),
+        ],
+        materials: materials.to_vec(),
+        textures: textures.map(|kind| Texture { name: "t".to_owned(), to_uv, kind }).to_vec(),
+        shapes: shapes.collect(),
+        emitters: kinds.map(|kind| EmitterDescription { name: "light".to_owned(), kind }).to_vec(),
+        max_depth: Some(7),
+    }
+}
+
+#[test]
+fn everything_that_a_description_can_hold_is_written() {
+    let scene = everything();
+    let once = written_and_read(&scene, "everything", "all of it.xml");
+    assert_same(&scene, &once);
+    // Names have become ids, so that nothing changes any more.
+    let twice = written_and_read(&once, "everything", "all of it.xml");
+    assert_same(&once, &twice);
+    let names = |scene: &SceneDescription| scene.shapes.iter().map(|s| s.name.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&once), names(&twice));
+    let empty = SceneDescription { sensors: scene.sensors, ..SceneDescription::default() };
+    assert_same(&empty, &written_and_read(&empty, "everything", "empty.xml"));
+}
+
+#[test]
+fn files_that_several_things_share_are_written_once() {
+    let folder = folder("shared");
+    write_scene(&everything(), &folder.join("s.xml")).unwrap();
+    let names = |inside: &str| {
+        let mut names: Vec<_> = fs::read_dir(folder.join(inside))
+            .unwrap()
+            .map(|f| f.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    };
+    assert_eq!(names("textures"), ["s-t.exr"]);
+    assert_eq!(
+        names("meshes"),
+        ["s-_b.ply", "s-unnamed-2.ply", "s-unnamed.ply"].map(|n| n.replace("-_", "-__"))
+    );
+    assert_eq!(names(""), ["meshes", "s.xml", "textures"]);
+}
+
+#[test]
+fn a_scene_that_cannot_be_written_leaves_no_scene_file() {
+    let folder = folder("no-folder");
+    fs::write(folder.join("meshes"), "in the way").unwrap();
+    let error = write_scene(&everything(), &folder.join("s.xml")).unwrap_err().to_string();
+    assert!(error.starts_with("cannot write ") && error.contains("meshes"), "{error}");
+    assert!(!folder.join("s.xml").exists());
+}
+
+/// All scene files in a folder and the folders in it.
+fn scene_files(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            scene_files(&path, found);
+        } else if path.extension().is_some_and(|e| e == "xml" || e == "obj") {
+            found.push(path);
+        }
+    }
+}
+
+/// Our own scenes, and those made by others beside the checkout, where there are any.
+#[test]
+fn scenes_that_are_written_read_back_equal() {
+    let crate_folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut paths = Vec::new();
+    scene_files(&crate_folder.join("../../assets"), &mut paths);
+    scene_files(&crate_folder.join("../../../shared/scenes"), &mut paths);
+    // Meshes of other scenes are no scenes of their own.
+    paths.retain(|p| !["meshes", "models"].iter().any(|f| p.components().any(|c| c.as_os_str() == *f)));
+    for (i, path) in paths.iter().enumerate() {
+        let scene = open(path, &Options::default()).unwrap_or_else(|e| panic!("{e}")).description;
+        let again = written_and_read(&scene, "scenes", &format!("{i}.xml"));
+        assert_same(&scene, &again);
+    }
+}
