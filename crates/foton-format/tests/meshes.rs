@@ -238,13 +238,28 @@ fn binary_stl(header: &[u8], trailing: usize) -> Vec<u8> {
     bytes
 }
 
-/// The path of a file in a folder of this test's own.
-fn on_disk(test: &str, name: &str, bytes: &[u8]) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("foton-meshes-{}-{test}", std::process::id()));
-    fs::create_dir_all(&folder).unwrap();
-    let path = folder.join(name);
-    fs::write(&path, bytes).unwrap();
-    path
+/// A folder of a test's own, removed when the test is over.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(test: &str) -> Self {
+        let folder = std::env::temp_dir().join(format!("foton-meshes-{}-{test}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        Self(folder)
+    }
+
+    /// The path of a new file in it.
+    fn file(&self, name: &str, bytes: &[u8]) -> PathBuf {
+        let path = self.0.join(name);
+        fs::write(&path, bytes).unwrap();
+        path
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
 }
 
 fn warnings(opened: &Opened) -> Vec<String> {
@@ -255,6 +270,7 @@ fn warnings(opened: &Opened) -> Vec<String> {
 
 #[test]
 fn an_stl_file_is_the_same_in_text_and_in_bytes() {
+    let folder = Folder::new("stl");
     let triangles = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(DVec3::from_array);
     let above = triangles.map(|p| p + DVec3::Z);
     let wanted = [triangles, above].concat();
@@ -267,7 +283,7 @@ fn an_stl_file_is_the_same_in_text_and_in_bytes() {
     .iter()
     .enumerate()
     {
-        let path = on_disk("stl", &format!("{i}.STL"), bytes);
+        let path = folder.file(&format!("{i}.STL"), bytes);
         let opened = open(&path, &Options::default()).unwrap_or_else(|e| panic!("{i}: {e}"));
         let mesh = mesh(&opened, 0);
         assert_eq!(mesh.positions, wanted, "{i}");
@@ -277,6 +293,7 @@ fn an_stl_file_is_the_same_in_text_and_in_bytes() {
 
 #[test]
 fn what_is_wrong_with_an_stl_file_is_said() {
+    let folder = Folder::new("bad-stl");
     let with = |from: &str, to: &str| STL.replacen(from, to, 1).into_bytes();
     let nan = {
         let mut bytes = binary_stl(b"", 0);
@@ -296,7 +313,7 @@ fn what_is_wrong_with_an_stl_file_is_said() {
     .into_iter()
     .enumerate()
     {
-        let path = on_disk("bad-stl", &format!("{i}.stl"), &bytes);
+        let path = folder.file(&format!("{i}.stl"), &bytes);
         let error = open(&path, &Options::default()).unwrap_err().to_string();
         assert!(error.ends_with(wanted), "{i}: {error}");
     }
@@ -378,7 +395,7 @@ fn what_is_wrong_with_a_serialized_file_is_said() {
     assert_eq!(found(&[0x1c, 4, 5, 0], 0), "m: version 5 is not read, only 3 and 4");
     assert!(found(&bytes[..40], 0).starts_with("m: the compressed data is broken"));
     // The last mesh claims to begin beyond the end.
-    let mut beyond = bytes.clone();
+    let mut beyond = bytes;
     let at = beyond.len() - 12;
     beyond[at..at + 8].fill(0xff);
     assert_eq!(found(&beyond, 2), "m: mesh 2: this is not a serialized mesh");
@@ -435,13 +452,14 @@ const MTL: &str = "newmtl wall\nKd 0.5 0.25 0.125 # comment\nKs 0 0 0\nillum 2\n
 
 #[test]
 fn materials_of_an_obj_file_become_ours() {
+    let folder = Folder::new("mtl");
     let names = ["wall", "mirror", "glass", "pane", "veil", "varnish", "lamp", "lost", "wall"];
     let mut obj = "mtllib a file.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n".to_owned();
     for name in names {
         obj += &format!("usemtl {name}\nf -4 -3 -2\nf -4 -2 -1\n");
     }
-    let path = on_disk("mtl", "m.obj", obj.as_bytes());
-    on_disk("mtl", "a file.mtl", MTL.as_bytes());
+    let path = folder.file("m.obj", obj.as_bytes());
+    folder.file("a file.mtl", MTL.as_bytes());
     let opened = open(&path, &Options::default()).unwrap_or_else(|e| panic!("{e}"));
     let scene = &opened.description;
     let found: Vec<_> = scene.shapes.iter().map(|s| s.name.as_str()).collect();
@@ -493,8 +511,9 @@ fn extent(opened: &Opened, points: &[DVec3]) -> f64 {
 
 #[test]
 fn a_bare_mesh_is_in_view_lit_and_on_a_floor() {
+    let folder = Folder::new("bare");
     let (_, bytes) = all_ply().into_iter().next().unwrap();
-    let path = on_disk("bare", "m.ply", &bytes);
+    let path = folder.file("m.ply", &bytes);
     let opened = open(&path, &Options::default()).unwrap_or_else(|e| panic!("{e}"));
     let scene = &opened.description;
     let names: Vec<_> = scene.shapes.iter().map(|s| s.name.as_str()).collect();
@@ -514,7 +533,7 @@ fn a_bare_mesh_is_in_view_lit_and_on_a_floor() {
         ]
     );
     assert_eq!(opened.shape_nodes.len(), 3);
-    let other = on_disk("bare", "other.ply", &[&bytes[..], b"\n"].concat());
+    let other = folder.file("other.ply", &[&bytes[..], b"\n"].concat());
     assert_ne!(open(&other, &Options::default()).unwrap().source_hash, opened.source_hash);
     let defines = Options { defines: vec![("r".to_owned(), "1".to_owned())] };
     let error = open(&path, &defines).unwrap_err().to_string();
@@ -523,6 +542,7 @@ fn a_bare_mesh_is_in_view_lit_and_on_a_floor() {
 
 #[test]
 fn a_box_is_looked_into_through_its_open_side() {
+    let folder = Folder::new("box");
     let corners = "v -1 0 -1\nv 1 0 -1\nv 1 2 -1\nv -1 2 -1\nv -1 0 1\nv 1 0 1\nv 1 2 1\nv -1 2 1\n";
     let faces = [("front", "5 6 7 8"), ("right", "2 3 7 6"), ("back", "1 4 3 2"), ("left", "1 5 8 4")];
     let lids = "f 1 2 6 5\nf 4 8 7 3\n";
@@ -530,7 +550,7 @@ fn a_box_is_looked_into_through_its_open_side() {
     for (open_face, forward) in faces.iter().zip(towards) {
         let closed = faces.iter().filter(|face| face.0 != open_face.0);
         let obj = closed.fold(format!("{corners}{lids}"), |obj, (_, face)| format!("{obj}f {face}\n"));
-        let path = on_disk("box", &format!("{}.obj", open_face.0), obj.as_bytes());
+        let path = folder.file(&format!("{}.obj", open_face.0), obj.as_bytes());
         let opened = open(&path, &Options::default()).unwrap_or_else(|e| panic!("{e}"));
         let camera = opened.description.sensors[0].to_world;
         assert!((camera.matrix3.z_axis - forward).length() < 1e-12, "{}: {camera:?}", open_face.0);

@@ -13,11 +13,21 @@ use foton_scene::description::{
     TextureKind, Wrap,
 };
 
-/// A folder of this test's own.
-fn folder(test: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("foton-writer-{}-{test}", std::process::id()));
-    fs::create_dir_all(&folder).unwrap();
-    folder
+/// A folder of a test's own, removed when the test is over.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(test: &str) -> Self {
+        let folder = std::env::temp_dir().join(format!("foton-writer-{}-{test}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        Self(folder)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
 }
 
 fn read(path: &Path) -> SceneDescription {
@@ -26,8 +36,8 @@ fn read(path: &Path) -> SceneDescription {
     opened.description
 }
 
-fn written_and_read(scene: &SceneDescription, test: &str, name: &str) -> SceneDescription {
-    let path = folder(test).join(name);
+fn written_and_read(scene: &SceneDescription, folder: &Folder, name: &str) -> SceneDescription {
+    let path = folder.0.join(name);
     write_scene(scene, &path).unwrap();
     read(&path)
 }
@@ -250,24 +260,25 @@ fn everything() -> SceneDescription {
 
 #[test]
 fn everything_that_a_description_can_hold_is_written() {
-    let scene = everything();
-    let once = written_and_read(&scene, "everything", "all of it.xml");
+    let (folder, scene) = (Folder::new("everything"), everything());
+    let once = written_and_read(&scene, &folder, "all of it.xml");
     assert_same(&scene, &once);
     // Names have become ids, so that nothing changes any more.
-    let twice = written_and_read(&once, "everything", "all of it.xml");
+    let twice = written_and_read(&once, &folder, "all of it.xml");
     assert_same(&once, &twice);
     let names = |scene: &SceneDescription| scene.shapes.iter().map(|s| s.name.clone()).collect::<Vec<_>>();
     assert_eq!(names(&once), names(&twice));
+    assert_eq!(names(&once)[..4], ["unnamed", "ä/b", "unnamed-2", "ä/b-2"]);
     let empty = SceneDescription { sensors: scene.sensors, ..SceneDescription::default() };
-    assert_same(&empty, &written_and_read(&empty, "everything", "empty.xml"));
+    assert_same(&empty, &written_and_read(&empty, &folder, "empty.xml"));
 }
 
 #[test]
 fn files_that_several_things_share_are_written_once() {
-    let folder = folder("shared");
-    write_scene(&everything(), &folder.join("s.xml")).unwrap();
+    let folder = Folder::new("shared");
+    write_scene(&everything(), &folder.0.join("s.xml")).unwrap();
     let names = |inside: &str| {
-        let mut names: Vec<_> = fs::read_dir(folder.join(inside))
+        let mut names: Vec<_> = fs::read_dir(folder.0.join(inside))
             .unwrap()
             .map(|f| f.unwrap().file_name().into_string().unwrap())
             .collect();
@@ -275,20 +286,17 @@ fn files_that_several_things_share_are_written_once() {
         names
     };
     assert_eq!(names("textures"), ["s-t.exr"]);
-    assert_eq!(
-        names("meshes"),
-        ["s-_b.ply", "s-unnamed-2.ply", "s-unnamed.ply"].map(|n| n.replace("-_", "-__"))
-    );
+    assert_eq!(names("meshes"), ["s-__b-10.ply", "s-__b-9.ply", "s-unnamed-9.ply"]);
     assert_eq!(names(""), ["meshes", "s.xml", "textures"]);
 }
 
 #[test]
 fn a_scene_that_cannot_be_written_leaves_no_scene_file() {
-    let folder = folder("no-folder");
-    fs::write(folder.join("meshes"), "in the way").unwrap();
-    let error = write_scene(&everything(), &folder.join("s.xml")).unwrap_err().to_string();
+    let folder = Folder::new("no-folder");
+    fs::write(folder.0.join("meshes"), "in the way").unwrap();
+    let error = write_scene(&everything(), &folder.0.join("s.xml")).unwrap_err().to_string();
     assert!(error.starts_with("cannot write ") && error.contains("meshes"), "{error}");
-    assert!(!folder.join("s.xml").exists());
+    assert!(!folder.0.join("s.xml").exists());
 }
 
 /// All scene files in a folder and the folders in it.
@@ -307,6 +315,7 @@ fn scene_files(folder: &Path, found: &mut Vec<PathBuf>) {
 #[test]
 fn scenes_that_are_written_read_back_equal() {
     let crate_folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder = Folder::new("scenes");
     let mut paths = Vec::new();
     scene_files(&crate_folder.join("../../assets"), &mut paths);
     scene_files(&crate_folder.join("../../../shared/scenes"), &mut paths);
@@ -314,7 +323,7 @@ fn scenes_that_are_written_read_back_equal() {
     paths.retain(|p| !["meshes", "models"].iter().any(|f| p.components().any(|c| c.as_os_str() == *f)));
     for (i, path) in paths.iter().enumerate() {
         let scene = open(path, &Options::default()).unwrap_or_else(|e| panic!("{e}")).description;
-        let again = written_and_read(&scene, "scenes", &format!("{i}.xml"));
+        let again = written_and_read(&scene, &folder, &format!("{i}.xml"));
         assert_same(&scene, &again);
     }
 }

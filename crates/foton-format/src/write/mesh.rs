@@ -32,12 +32,12 @@ pub(super) fn write_ply(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
         "element face {}\nproperty list uchar {index} vertex_indices\nend_header",
         triangles.len()
     )?;
-    for i in 0..positions.len() {
+    for (i, position) in positions.iter().enumerate() {
         let normal = normals.get(i).map(DVec3::to_array);
         let uv = texture_coordinates.get(i).map(DVec2::to_array);
         let normal = normal.as_ref().map_or(&[][..], |n| n);
         let uv = uv.as_ref().map_or(&[][..], |uv| uv);
-        for value in positions[i].to_array().iter().chain(normal).chain(uv) {
+        for value in position.to_array().iter().chain(normal).chain(uv) {
             write_number(*value, is_narrow, out)?;
         }
     }

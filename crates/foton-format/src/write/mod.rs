@@ -83,6 +83,8 @@ impl Writer<'_> {
         let depth = self.description.max_depth.map_or(-1, i64::from);
         self.xml.value("integer", "max_depth", &depth.to_string());
         self.xml.close("integrator");
+        // Shapes come first where names collide: theirs stand in every output.
+        let shape_ids: Vec<String> = self.description.shapes.iter().map(|s| self.id(&s.name)).collect();
         for sensor in &self.description.sensors {
             self.sensor(sensor);
         }
@@ -97,8 +99,8 @@ impl Writer<'_> {
         for emitter in &self.description.emitters {
             self.emitter(emitter)?;
         }
-        for shape in &self.description.shapes {
-            self.shape(shape)?;
+        for (shape, id) in self.description.shapes.iter().zip(&shape_ids) {
+            self.shape(shape, id)?;
         }
         self.xml.close("scene");
         Ok(())
@@ -221,18 +223,17 @@ impl Writer<'_> {
         Ok(())
     }
 
-    fn shape(&mut self, shape: &ShapeDescription) -> Result<(), WriteError> {
-        let id = self.id(&shape.name);
+    fn shape(&mut self, shape: &ShapeDescription, id: &str) -> Result<(), WriteError> {
         let (plugin, filename) = match &shape.geometry {
             Geometry::Sphere { .. } => ("sphere", None),
             Geometry::Disc => ("disk", None),
             Geometry::Cylinder { .. } => ("cylinder", None),
             Geometry::Mesh(mesh) if mesh::same(mesh, &Mesh::rectangle()) => ("rectangle", None),
             Geometry::Mesh(mesh) if mesh::same(mesh, &Mesh::cube()) => ("cube", None),
-            Geometry::Mesh(mesh) => ("ply", Some(self.mesh(mesh, &id)?)),
+            Geometry::Mesh(mesh) => ("ply", Some(self.mesh(mesh, id)?)),
         };
         let xml = &mut self.xml;
-        xml.open("shape", &[("type", plugin), ("id", &id)]);
+        xml.open("shape", &[("type", plugin), ("id", id)]);
         match &shape.geometry {
             Geometry::Sphere { centre, radius } => {
                 xml.value("point", "center", &vector(*centre));
