@@ -22,7 +22,7 @@ fn a_ring_of_millimetres_is_seen_from_the_floor_of_kilometres_that_it_lies_on() 
         for tilt in [DAffine3::IDENTITY, DAffine3::from_rotation_x(0.4), DAffine3::from_quat(turn())] {
             let scene = build(vec![floor(half, tilt), mesh(ring(major, minor), tilt)]);
             let units = scene.normalisation();
-            for _ in 0..5000 {
+            for _ in 0..2000 {
                 let angle = TAU * f64::from(stream.next_1d());
                 let outwards = DVec3::new(angle.cos(), 0.0, angle.sin());
                 // From a micrometre to a centimetre beside the line on which the ring touches the floor.

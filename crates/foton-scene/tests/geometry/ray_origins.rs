@@ -146,3 +146,22 @@ fn rays_off_a_ball_miss_it_outside_and_cross_it_inside() {
         }
     }
 }
+
+/// One side of the triangle is a multiple of the direction, bit for bit, so that the ray never meets the plane.
+#[test]
+fn rays_parallel_to_a_triangle_do_not_meet_it() {
+    let mut stream = stream(14);
+    // The half-size in scene units of a cube whose half-size is 1.
+    let half = 2048.0;
+    for _ in 0..20_000 {
+        let angle = std::f32::consts::TAU * stream.next_1d();
+        let d = Vec3::new(angle.cos(), angle.sin(), 0.0);
+        let side = d.as_dvec3() * 1024.0;
+        let wall = [-side, side, DVec3::Z * 512.0].map(|corner| corner / half);
+        let scene = in_unit_cube(triangle(wall));
+        let beside = Vec3::new(-d.y, d.x, 0.0) * log_uniform([1e-6, 1.0], &mut stream) as f32;
+        let ray = Ray::new(d * -1500.0 * stream.next_1d() + Vec3::Z * 100.0 + beside, d);
+        let hit = scene.nearest(ray).filter(|hit| hit.shape == 0);
+        assert!(hit.is_none(), "{ray:?} meets {hit:?}");
+    }
+}

@@ -14,6 +14,12 @@ enum Exact {
     Disc { centre: DVec3, normal: DVec3, radius: f64 },
 }
 
+/// A primitive with a ball around it, outside which a ray need not look.
+struct Bounded {
+    primitive: Exact,
+    around: (DVec3, f64),
+}
+
 /// Where a ray meets a primitive.
 #[derive(Clone, Copy, Debug)]
 struct Crossing {
@@ -27,6 +33,15 @@ struct Crossing {
 const UNCLEAR: (f64, f64) = (1e-6, 1e-5);
 
 impl Exact {
+    /// A ball around the primitive, with room to spare: its centre and squared radius.
+    fn around(&self) -> (DVec3, f64) {
+        let (centre, radius) = match *self {
+            Self::Triangle([a, b, c]) => (a, a.distance(b).max(a.distance(c))),
+            Self::Sphere { centre, radius } | Self::Disc { centre, radius, .. } => (centre, radius),
+        };
+        (centre, 1.1 * radius * radius)
+    }
+
     /// Calls `found` with the distance and margin of each crossing of the primitive, of its plane outside the outline too.
     /// Triangles as in Möller and Trumbore (1997).
     fn crossings(&self, origin: DVec3, d: DVec3, mut found: impl FnMut(f64, f64)) {
@@ -88,10 +103,15 @@ fn exact(shape: &ShapeDescription, units: &Normalisation) -> Exact {
 }
 
 /// All crossings ahead that are inside an outline or nearly so, the nearest first.
-fn all_crossings(exact: &[Exact], ray: Ray) -> Vec<Crossing> {
+fn all_crossings(exact: &[Bounded], ray: Ray) -> Vec<Crossing> {
+    let (origin, d) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
     let mut crossings = Vec::new();
-    for (shape, primitive) in (0..).zip(exact) {
-        primitive.crossings(ray.origin.as_dvec3(), ray.direction.as_dvec3(), |t, margin| {
+    for (shape, Bounded { primitive, around: (centre, radius2) }) in (0..).zip(exact) {
+        let to_centre = centre - origin;
+        if (to_centre - d * to_centre.dot(d)).length_squared() > *radius2 {
+            continue;
+        }
+        primitive.crossings(origin, d, |t, margin| {
             if t > 0.0 && margin > -UNCLEAR.0 {
                 crossings.push(Crossing { t, margin, shape });
             }
@@ -105,7 +125,8 @@ fn all_crossings(exact: &[Exact], ray: Ray) -> Vec<Crossing> {
 fn nearest_and_occluded_agree_with_every_primitive_in_double_precision() {
     let soup = soup();
     let scene = build(soup.clone());
-    let exact: Vec<_> = soup.iter().map(|shape| exact(shape, scene.normalisation())).collect();
+    let exact = soup.iter().map(|shape| exact(shape, scene.normalisation()));
+    let exact: Vec<_> = exact.map(|primitive| Bounded { around: primitive.around(), primitive }).collect();
     let mut stream = stream(51);
     let (mut met, mut unclear) = (0, 0);
     for _ in 0..200_000 {
