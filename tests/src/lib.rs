@@ -8,8 +8,8 @@ use foton_integrator::{Cancel, Ppm, Settings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{
-    Bsdf, Colour, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
-    SensorDescription, ShapeDescription,
+    Bsdf, Colour, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh,
+    SceneDescription, SensorDescription, ShapeDescription,
 };
 use foton_scene::{BuildError, Scene};
 

@@ -43,8 +43,9 @@ fn settings(photons: u32) -> Settings {
 }
 
 fn seeds(sketch: &Sketch, base: &Settings, passes: u32, count: u64) -> (f64, f64) {
-    let means: Vec<f64> =
-        (0..count).map(|seed| mean(&sketch.render(Settings { seed, ..base.clone() }, passes).image())).collect();
+    let means: Vec<f64> = (0..count)
+        .map(|seed| mean(&sketch.render(Settings { seed, ..base.clone() }, passes).image()))
+        .collect();
     mean_and_sigma(&means)
 }
 
@@ -53,7 +54,13 @@ fn wall(material: Bsdf) -> Sketch {
     Sketch::default()
         .camera(DVec3::new(0.6, 0.3, 2.0), DVec3::new(0.05, 0.0, 0.0), 12.0, 12)
         .rectangle(DVec3::ZERO, DVec3::X, DVec3::Y, material, None)
-        .rectangle(DVec3::new(-0.8, 0.2, 2.0), DVec3::X * 0.4, -DVec3::Y * 0.4, grey(0.0), Some(Rgb::splat(20.0)))
+        .rectangle(
+            DVec3::new(-0.8, 0.2, 2.0),
+            DVec3::X * 0.4,
+            -DVec3::Y * 0.4,
+            grey(0.0),
+            Some(Rgb::splat(20.0)),
+        )
         .max_depth(3)
 }
 

@@ -286,7 +286,7 @@ fn files_that_several_things_share_are_written_once() {
         names
     };
     assert_eq!(names("textures"), ["s-t.exr"]);
-    assert_eq!(names("meshes"), ["s-__b-10.ply", "s-__b-9.ply", "s-unnamed-9.ply"]);
+    assert_eq!(names("meshes"), ["s-__b-3.ply", "s-__b-4.ply", "s-unnamed-4.ply"]);
     assert_eq!(names(""), ["meshes", "s.xml", "textures"]);
 }
 

@@ -167,8 +167,7 @@ struct Walk<'a, 'b> {
 impl Walk<'_, '_> {
     fn follow(&mut self, pixel: u32, place: Vec2) {
         let sensor = self.pass.sensor();
-        let corner =
-            Vec2::new((pixel % sensor.width) as f32, (pixel / sensor.width) as f32);
+        let corner = Vec2::new((pixel % sensor.width) as f32, (pixel / sensor.width) as f32);
         let ray = sensor.ray(corner + 0.5 + sensor.filter.offset(place));
         self.solid_angle = sensor.pixel_solid_angle(ray.direction);
         self.branches.push(Branch { ray, weight: Rgb::WHITE, edges: 1, distance: 0.0 });

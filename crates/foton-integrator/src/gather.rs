@@ -168,11 +168,9 @@ impl Visit<'_> {
             for l in (0..LANES).filter(|&l| counts[l] != 0) {
                 found.count[l] += 1;
                 let Some(gloss) = &gloss[l] else { continue };
-                let geometric =
-                    wi.dot(Vec3::from_array(self.packet.normal.map(|row| row[l]))).abs() * 127.0;
+                let geometric = wi.dot(Vec3::from_array(self.packet.normal.map(|row| row[l]))).abs() * 127.0;
                 let shading = wi.dot(gloss.frame.normal).abs();
-                let weighed =
-                    photon.power * gloss.eval(wi) * (shading / geometric.max(SMALLEST_COSINE));
+                let weighed = photon.power * gloss.eval(wi) * (shading / geometric.max(SMALLEST_COSINE));
                 for (channel, term) in layer.iter_mut().zip(weighed.to_array()) {
                     channel[l] += term;
                 }

@@ -78,7 +78,8 @@ impl MemoryEstimate {
             pixel_bytes: pixels as f64 * (per_pixel + 2 * size_of::<u32>() + size_of::<Rgb>()) as f64,
             photon_bytes: f64::from(settings.photons_per_pass.get()) * STORED_PER_EMITTED * photon,
             // Found hit points twice while chunks are joined, or once beside the points that are being grouped.
-            layout_bytes: 2.0 * (hit_points * size_of::<HitPoint>() as f64 + glossy * size_of::<Gloss>() as f64),
+            layout_bytes: 2.0
+                * (hit_points * size_of::<HitPoint>() as f64 + glossy * size_of::<Gloss>() as f64),
         }
     }
 }

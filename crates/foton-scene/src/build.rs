@@ -7,7 +7,8 @@ use thiserror::Error;
 use crate::accel::Accel;
 use crate::census::Census;
 use crate::description::{
-    Bsdf, Colour, EmitterDescription, EmitterKind, Geometry, Material, Mesh, SceneDescription, ShapeDescription,
+    Bsdf, Colour, EmitterDescription, EmitterKind, Geometry, Material, Mesh, SceneDescription,
+    ShapeDescription,
 };
 use crate::discrete::Discrete;
 use crate::emitter::{Area, Ball, Emitter, Kind, Reach, Spot};

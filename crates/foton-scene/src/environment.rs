@@ -40,11 +40,18 @@ pub(crate) struct EnvironmentSample {
 impl Environment {
     pub(crate) fn new(bitmap: Arc<Bitmap>, scale: f32, to_world: Mat3) -> Self {
         let (width, height) = (bitmap.width as usize, bitmap.height as usize);
-        let mut environment =
-            Self { bitmap, scale, to_world, rows: Discrete::default(), columns: Vec::new(), total: Rgb::BLACK };
+        let mut environment = Self {
+            bitmap,
+            scale,
+            to_world,
+            rows: Discrete::default(),
+            columns: Vec::new(),
+            total: Rgb::BLACK,
+        };
         let mut row_weights = Vec::with_capacity(height);
         for y in 0..height {
-            let weights: Vec<f64> = (0..width).map(|x| f64::from(environment.cell_mean(x, y).mean())).collect();
+            let weights: Vec<f64> =
+                (0..width).map(|x| f64::from(environment.cell_mean(x, y).mean())).collect();
             row_weights.push(weights.iter().sum::<f64>() * environment.row_sine(y));
             environment.columns.push(Discrete::new(weights));
         }

@@ -152,7 +152,8 @@ impl ShearedRay {
         let far = -b - discriminant.sqrt().copysign(b);
         let mut roots = [far / a, c / far];
         roots.sort_by(f64::total_cmp);
-        let on_tube = |t: &f64| self.accepts(*t as f32) && (0.0..=axis.length()).contains(&(o + d * *t).dot(unit));
+        let on_tube =
+            |t: &f64| self.accepts(*t as f32) && (0.0..=axis.length()).contains(&(o + d * *t).dot(unit));
         let t = roots.into_iter().find(on_tube)?;
         Some(PrimitiveHit { t: t as f32, barycentric: Vec2::ZERO })
     }

@@ -156,7 +156,8 @@ impl Scene {
     fn direction_of_u(&self, surface: &Surface) -> Vec3 {
         match self.accel.primitives()[surface.primitive as usize] {
             Primitive::Triangle([a, b, c]) => {
-                let [ta, tb, tc] = self.vertex_uvs.get(surface.primitive as usize).copied().unwrap_or_default();
+                let [ta, tb, tc] =
+                    self.vertex_uvs.get(surface.primitive as usize).copied().unwrap_or_default();
                 let (e, f, s, t) = (b - a, c - a, tb - ta, tc - ta);
                 (e * t.y - f * s.y) * (s.x * t.y - s.y * t.x).signum()
             }

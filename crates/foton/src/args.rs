@@ -25,6 +25,8 @@ pub(crate) struct Args {
 pub(crate) enum Command {
     /// Render a scene to an image file
     Render(Box<Render>),
+    /// Write any readable scene as Mitsuba 3 XML with PLY meshes
+    Convert(Convert),
     /// Say what a scene contains, what that switches on, and what a render of it would take
     Info(Info),
     /// Say how far an image is from a reference: RMSE, relMSE, means, FLIP
@@ -46,6 +48,19 @@ pub(crate) struct Compare {
     /// Print one JSON object on stdout
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// `foton convert`.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Convert {
+    /// Scene file to read: Mitsuba XML, OBJ, PLY or STL
+    pub(crate) scene: PathBuf,
+    /// Scene file to write; meshes and textures go into folders beside it
+    #[arg(value_name = "OUT.xml", value_parser = xml)]
+    pub(crate) output: PathBuf,
+    /// Set a parameter of the scene file
+    #[arg(short = 'D', value_name = "name=value", value_parser = define)]
+    pub(crate) defines: Vec<(String, String)>,
 }
 
 /// `foton info`.
@@ -78,12 +93,16 @@ pub(crate) struct Render {
     /// Stop after this much rendering, e.g. 90s, 10m, 1.5h [without any stop rule: 60s]
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) time: Option<Duration>,
-    /// Photons emitted in a pass: fewer answer sooner, more cost less a photon
-    #[arg(long, value_name = "N", default_value_t = Settings::default().photons_per_pass)]
-    pub(crate) photons: NonZeroU32,
-    /// Share of new photons kept, in (0, 1]: small shrinks radii fast (less blur, more noise)
-    #[arg(long, value_name = "A", value_parser = alpha, default_value_t = Settings::default().alpha)]
-    pub(crate) alpha: Alpha,
+    #[arg(long, value_name = "N", help = with_default(
+        "Photons emitted in a pass: fewer answer sooner, more cost less a photon [as the scene says, else ",
+        Settings::default().photons_per_pass,
+    ))]
+    pub(crate) photons: Option<NonZeroU32>,
+    #[arg(long, value_name = "A", value_parser = alpha, help = with_default(
+        "Share of new photons kept, in (0, 1]: small shrinks radii fast (less blur, more noise) [as the scene says, else ",
+        Settings::default().alpha,
+    ))]
+    pub(crate) alpha: Option<Alpha>,
     /// First radius in world units [from each pixel's footprint]
     #[arg(long, value_name = "R", value_parser = radius)]
     pub(crate) radius: Option<f64>,
@@ -202,6 +221,11 @@ impl FromStr for Every {
     }
 }
 
+/// Help that ends with a default.
+fn with_default(help: &str, default: impl std::fmt::Display) -> String {
+    format!("{help}{default}]")
+}
+
 fn alpha(s: &str) -> Result<Alpha, String> {
     s.parse().ok().and_then(Alpha::new).ok_or_else(|| "expected a number above 0 and up to 1".to_owned())
 }
@@ -215,6 +239,12 @@ fn image(s: &str) -> Result<(PathBuf, Format), String> {
     let path = PathBuf::from(s);
     let format = Format::of(&path).ok_or_else(|| "expected a name that ends in .exr or .png".to_owned())?;
     Ok((path, format))
+}
+
+fn xml(s: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(s);
+    let fits = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xml"));
+    fits.then_some(path).ok_or_else(|| "expected a name that ends in .xml".to_owned())
 }
 
 fn layer(s: &str) -> Result<LayerKind, String> {

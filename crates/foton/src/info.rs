@@ -88,7 +88,8 @@ fn as_text(scene: &Scene, settings: &Settings, name: &str, hash: u64) -> Vec<Str
         if f.on {
             line += &format!("; costs {}", f.cost);
             if f.bytes_per_hit_point + f.bytes_per_pixel > 0 {
-                line += &format!(" ({} B a hit point, {} B a pixel)", f.bytes_per_hit_point, f.bytes_per_pixel);
+                line +=
+                    &format!(" ({} B a hit point, {} B a pixel)", f.bytes_per_hit_point, f.bytes_per_pixel);
             }
         }
         lines.push(line);

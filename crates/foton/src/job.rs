@@ -1,12 +1,13 @@
 //! `foton render`: one scene to one image, and to more on the way.
 
+use std::num::NonZeroU32;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
 use foton_film::check_writable;
 use foton_format::{Opened, Options};
-use foton_integrator::{LayerKind, Settings};
+use foton_integrator::{Alpha, LayerKind, Settings};
 use foton_scene::Scene;
 use foton_session::{Interrupt, Session, StopRule};
 
@@ -27,12 +28,16 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
     let opened = foton_format::open(&args.scene, &options).map_err(Failure::Open)?;
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
+    let suggested = opened.suggested;
     let (scene, identity) = build(opened, &name, args.size, talk)?;
+    let defaults = Settings::default();
+    let suggested_alpha = suggested.alpha.and_then(Alpha::new);
+    let suggested_photons = suggested.photons_per_pass.and_then(NonZeroU32::new);
     let settings = Settings {
-        alpha: args.alpha,
-        photons_per_pass: args.photons,
+        alpha: args.alpha.or(suggested_alpha).unwrap_or(defaults.alpha),
+        photons_per_pass: args.photons.or(suggested_photons).unwrap_or(defaults.photons_per_pass),
         samples_per_pixel: args.spp,
-        radius: args.radius,
+        radius: args.radius.or(suggested.radius),
         direct_light: args.direct.into(),
         max_depth: args.max_depth,
         seed: args.seed,

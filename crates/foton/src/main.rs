@@ -4,6 +4,7 @@
 
 mod args;
 mod compare;
+mod convert;
 mod embedded;
 mod info;
 mod job;
@@ -26,6 +27,10 @@ fn main() -> ExitCode {
         Some(Command::Render(render)) => {
             let mut talk = Talk::new(render.json);
             (job::render(&render, &mut talk), talk)
+        }
+        Some(Command::Convert(args)) => {
+            let talk = Talk::new(false);
+            (convert::run(&args, &talk), talk)
         }
         Some(Command::Info(args)) => {
             let talk = Talk::new(args.json);

@@ -118,7 +118,11 @@ fn visible_beckmann_slope(v: Vec3, u: Vec2) -> Vec2 {
         let mut x = 0.5 * (low + high);
         for _ in 0..40 {
             let excess = cdf(x) - goal;
-            if excess > 0.0 { high = x } else { low = x }
+            if excess > 0.0 {
+                high = x;
+            } else {
+                low = x;
+            }
             let slope = (cot - x) * (-x * x).exp() * scale;
             let newton = x - excess / slope;
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
@@ -130,7 +134,8 @@ fn visible_beckmann_slope(v: Vec3, u: Vec2) -> Vec2 {
         x
     };
     // In the frame of the view's azimuth, then back. A slope x away from the viewer tilts the normal towards it by −x.
-    let (cos_phi, sin_phi) = if sin < 1e-6 { (1.0, 0.0) } else { (f64::from(v.x) / sin, f64::from(v.y) / sin) };
+    let (cos_phi, sin_phi) =
+        if sin < 1e-6 { (1.0, 0.0) } else { (f64::from(v.x) / sin, f64::from(v.y) / sin) };
     Vec2::new((cos_phi * along - sin_phi * across) as f32, (sin_phi * along + cos_phi * across) as f32)
 }
 
@@ -155,13 +160,16 @@ mod tests {
 
     fn all() -> Vec<Microfacets> {
         use MicrofacetDistribution::{Beckmann, Ggx};
-        let isotropic = [0.05, 0.3, 0.9].into_iter().flat_map(|a| [Beckmann, Ggx].map(|d| Microfacets::isotropic(d, a)));
-        let stretched = [Beckmann, Ggx].map(|distribution| Microfacets { distribution, alpha_u: 0.15, alpha_v: 0.6 });
+        let isotropic =
+            [0.05, 0.3, 0.9].into_iter().flat_map(|a| [Beckmann, Ggx].map(|d| Microfacets::isotropic(d, a)));
+        let stretched =
+            [Beckmann, Ggx].map(|distribution| Microfacets { distribution, alpha_u: 0.15, alpha_v: 0.6 });
         isotropic.chain(stretched).collect()
     }
 
     fn views() -> [Vec3; 4] {
-        [Vec3::Z, Vec3::new(0.5, 0.2, 0.8), Vec3::new(-0.9, 0.3, 0.25), Vec3::new(0.1, -1.0, 0.08)].map(Vec3::normalize)
+        [Vec3::Z, Vec3::new(0.5, 0.2, 0.8), Vec3::new(-0.9, 0.3, 0.25), Vec3::new(0.1, -1.0, 0.08)]
+            .map(Vec3::normalize)
     }
 
     /// ∫ f over normals, in slope space where the densities are smooth.
@@ -175,7 +183,8 @@ mod tests {
             let measure = radius * 3.0 / ((1.0 - t) * (1.0 - t)) / f64::from(rings);
             for j in 0..sectors {
                 let phi = 2.0 * std::f64::consts::PI * (f64::from(j) + 0.5) / f64::from(sectors);
-                let (x, y) = (radius * phi.cos() * f64::from(m.alpha_u), radius * phi.sin() * f64::from(m.alpha_v));
+                let (x, y) =
+                    (radius * phi.cos() * f64::from(m.alpha_u), radius * phi.sin() * f64::from(m.alpha_v));
                 let h = Vec3::new(-x as f32, -y as f32, 1.0).normalize();
                 // dω = cos³ dx dy.
                 let solid = f64::from(h.z).powi(3) * f64::from(m.alpha_u * m.alpha_v);
@@ -218,7 +227,8 @@ mod tests {
                     let t = radius / (3.0 + radius);
                     let solid = f64::from(h.z).powi(3) * f64::from(m.alpha_u * m.alpha_v);
                     let measure = radius * 3.0 / ((1.0 - t) * (1.0 - t)) / 1500.0;
-                    expected[bin(h)] += p * solid * measure * 2.0 * std::f64::consts::PI / 128.0 * f64::from(n);
+                    expected[bin(h)] +=
+                        p * solid * measure * 2.0 * std::f64::consts::PI / 128.0 * f64::from(n);
                     0.0
                 });
                 let mut count = [0.0f64; 64];

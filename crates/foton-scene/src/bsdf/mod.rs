@@ -8,7 +8,9 @@
 //! rough glass is always followed, since photons would have to be looked for on both sides.
 
 mod fresnel;
+mod glass;
 mod microfacet;
+mod plastic;
 
 use std::f32::consts::FRAC_1_PI;
 
@@ -16,6 +18,7 @@ use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Rgb, warp};
 
 use crate::description::{Bsdf, Microfacets};
+use glass::{glass_lobes, rough_glass, rough_glass_pdf};
 
 /// Lobes of at most this roughness α are followed by eye paths. Below it a lobe is narrower than about 6° and a hit point
 /// would weigh a few photons very much and most not at all.
@@ -124,15 +127,19 @@ impl<C: Copy> Bsdf<C> {
     pub fn map<D>(&self, mut f: impl FnMut(C) -> D) -> Bsdf<D> {
         match *self {
             Self::Diffuse { reflectance } => Bsdf::Diffuse { reflectance: f(reflectance) },
-            Self::Dielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance, roughness } => {
-                Bsdf::Dielectric {
-                    int_ior,
-                    ext_ior,
-                    specular_reflectance: f(specular_reflectance),
-                    specular_transmittance: f(specular_transmittance),
-                    roughness,
-                }
-            }
+            Self::Dielectric {
+                int_ior,
+                ext_ior,
+                specular_reflectance,
+                specular_transmittance,
+                roughness,
+            } => Bsdf::Dielectric {
+                int_ior,
+                ext_ior,
+                specular_reflectance: f(specular_reflectance),
+                specular_transmittance: f(specular_transmittance),
+                roughness,
+            },
             Self::ThinDielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance } => {
                 Bsdf::ThinDielectric {
                     int_ior,
@@ -145,16 +152,21 @@ impl<C: Copy> Bsdf<C> {
             Self::Conductor { eta, k, specular_reflectance, roughness } => {
                 Bsdf::Conductor { eta, k, specular_reflectance: f(specular_reflectance), roughness }
             }
-            Self::Plastic { int_ior, ext_ior, diffuse_reflectance, specular_reflectance, nonlinear, roughness } => {
-                Bsdf::Plastic {
-                    int_ior,
-                    ext_ior,
-                    diffuse_reflectance: f(diffuse_reflectance),
-                    specular_reflectance: f(specular_reflectance),
-                    nonlinear,
-                    roughness,
-                }
-            }
+            Self::Plastic {
+                int_ior,
+                ext_ior,
+                diffuse_reflectance,
+                specular_reflectance,
+                nonlinear,
+                roughness,
+            } => Bsdf::Plastic {
+                int_ior,
+                ext_ior,
+                diffuse_reflectance: f(diffuse_reflectance),
+                specular_reflectance: f(specular_reflectance),
+                nonlinear,
+                roughness,
+            },
             Self::Null => Bsdf::Null,
         }
     }
@@ -191,12 +203,18 @@ impl Scattering {
         let (up_o, up_i) = (wo * 1f32.copysign(wo.z), wi * 1f32.copysign(wi.z));
         let value = match self.bsdf {
             Bsdf::Diffuse { reflectance } if same_side => reflectance * FRAC_1_PI,
-            Bsdf::Conductor { eta, k, specular_reflectance, roughness: Some(r) } if same_side && counts(&r) => {
+            Bsdf::Conductor { eta, k, specular_reflectance, roughness: Some(r) }
+                if same_side && counts(&r) =>
+            {
                 r.reflect(up_o, up_i, |cos| fresnel::conductor(cos, eta, k)) * specular_reflectance
             }
-            Bsdf::Dielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance, roughness: Some(r) }
-                if counts(&r) =>
-            {
+            Bsdf::Dielectric {
+                int_ior,
+                ext_ior,
+                specular_reflectance,
+                specular_transmittance,
+                roughness: Some(r),
+            } if counts(&r) => {
                 rough_glass(&r, wo, wi, int_ior, ext_ior, specular_reflectance, specular_transmittance)
             }
             Bsdf::Plastic { roughness, .. } if same_side => {
@@ -206,41 +224,6 @@ impl Scattering {
             _ => Rgb::BLACK,
         };
         value * self.opacity
-    }
-
-    /// Light reflected by a rough coat.
-    fn coat(&self, r: &Microfacets, wo: Vec3, wi: Vec3) -> Rgb {
-        let Bsdf::Plastic { int_ior, ext_ior, specular_reflectance, .. } = self.bsdf else { return Rgb::BLACK };
-        let fresnel = |cos: f32| Rgb::splat(fresnel_at(cos, int_ior, ext_ior));
-        r.reflect(wo, wi, fresnel) * specular_reflectance
-    }
-
-    /// Light that enters a coat, is spread by the base and leaves again, reflections inside the coat summed up. The coat's
-    /// boundary is taken as smooth here.
-    fn base(&self, wo: Vec3, wi: Vec3) -> Rgb {
-        let Bsdf::Plastic { int_ior, ext_ior, diffuse_reflectance, nonlinear, .. } = self.bsdf else {
-            return Rgb::BLACK;
-        };
-        let enters = |w: Vec3| 1.0 - fresnel_at(w.z, int_ior, ext_ior);
-        let eta = ext_ior / int_ior;
-        let inside = fresnel::diffuse_reflectance(eta);
-        let again = if nonlinear { diffuse_reflectance * inside } else { Rgb::splat(inside) };
-        let scale = enters(wo) * enters(wi) * eta * eta * FRAC_1_PI;
-        Rgb::new(
-            diffuse_reflectance.r / (1.0 - again.r),
-            diffuse_reflectance.g / (1.0 - again.g),
-            diffuse_reflectance.b / (1.0 - again.b),
-        ) * scale
-    }
-
-    /// The chance with which a photon from `wo` takes the coat rather than the base.
-    fn coat_chance(&self, wo: Vec3) -> f32 {
-        let Bsdf::Plastic { int_ior, ext_ior, diffuse_reflectance, specular_reflectance, .. } = self.bsdf else {
-            return 0.0;
-        };
-        let f = fresnel_at(wo.z.abs(), int_ior, ext_ior);
-        let (coat, base) = (specular_reflectance.mean() * f, diffuse_reflectance.mean() * (1.0 - f));
-        if coat + base > 0.0 { coat / (coat + base) } else { 0.0 }
     }
 
     /// The followed lobes: reflection, refraction, straight on; absent ones are `None`. Rough ones are followed in one
@@ -255,7 +238,11 @@ impl Scattering {
             Bsdf::Null => [None, None, straight(1.0, Rgb::WHITE)],
             Bsdf::Mirror { reflectance } => [single(mirrored(wo), reflectance), None, None],
             Bsdf::Conductor { eta, k, specular_reflectance, roughness } => match roughness {
-                None => [single(mirrored(wo), fresnel::conductor(wo.z.abs(), eta, k) * specular_reflectance), None, None],
+                None => [
+                    single(mirrored(wo), fresnel::conductor(wo.z.abs(), eta, k) * specular_reflectance),
+                    None,
+                    None,
+                ],
                 Some(r) if r.is_followed() => {
                     [rough_metal(&r, wo, u, eta, k, specular_reflectance), None, None]
                 }
@@ -265,10 +252,17 @@ impl Scattering {
                 let once = fresnel_at(wo.z.abs(), int_ior, ext_ior);
                 // R + T R T + T R³ T + … = 2R/(1 + R).
                 let f = if once < 1.0 { 2.0 * once / (1.0 + once) } else { 1.0 };
-                let reflected = FollowedLobe { wi: mirrored(wo), weight: specular_reflectance * f, probability: f };
+                let reflected =
+                    FollowedLobe { wi: mirrored(wo), weight: specular_reflectance * f, probability: f };
                 [Some(reflected), None, straight(1.0 - f, specular_transmittance)]
             }
-            Bsdf::Dielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance, roughness } => {
+            Bsdf::Dielectric {
+                int_ior,
+                ext_ior,
+                specular_reflectance,
+                specular_transmittance,
+                roughness,
+            } => {
                 let colours = [specular_reflectance, specular_transmittance];
                 glass_lobes(wo, transport, u, [int_ior, ext_ior], colours, roughness)
             }
@@ -297,17 +291,16 @@ impl Scattering {
         lobes
     }
 
-    fn rough_coat_lobe(&self, r: &Microfacets, wo: Vec3, u: Vec2) -> Option<FollowedLobe> {
-        let Bsdf::Plastic { int_ior, ext_ior, specular_reflectance, .. } = self.bsdf else { return None };
-        reflect_by_facet(r, wo, u, |cos| {
-            Rgb::splat(fresnel_at(cos, int_ior, ext_ior)) * specular_reflectance
-        })
-    }
-
     /// One followed lobe, chosen by `u_lobe` in [0, 1) with the lobes' chances; its weight is not divided by its chance.
     /// `None` with the chance of lobes that are absent: rough ones that would leave below the surface.
     #[must_use]
-    pub fn choose_followed(&self, wo: Vec3, transport: Transport, u_lobe: f32, u: Vec2) -> Option<FollowedLobe> {
+    pub fn choose_followed(
+        &self,
+        wo: Vec3,
+        transport: Transport,
+        u_lobe: f32,
+        u: Vec2,
+    ) -> Option<FollowedLobe> {
         // Chances that sum to 1 but for rounding leave no gap at the end.
         const ROUNDING: f32 = 1e-6;
         let lobes = self.followed_lobes(wo, transport, u);
@@ -351,40 +344,6 @@ impl Scattering {
         }
     }
 
-    fn sample_plastic(
-        &self,
-        wo: Vec3,
-        transport: Transport,
-        u_lobe: f32,
-        u: Vec2,
-        roughness: Option<Microfacets>,
-    ) -> Option<BsdfSample> {
-        let chance = self.coat_chance(wo);
-        let coat = u_lobe < chance;
-        let up = |w: Vec3| w * 1f32.copysign(wo.z);
-        match roughness {
-            // Lobes that overlap are weighed together.
-            Some(r) if !r.is_followed() => {
-                let wi = if coat { self.rough_coat_lobe(&r, wo, u)?.wi } else { cosine(wo, u) };
-                let pdf = self.pdf(wo, wi);
-                (pdf > 0.0 && wi.z * wo.z > 0.0).then(|| BsdfSample {
-                    wi,
-                    weight: self.eval(wo, wi) * (wi.z.abs() / pdf),
-                    lobe: Lobe::Kept,
-                })
-            }
-            _ if coat => {
-                let [lobe, ..] = self.followed_lobes(wo, transport, u);
-                lobe.map(|l| BsdfSample { wi: l.wi, weight: l.weight / chance, lobe: Lobe::Followed })
-            }
-            _ => {
-                let wi = cosine(wo, u);
-                let weight = self.base(up(wo), up(wi)) * (std::f32::consts::PI / (1.0 - chance));
-                Some(BsdfSample { wi, weight, lobe: Lobe::Kept })
-            }
-        }
-    }
-
     /// Density of all lobes but delta ones in [`Scattering::sample`], per unit solid angle, the chance of lobes included.
     #[must_use]
     pub fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
@@ -400,7 +359,9 @@ impl Scattering {
         let pdf = match self.bsdf {
             Bsdf::Diffuse { .. } if same_side => warp::square_to_cosine_hemisphere_pdf(up_i),
             Bsdf::Conductor { roughness: Some(r), .. } if same_side => facet(&r),
-            Bsdf::Dielectric { int_ior, ext_ior, roughness: Some(r), .. } => rough_glass_pdf(&r, wo, wi, int_ior, ext_ior),
+            Bsdf::Dielectric { int_ior, ext_ior, roughness: Some(r), .. } => {
+                rough_glass_pdf(&r, wo, wi, int_ior, ext_ior)
+            }
             Bsdf::Plastic { roughness, .. } if same_side => {
                 let chance = self.coat_chance(wo);
                 let coat = roughness.map_or(0.0, |r| facet(&r));
@@ -433,7 +394,12 @@ fn fresnel_at(cos: f32, int_ior: f32, ext_ior: f32) -> f32 {
 }
 
 /// Reflection by a facet normal chosen as `wo` sees them; its weight is F G₁(wi).
-fn reflect_by_facet(r: &Microfacets, wo: Vec3, u: Vec2, fresnel: impl FnOnce(f32) -> Rgb) -> Option<FollowedLobe> {
+fn reflect_by_facet(
+    r: &Microfacets,
+    wo: Vec3,
+    u: Vec2,
+    fresnel: impl FnOnce(f32) -> Rgb,
+) -> Option<FollowedLobe> {
     let side = 1f32.copysign(wo.z);
     let up = wo * side;
     let h = r.sample(up, u);
@@ -447,102 +413,6 @@ fn reflect_by_facet(r: &Microfacets, wo: Vec3, u: Vec2, fresnel: impl FnOnce(f32
 
 fn rough_metal(r: &Microfacets, wo: Vec3, u: Vec2, eta: Rgb, k: Rgb, tint: Rgb) -> Option<FollowedLobe> {
     reflect_by_facet(r, wo, u, |cos| fresnel::conductor(cos, eta, k) * tint)
-}
-
-/// Reflection and refraction at glass, by the surface's normal or by a facet's.
-fn glass_lobes(
-    wo: Vec3,
-    transport: Transport,
-    u: Vec2,
-    [int_ior, ext_ior]: [f32; 2],
-    [reflected, refracted]: [Rgb; 2],
-    roughness: Option<Microfacets>,
-) -> [Option<FollowedLobe>; LOBES] {
-    let side = 1f32.copysign(wo.z);
-    let h = roughness.map_or(Vec3::Z, |r| r.sample(wo * side, u)) * side;
-    // The boundary in the facet's own frame, whose z is the facet's normal on the outside.
-    let frame = foton_math::Frame::from_normal(h * side);
-    let local = if roughness.is_some() { frame.to_local(wo) } else { wo };
-    let back = |w: Vec3| if roughness.is_some() { frame.to_outer(w) } else { w };
-    let boundary = fresnel::dielectric(local, int_ior, ext_ior);
-    let f = boundary.reflectance;
-    let visible = |wi: Vec3, same_side: bool| match roughness {
-        None => 1.0,
-        Some(_) if (wi.z * wo.z > 0.0) != same_side => 0.0,
-        Some(r) => r.visible(wi, h * side),
-    };
-    let spread = match transport {
-        Transport::Radiance => boundary.relative_ior * boundary.relative_ior,
-        Transport::Importance => 1.0,
-    };
-    let lobe = |wi: Vec3, chance: f32, tint: Rgb, same_side: bool| {
-        let weight = tint * (chance * visible(wi, same_side));
-        (!weight.is_black()).then_some(FollowedLobe { wi, weight, probability: chance })
-    };
-    let reflection = (f > 0.0).then(|| lobe(back(mirrored(local)), f, reflected, true)).flatten();
-    let refraction =
-        boundary.refracted.filter(|_| f < 1.0).and_then(|wi| lobe(back(wi), 1.0 - f, refracted * spread, false));
-    [reflection, refraction, None]
-}
-
-/// `f(wo, wi)` of rough glass for radiance, reflection and refraction. `[WML07]` equations 20 and 21
-fn rough_glass(
-    r: &Microfacets,
-    wo: Vec3,
-    wi: Vec3,
-    int_ior: f32,
-    ext_ior: f32,
-    reflected: Rgb,
-    refracted: Rgb,
-) -> Rgb {
-    let Some(facet) = GlassFacet::between(wo, wi, int_ior, ext_ior) else { return Rgb::BLACK };
-    let g = r.visible(wo, facet.normal) * r.visible(wi, facet.normal);
-    let d = r.density(facet.normal) * g / (wo.z * wi.z).abs();
-    if wo.z * wi.z > 0.0 {
-        return reflected * (facet.reflectance * d * 0.25);
-    }
-    let jacobian = (wo.dot(facet.normal) * wi.dot(facet.normal)).abs() / facet.denominator(wo, wi).powi(2);
-    // Radiance: the squared relative index of both sides cancels the jacobian's.
-    refracted * ((1.0 - facet.reflectance) * d * jacobian * facet.eta * facet.eta)
-}
-
-/// The density of directions that sampling rough glass has.
-fn rough_glass_pdf(r: &Microfacets, wo: Vec3, wi: Vec3, int_ior: f32, ext_ior: f32) -> f32 {
-    let Some(facet) = GlassFacet::between(wo, wi, int_ior, ext_ior) else { return 0.0 };
-    let side = 1f32.copysign(wo.z);
-    let pdf = r.pdf(wo * side, facet.normal);
-    if wo.z * wi.z > 0.0 {
-        return facet.reflectance * pdf / (4.0 * wo.dot(facet.normal).abs());
-    }
-    let jacobian = wi.dot(facet.normal).abs() / facet.denominator(wo, wi).powi(2);
-    (1.0 - facet.reflectance) * pdf * jacobian
-}
-
-/// The facet that takes one direction to another.
-struct GlassFacet {
-    /// Its normal, with z > 0.
-    normal: Vec3,
-    reflectance: f32,
-    /// Index on `wo`'s side over that on the other.
-    eta: f32,
-}
-
-impl GlassFacet {
-    fn between(wo: Vec3, wi: Vec3, int_ior: f32, ext_ior: f32) -> Option<Self> {
-        let eta = if wo.z > 0.0 { ext_ior / int_ior } else { int_ior / ext_ior };
-        let sum = if wo.z * wi.z > 0.0 { wo + wi } else { wo * eta + wi };
-        let normal = sum.try_normalize()?;
-        let normal = normal * 1f32.copysign(normal.z);
-        let faces = wo.dot(normal) * wo.z > 0.0 && wi.dot(normal) * wi.z > 0.0;
-        let local = foton_math::Frame::from_normal(normal).to_local(wo);
-        let reflectance = fresnel::dielectric(local, int_ior, ext_ior).reflectance;
-        faces.then_some(Self { normal, reflectance, eta })
-    }
-
-    /// η (wo·h) + (wi·h), the indices being relative to `wi`'s side.
-    fn denominator(&self, wo: Vec3, wi: Vec3) -> f32 {
-        self.eta * wo.dot(self.normal) + wi.dot(self.normal)
-    }
 }
 
 #[cfg(test)]

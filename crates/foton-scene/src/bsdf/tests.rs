@@ -103,7 +103,10 @@ fn weights_are_value_times_cosine_over_density() {
                 }
                 let expected = s.eval(wo, sample.wi) * (sample.wi.z.abs() / s.pdf(wo, sample.wi));
                 let error = (expected - sample.weight).map(f32::abs).max_component();
-                assert!(error <= 2e-2 * sample.weight.max_component().max(1e-3), "{s:?} {wo} {sample:?} {expected:?}");
+                assert!(
+                    error <= 2e-2 * sample.weight.max_component().max(1e-3),
+                    "{s:?} {wo} {sample:?} {expected:?}"
+                );
             }
         }
     }
@@ -199,8 +202,12 @@ fn glass_loses_no_power_and_radiance_through_both_faces_is_unscaled() {
     let s = at(glass(None));
     for _ in 0..2000 {
         let wo = warp::square_to_sphere(stream.next_2d());
-        let sum: f32 =
-            s.followed_lobes(wo, Transport::Importance, Vec2::ZERO).iter().flatten().map(|l| l.weight.r).sum();
+        let sum: f32 = s
+            .followed_lobes(wo, Transport::Importance, Vec2::ZERO)
+            .iter()
+            .flatten()
+            .map(|l| l.weight.r)
+            .sum();
         assert!((sum - 1.0).abs() < 1e-6, "{wo}");
         let [_, Some(entry), _] = s.followed_lobes(wo, Transport::Radiance, Vec2::ZERO) else { continue };
         let [_, back, _] = s.followed_lobes(entry.wi, Transport::Radiance, Vec2::ZERO);
@@ -216,7 +223,9 @@ fn glass_loses_no_power_and_radiance_through_both_faces_is_unscaled() {
 fn photons_choose_glass_lobes_in_proportion_to_fresnel() {
     let s = at(glass(None));
     let wo = Vec3::new(0.9, 0.0, 0.19f32.sqrt());
-    let [Some(reflection), ..] = s.followed_lobes(wo, Transport::Importance, Vec2::ZERO) else { panic!("reflects") };
+    let [Some(reflection), ..] = s.followed_lobes(wo, Transport::Importance, Vec2::ZERO) else {
+        panic!("reflects")
+    };
     let mut stream = Stream::new(9, Purpose::Test, 0, 0);
     let n = 100_000;
     let reflected = (0..n)
@@ -233,12 +242,16 @@ fn photons_choose_glass_lobes_in_proportion_to_fresnel() {
 #[test]
 fn rough_lobes_become_smooth_ones_as_roughness_vanishes() {
     let wo = Vec3::new(0.5, 0.2, 0.7).normalize();
-    for (smooth, nearly) in [(glass(None), glass(rough(Ggx, 1e-4))), (gold(None), gold(rough(Beckmann, 1e-4)))] {
+    for (smooth, nearly) in
+        [(glass(None), glass(rough(Ggx, 1e-4))), (gold(None), gold(rough(Beckmann, 1e-4)))]
+    {
         let a = at(smooth).followed_lobes(wo, Transport::Radiance, Vec2::splat(0.4));
         let b = at(nearly).followed_lobes(wo, Transport::Radiance, Vec2::splat(0.4));
         for (a, b) in a.iter().zip(&b) {
             match (a, b) {
-                (Some(a), Some(b)) => assert!(a.wi.distance(b.wi) < 1e-3 && (a.weight.r - b.weight.r).abs() < 1e-3),
+                (Some(a), Some(b)) => {
+                    assert!(a.wi.distance(b.wi) < 1e-3 && (a.weight.r - b.weight.r).abs() < 1e-3);
+                }
                 (None, None) => {}
                 _ => panic!("{a:?} {b:?}"),
             }

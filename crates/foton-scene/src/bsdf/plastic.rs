@@ -1,0 +1,90 @@
+//! A clear coat over a diffuse base.
+
+use std::f32::consts::FRAC_1_PI;
+
+use foton_math::Rgb;
+use foton_math::glam::{Vec2, Vec3};
+
+use super::{
+    BsdfSample, FollowedLobe, Lobe, Scattering, Transport, cosine, fresnel, fresnel_at, reflect_by_facet,
+};
+use crate::description::{Bsdf, Microfacets};
+
+impl Scattering {
+    /// Light reflected by a rough coat.
+    pub(super) fn coat(&self, r: &Microfacets, wo: Vec3, wi: Vec3) -> Rgb {
+        let Bsdf::Plastic { int_ior, ext_ior, specular_reflectance, .. } = self.bsdf else {
+            return Rgb::BLACK;
+        };
+        let fresnel = |cos: f32| Rgb::splat(fresnel_at(cos, int_ior, ext_ior));
+        r.reflect(wo, wi, fresnel) * specular_reflectance
+    }
+
+    /// Light that enters a coat, is spread by the base and leaves again, reflections inside the coat summed up. The coat's
+    /// boundary is taken as smooth here.
+    pub(super) fn base(&self, wo: Vec3, wi: Vec3) -> Rgb {
+        let Bsdf::Plastic { int_ior, ext_ior, diffuse_reflectance, nonlinear, .. } = self.bsdf else {
+            return Rgb::BLACK;
+        };
+        let enters = |w: Vec3| 1.0 - fresnel_at(w.z, int_ior, ext_ior);
+        let eta = ext_ior / int_ior;
+        let inside = fresnel::diffuse_reflectance(eta);
+        let again = if nonlinear { diffuse_reflectance * inside } else { Rgb::splat(inside) };
+        let scale = enters(wo) * enters(wi) * eta * eta * FRAC_1_PI;
+        Rgb::new(
+            diffuse_reflectance.r / (1.0 - again.r),
+            diffuse_reflectance.g / (1.0 - again.g),
+            diffuse_reflectance.b / (1.0 - again.b),
+        ) * scale
+    }
+
+    /// The chance with which a photon from `wo` takes the coat rather than the base.
+    pub(super) fn coat_chance(&self, wo: Vec3) -> f32 {
+        let Bsdf::Plastic { int_ior, ext_ior, diffuse_reflectance, specular_reflectance, .. } = self.bsdf
+        else {
+            return 0.0;
+        };
+        let f = fresnel_at(wo.z.abs(), int_ior, ext_ior);
+        let (coat, base) = (specular_reflectance.mean() * f, diffuse_reflectance.mean() * (1.0 - f));
+        if coat + base > 0.0 { coat / (coat + base) } else { 0.0 }
+    }
+
+    pub(super) fn rough_coat_lobe(&self, r: &Microfacets, wo: Vec3, u: Vec2) -> Option<FollowedLobe> {
+        let Bsdf::Plastic { int_ior, ext_ior, specular_reflectance, .. } = self.bsdf else { return None };
+        reflect_by_facet(r, wo, u, |cos| Rgb::splat(fresnel_at(cos, int_ior, ext_ior)) * specular_reflectance)
+    }
+
+    pub(super) fn sample_plastic(
+        &self,
+        wo: Vec3,
+        transport: Transport,
+        u_lobe: f32,
+        u: Vec2,
+        roughness: Option<Microfacets>,
+    ) -> Option<BsdfSample> {
+        let chance = self.coat_chance(wo);
+        let coat = u_lobe < chance;
+        let up = |w: Vec3| w * 1f32.copysign(wo.z);
+        match roughness {
+            // Lobes that overlap are weighed together.
+            Some(r) if !r.is_followed() => {
+                let wi = if coat { self.rough_coat_lobe(&r, wo, u)?.wi } else { cosine(wo, u) };
+                let pdf = self.pdf(wo, wi);
+                (pdf > 0.0 && wi.z * wo.z > 0.0).then(|| BsdfSample {
+                    wi,
+                    weight: self.eval(wo, wi) * (wi.z.abs() / pdf),
+                    lobe: Lobe::Kept,
+                })
+            }
+            _ if coat => {
+                let [lobe, ..] = self.followed_lobes(wo, transport, u);
+                lobe.map(|l| BsdfSample { wi: l.wi, weight: l.weight / chance, lobe: Lobe::Followed })
+            }
+            _ => {
+                let wi = cosine(wo, u);
+                let weight = self.base(up(wo), up(wi)) * (std::f32::consts::PI / (1.0 - chance));
+                Some(BsdfSample { wi, weight, lobe: Lobe::Kept })
+            }
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Surfaces that emit: a point on them, and what another point receives from one.
+
+use std::f32::consts::PI;
+
+use foton_math::glam::{Vec2, Vec3};
+use foton_math::{Frame, Rgb, warp};
+
+use super::Illumination;
+use crate::discrete::Discrete;
+use crate::primitive::Primitive;
+use crate::surface::{Surface, locate};
+
+/// A surface that emits on the side its normal points to.
+#[derive(Clone, Debug)]
+pub(crate) struct Area {
+    pub(crate) radiance: Rgb,
+    pub(crate) primitives: Vec<Primitive>,
+    pub(crate) by_area: Discrete,
+    pub(crate) area: f32,
+    pub(crate) shape: u32,
+}
+
+impl Area {
+    /// A point uniform by area.
+    pub(super) fn sample(&self, u_part: f32, u: Vec2) -> Surface {
+        let primitive = &self.primitives[self.by_area.choose(f64::from(u_part))];
+        let (position, error, normal) = match *primitive {
+            Primitive::Triangle(_) => locate(primitive, warp::square_to_triangle(u), Vec3::ZERO),
+            Primitive::Sphere { centre, radius, .. } => {
+                locate(primitive, Vec2::ZERO, centre + warp::square_to_sphere(u) * radius)
+            }
+            Primitive::Disc { centre, normal, radius } => {
+                let frame = Frame::from_normal(normal);
+                let d = warp::square_to_disc(u) * radius;
+                locate(primitive, Vec2::ZERO, centre + frame.tangent * d.x + frame.bitangent * d.y)
+            }
+            Primitive::Tube { from, axis, radius } => {
+                let frame = Frame::from_normal(axis.normalize());
+                let (sin, cos) = (2.0 * PI * u.y).sin_cos();
+                let across = (frame.tangent * cos + frame.bitangent * sin) * radius.abs();
+                locate(primitive, Vec2::ZERO, from + axis * u.x + across)
+            }
+        };
+        Surface {
+            position,
+            error,
+            normal,
+            shading_normal: normal,
+            curved: false,
+            shape: self.shape,
+            primitive: 0,
+            barycentric: Vec2::ZERO,
+        }
+    }
+
+    pub(super) fn illuminate(&self, position: Vec3, u_part: f32, u: Vec2) -> Option<Illumination> {
+        if let [Primitive::Sphere { centre, radius, inward: false }] = self.primitives[..]
+            && let Some(seen) = self.illuminate_from_sphere(centre, radius, position, u)
+        {
+            return Some(seen);
+        }
+        let surface = self.sample(u_part, u);
+        let d = surface.position - position;
+        let distance2 = d.length_squared();
+        let direction = d / distance2.sqrt();
+        let cosine = -direction.dot(surface.normal);
+        (cosine > 0.0 && distance2 > 0.0).then(|| Illumination {
+            direction,
+            distance: distance2.sqrt(),
+            radiance_over_pdf: self.radiance * (cosine * self.area / distance2),
+        })
+    }
+
+    /// Uniform in the cone under which the sphere is seen; `None` from inside it.
+    fn illuminate_from_sphere(
+        &self,
+        centre: Vec3,
+        radius: f32,
+        position: Vec3,
+        u: Vec2,
+    ) -> Option<Illumination> {
+        let d = centre - position;
+        let distance = d.length();
+        let sine = radius / distance;
+        if sine >= 1.0 {
+            return None;
+        }
+        let one_minus_cos = sine * sine / (1.0 + (1.0 - sine * sine).sqrt());
+        let local = warp::square_to_cone(u, one_minus_cos);
+        // Nearer root of |t·local − (0, 0, distance)| = radius; a grazing direction may round to none.
+        let discriminant = radius * radius - distance * distance * (local.x * local.x + local.y * local.y);
+        Some(Illumination {
+            direction: Frame::from_normal(d / distance).to_outer(local),
+            distance: distance * local.z - discriminant.max(0.0).sqrt(),
+            radiance_over_pdf: self.radiance / warp::square_to_cone_pdf(one_minus_cos),
+        })
+    }
+}

@@ -1,0 +1,138 @@
+//! Every emitter: photons and shadow rays, two independent codes, must bring the same light.
+
+use super::*;
+use crate::description::Bitmap;
+use crate::discrete::Discrete;
+use crate::primitive::Primitive;
+use foton_math::glam::Mat3;
+use foton_math::{Purpose, Stream};
+
+fn emitter(kind: Kind) -> Emitter {
+    Emitter { name: "test".into(), kind }
+}
+
+fn area(primitives: Vec<Primitive>) -> Emitter {
+    let areas: Vec<f32> = primitives.iter().map(Primitive::area).collect();
+    let by_area = Discrete::new(areas.iter().map(|&a| f64::from(a)));
+    let area = areas.iter().sum();
+    emitter(Kind::Area(Area { radiance: Rgb::splat(2.0), primitives, by_area, area, shape: 0 }))
+}
+
+fn all() -> Vec<Emitter> {
+    let reach = Reach {
+        scene: Ball { centre: Vec3::ZERO, radius: 10.0 },
+        casters: Some(Ball { centre: Vec3::new(0.5, 0.2, 0.1), radius: 1.1 }),
+    };
+    let pixels = (0..32).map(|i| Rgb::splat(0.2 + 0.3 * (i % 5) as f32)).collect();
+    let bitmap = Bitmap { width: 8, height: 4, pixels };
+    let map = Environment::new(bitmap.into(), 1.5, Mat3::from_rotation_x(0.4));
+    let square = |x: f32| Vec3::new(x, 0.0, 3.0);
+    vec![
+        area(vec![Primitive::Sphere { centre: Vec3::new(0.0, 0.0, 5.0), radius: 1.5, inward: false }]),
+        area(vec![Primitive::Disc { centre: Vec3::new(0.5, 0.0, 4.0), normal: -Vec3::Z, radius: 1.0 }]),
+        area(vec![
+            Primitive::Triangle([square(0.0), square(1.0) + Vec3::Y, square(1.0)]),
+            Primitive::Triangle([square(0.0), square(-3.0), square(0.0) - Vec3::Y]),
+        ]),
+        emitter(Kind::Point { position: Vec3::new(1.0, 0.0, 2.0), intensity: Rgb::splat(3.0) }),
+        emitter(Kind::Spot(Spot {
+            position: Vec3::new(0.0, 0.5, 3.0),
+            frame: Frame::from_normal(Vec3::new(0.1, -0.1, -1.0).normalize()),
+            intensity: Rgb::splat(4.0),
+            cutoff: 0.5,
+            beam: 0.3,
+        })),
+        emitter(Kind::Constant { radiance: Rgb::splat(0.7), reach }),
+        emitter(Kind::Directional {
+            direction: Vec3::new(0.3, 0.2, -0.9).normalize(),
+            irradiance: Rgb::splat(2.0),
+            reach,
+        }),
+        emitter(Kind::Environment { map: Box::new(map), reach }),
+        area(vec![Primitive::Tube { from: Vec3::new(-1.0, 0.0, 3.0), axis: Vec3::X * 2.0, radius: 0.4 }]),
+    ]
+}
+
+/// Irradiance on a disc of radius 1 at the origin facing +z, from photons and from shadow rays: two independent codes.
+#[test]
+fn photons_and_shadow_rays_bring_the_same_light_to_a_disc() {
+    for emitter in all() {
+        let mut stream = Stream::new(4, Purpose::Test, 0, 0);
+        let n = 400_000;
+        let (mut sum, mut sum2) = (0.0f64, 0.0f64);
+        for _ in 0..n {
+            let e = emitter.emit(stream.next_1d(), stream.next_2d(), stream.next_2d());
+            let t = -e.origin.z / e.direction.z;
+            let p = e.origin + e.direction * t;
+            let arrives = e.direction.z < 0.0 && t > 0.0 && p.length_squared() <= 1.0;
+            let x = if arrives { f64::from(e.power.g) } else { 0.0 };
+            sum += x;
+            sum2 += x * x;
+        }
+        let flux = sum / f64::from(n);
+        let flux_sigma = ((sum2 / f64::from(n) - flux * flux).max(0.0) / f64::from(n)).sqrt();
+        let (mut sum, mut sum2) = (0.0f64, 0.0f64);
+        for _ in 0..n {
+            let p = warp::square_to_disc(stream.next_2d()).extend(0.0);
+            let light = emitter.illuminate(p, Vec3::Z, stream.next_1d(), stream.next_2d());
+            let x = light.map_or(0.0, |i| f64::from(i.radiance_over_pdf.g * i.direction.z.max(0.0) * PI));
+            sum += x;
+            sum2 += x * x;
+        }
+        let direct = sum / f64::from(n);
+        let direct_sigma = ((sum2 / f64::from(n) - direct * direct).max(0.0) / f64::from(n)).sqrt();
+        let sigma = flux_sigma.hypot(direct_sigma);
+        assert!(
+            direct > 0.0 && (flux - direct).abs() < 4.0 * sigma,
+            "{emitter:?}: {flux} {direct} ± {sigma}"
+        );
+    }
+}
+
+#[test]
+fn the_mean_photon_carries_the_emitters_power() {
+    for emitter in all() {
+        let mut stream = Stream::new(6, Purpose::Test, 0, 0);
+        let n = 100_000;
+        let sum: f64 = (0..n)
+            .map(|_| f64::from(emitter.emit(stream.next_1d(), stream.next_2d(), stream.next_2d()).power.r))
+            .sum();
+        let mean = sum / f64::from(n);
+        let expected = f64::from(emitter.power().r);
+        assert!((mean / expected - 1.0).abs() < 0.01, "{emitter:?}: {mean} {expected}");
+    }
+}
+
+#[test]
+fn a_rectangle_and_a_sphere_give_the_irradiance_of_their_closed_forms() {
+    // Sphere, wholly above the horizon: π L (R/d)² cos θ.
+    let irradiance = |emitter: &Emitter, p: Vec3| {
+        let mut stream = Stream::new(8, Purpose::Test, 0, 0);
+        let n = 200_000;
+        let sum: f64 = (0..n)
+            .filter_map(|_| emitter.illuminate(p, Vec3::Z, stream.next_1d(), stream.next_2d()))
+            .map(|i| f64::from(i.radiance_over_pdf.r * i.direction.z.max(0.0)))
+            .sum();
+        sum / f64::from(n)
+    };
+    let p = Vec3::new(2.0, 0.0, 0.0);
+    let d2 = 29.0f64;
+    let expected = std::f64::consts::PI * 2.0 * 2.25 / d2 * (5.0 / d2.sqrt());
+    assert!((irradiance(&all()[0], p) / expected - 1.0).abs() < 2e-3);
+    // Disc on its axis: π L a² / (a² + h²).
+    let disc = Primitive::Disc { centre: Vec3::new(0.0, 0.0, 4.0), normal: -Vec3::Z, radius: 2.0 };
+    let expected = std::f64::consts::PI * 2.0 * 4.0 / 20.0;
+    assert!((irradiance(&area(vec![disc]), Vec3::ZERO) / expected - 1.0).abs() < 5e-3);
+    // Rectangle: (L/2) Σ acos(vᵢ·vᵢ₊₁) n·norm(vᵢ×vᵢ₊₁).
+    let corners = [(-1.0, -1.0), (-1.0, 2.0), (3.0, 2.0), (3.0, -1.0)].map(|(x, y)| Vec3::new(x, y, 2.0));
+    let [a, b, c, d] = corners;
+    let rectangle = area(vec![Primitive::Triangle([a, b, c]), Primitive::Triangle([a, c, d])]);
+    let unit = corners.map(|v| v.as_dvec3().normalize());
+    let expected: f64 = (0..4)
+        .map(|i| {
+            let (v, w) = (unit[i], unit[(i + 1) % 4]);
+            v.dot(w).acos() * w.cross(v).normalize().z
+        })
+        .sum::<f64>();
+    assert!((irradiance(&rectangle, Vec3::ZERO) / expected - 1.0).abs() < 5e-3, "{expected}");
+}
