@@ -4,14 +4,14 @@
 
 use foton_math::glam::{DAffine3, DMat3, DVec3};
 use foton_math::{Ray, Rgb};
-use foton_scene::description::{Geometry, Mesh, SceneDescription, ShapeDescription};
+use foton_scene::description::{Bsdf, Colour, Geometry, Mesh, SceneDescription, ShapeDescription};
 use foton_scene::{BuildError, Scene};
 
 use crate::{ball, build, describe, mesh, shape, smooth_geodesic};
 
 /// Two sound triangles and seven without area.
 fn torn() -> Mesh {
-    let mut mesh = Mesh::rectangle();
+    let mut mesh = Mesh { texture_coordinates: Vec::new(), ..Mesh::rectangle() };
     let first = mesh.positions.len() as u32;
     // 4 and 5 are in one place, 6 is between 0 and 2.
     mesh.positions.extend([DVec3::ONE, DVec3::ONE, DVec3::ZERO]);
@@ -128,4 +128,15 @@ fn an_empty_scene_is_a_scene() {
     let scene = build(Vec::new());
     assert!(scene.nearest(Ray::new(DVec3::ZERO.as_vec3(), DVec3::X.as_vec3())).is_none());
     assert!(!scene.occluded(Ray::new(DVec3::ZERO.as_vec3(), DVec3::X.as_vec3())));
+}
+
+#[test]
+fn textures_are_there_and_their_coordinates_fit() {
+    let mut uneven = Mesh::rectangle();
+    uneven.texture_coordinates.pop();
+    let description = describe(vec![mesh(uneven, DAffine3::IDENTITY)]);
+    assert_eq!(Scene::build(&description).err(), Some(BuildError::BadMesh("shape".into())));
+    let mut absent = describe(vec![mesh(Mesh::rectangle(), DAffine3::IDENTITY)]);
+    absent.materials[0].front = Bsdf::Diffuse { reflectance: Colour::Texture(3) };
+    assert_eq!(Scene::build(&absent).err(), Some(BuildError::NoTexture("white".into())));
 }
