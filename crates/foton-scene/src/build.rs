@@ -34,8 +34,8 @@ pub enum BuildError {
     /// A camera's numbers make no image.
     #[error("sensor \"{0}\": its field of view, size or transform makes no image")]
     BadSensor(String),
-    /// A coordinate is NaN or infinite.
-    #[error("shape \"{0}\" has a coordinate that is not finite")]
+    /// A coordinate, or what an emitter emits, is NaN or infinite.
+    #[error("\"{0}\" has a coordinate or an emission that is not finite")]
     NotFinite(String),
     /// A transform flattens the shape.
     #[error("shape \"{0}\": its transform cannot be inverted")]
@@ -119,6 +119,9 @@ impl Scene {
         let bounds = if bounds.is_empty() { Aabb::around(Vec3::ZERO, 1.0) } else { bounds };
         let reach = reach(&bounds, &casters);
         emitters.extend(description.emitters.iter().map(|e| unattached_emitter(e, &normalisation, reach)));
+        if let Some(bad) = emitters.iter().find(|e| !e.is_finite()) {
+            return Err(BuildError::NotFinite(bad.name.clone()));
+        }
         let mut scene = gathered.into_scene(normalisation, bounds);
         scene.shapes = shapes;
         scene.textures = description.textures.iter().map(Sampler::new).collect();

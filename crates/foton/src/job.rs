@@ -7,9 +7,9 @@ use std::time::Duration;
 
 use foton_film::check_writable;
 use foton_format::{Opened, Options};
-use foton_integrator::{Alpha, LayerKind, Settings};
+use foton_integrator::{Alpha, Cancelled, LayerKind, Settings};
 use foton_scene::Scene;
-use foton_session::{Interrupt, Session, StopRule};
+use foton_session::{Interrupt, Session, StartError, StopRule};
 
 use crate::args::{Render, Size};
 use crate::memory;
@@ -144,6 +144,10 @@ pub(crate) fn finish(
     mut outputs: Vec<String>,
     talk: &Talk,
 ) -> Result<(), Failure> {
+    if session.ppm().passes() == 0 {
+        // Interrupted twice in the first pass: there is no picture yet.
+        return Err(StartError::Cancelled(Cancelled).into());
+    }
     for (path, format) in files {
         output::write(path, *format, session.ppm(), layers, identity)?;
         outputs.push(path.display().to_string());

@@ -33,7 +33,7 @@ fn main() -> ExitCode {
         ["conformance", "--quick"] => conformance::quick(),
         ["assets"] => assets::write_all(&tools::root().join("assets"))
             .map_err(|cause| Trouble::Failed(cause.to_string())),
-        ["pictures"] => pictures::render_all().map_err(Trouble::Failed),
+        ["pictures"] => pictures::render_all(),
         _ => {
             eprintln!("{USAGE}");
             return ExitCode::from(2);

@@ -8,6 +8,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use crate::tools::{self, Trouble};
+
 /// How one scene is rendered for its picture.
 struct Picture {
     /// The scene's folder in `assets/`, and the picture's name.
@@ -29,48 +31,33 @@ const PICTURES: &[Picture] = &[
     Picture { scene: "glass-and-ring", size: "960x640", passes: 64, samples: 4 },
 ];
 
-/// Renders all pictures with the release build. Takes minutes.
+/// Renders all pictures with the release build, made once. Takes minutes.
 ///
 /// # Errors
 /// What could not be built, rendered or written, or a scene that has no picture here.
-pub(crate) fn render_all() -> Result<(), String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let forgotten = without_picture(&root.join("assets"))?;
+pub(crate) fn render_all() -> Result<(), Trouble> {
+    let forgotten = without_picture(&tools::root().join("assets")).map_err(Trouble::Failed)?;
     if !forgotten.is_empty() {
-        return Err(format!("no picture is planned for {}", forgotten.join(", ")));
+        return Err(Trouble::Failed(format!("no picture is planned for {}", forgotten.join(", "))));
     }
-    let folder = root.join("docs/pictures");
-    fs::create_dir_all(&folder).map_err(|cause| format!("{}: {cause}", folder.display()))?;
-    PICTURES.iter().try_for_each(|picture| picture.render(&root))
+    let folder = tools::root().join("docs/pictures");
+    fs::create_dir_all(&folder).map_err(|cause| Trouble::Failed(format!("{}: {cause}", folder.display())))?;
+    tools::run(&mut tools::cargo(&["build", "--release", "--package", "foton"]))?;
+    let foton = tools::target_dir().join("release").join(format!("foton{}", env::consts::EXE_SUFFIX));
+    PICTURES.iter().try_for_each(|picture| picture.render(&foton))
 }
 
 impl Picture {
-    fn render(&self, root: &Path) -> Result<(), String> {
+    fn render(&self, foton: &Path) -> Result<(), Trouble> {
         let scene = format!("assets/{}/scene.xml", self.scene);
         let output = format!("docs/pictures/{}.png", self.scene);
         let (passes, samples) = (self.passes.to_string(), self.samples.to_string());
         println!("{output}: {} at {passes} passes", self.size);
-        let status = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-            .args([
-                "run",
-                "--quiet",
-                "--release",
-                "--package",
-                "foton",
-                "--",
-                "render",
-                &scene,
-                "-o",
-                &output,
-            ])
-            .args(["--size", self.size, "--passes", &passes, "--spp", &samples, "--direct", "shadow-rays"])
-            .current_dir(root)
-            .status();
-        match status {
-            Ok(status) if status.success() => Ok(()),
-            Ok(status) => Err(format!("{output}: {status}")),
-            Err(cause) => Err(format!("cargo: {cause}")),
-        }
+        tools::run(
+            Command::new(foton)
+                .args(["render", &scene, "-o", &output, "--direct", "shadow-rays"])
+                .args(["--size", self.size, "--passes", &passes, "--spp", &samples]),
+        )
     }
 }
 

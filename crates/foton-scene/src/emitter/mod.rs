@@ -84,6 +84,16 @@ impl Emitter {
         }
     }
 
+    /// Whether its power and place are numbers.
+    pub(crate) fn is_finite(&self) -> bool {
+        let placed = match &self.kind {
+            Kind::Point { position, .. } => position.is_finite(),
+            Kind::Spot(s) => s.position.is_finite() && s.frame.normal.is_finite(),
+            _ => true,
+        };
+        placed && self.power().is_finite()
+    }
+
     /// Whether light comes from a single point or direction, which rays cannot hit.
     #[must_use]
     pub const fn is_delta(&self) -> bool {

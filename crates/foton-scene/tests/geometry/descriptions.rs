@@ -4,7 +4,9 @@
 
 use foton_math::glam::{DAffine3, DMat3, DVec3};
 use foton_math::{Ray, Rgb};
-use foton_scene::description::{Bsdf, Colour, Geometry, Mesh, SceneDescription, ShapeDescription};
+use foton_scene::description::{
+    Bsdf, Colour, EmitterDescription, EmitterKind, Geometry, Mesh, SceneDescription, ShapeDescription,
+};
 use foton_scene::{BuildError, Scene};
 
 use crate::{ball, build, describe, mesh, shape, smooth_geodesic};
@@ -139,4 +141,17 @@ fn textures_are_there_and_their_coordinates_fit() {
     let mut absent = describe(vec![mesh(Mesh::rectangle(), DAffine3::IDENTITY)]);
     absent.materials[0].front = Bsdf::Diffuse { reflectance: Colour::Texture(3) };
     assert_eq!(Scene::build(&absent).err(), Some(BuildError::NoTexture("white".into())));
+}
+
+#[test]
+fn what_emitters_emit_is_finite() {
+    for bad in [f32::NAN, f32::INFINITY] {
+        let mut shining = describe(vec![mesh(Mesh::rectangle(), DAffine3::IDENTITY)]);
+        shining.shapes[0].radiance = Some(Rgb::new(1.0, bad, 1.0));
+        assert_eq!(Scene::build(&shining).err(), Some(BuildError::NotFinite("shape".into())));
+        let kind = EmitterKind::Point { position: DVec3::splat(f64::from(bad)), intensity: Rgb::WHITE };
+        let mut lit = describe(vec![mesh(Mesh::rectangle(), DAffine3::IDENTITY)]);
+        lit.emitters.push(EmitterDescription { name: "lamp".into(), kind });
+        assert_eq!(Scene::build(&lit).err(), Some(BuildError::NotFinite("lamp".into())));
+    }
 }
