@@ -164,3 +164,12 @@ pub fn mean_and_sigma(values: &[f64]) -> (f64, f64) {
     let variance = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0);
     (mean, (variance / n).sqrt())
 }
+
+/// Mean green of a render under several seeds, with its standard error.
+#[must_use]
+pub fn seeds(sketch: &Sketch, base: &Settings, passes: u32, count: u64) -> (f64, f64) {
+    let means: Vec<f64> = (0..count)
+        .map(|seed| mean(&sketch.render(Settings { seed, ..base.clone() }, passes).image()))
+        .collect();
+    mean_and_sigma(&means)
+}

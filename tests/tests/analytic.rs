@@ -6,7 +6,7 @@ use std::num::NonZeroU32;
 use foton_integrator::{Alpha, DirectLight, LayerKind, Settings};
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
-use foton_tests::{Sketch, glass, grey, mean, mean_and_sigma};
+use foton_tests::{Sketch, glass, grey, mean, mean_and_sigma, seeds};
 
 fn settings(photons: u32, seed: u64) -> Settings {
     Settings {
@@ -15,14 +15,6 @@ fn settings(photons: u32, seed: u64) -> Settings {
         seed,
         ..Settings::default()
     }
-}
-
-/// Mean green of a render under several seeds, with its standard error.
-fn seeds(sketch: &Sketch, base: &Settings, passes: u32, count: u64) -> (f64, f64) {
-    let means: Vec<f64> = (0..count)
-        .map(|seed| mean(&sketch.render(Settings { seed, ..base.clone() }, passes).image()))
-        .collect();
-    mean_and_sigma(&means)
 }
 
 /// Inside a sphere of radius R and albedo ρ with a source Φ at the centre, E = Φ/(4πR²(1−ρ)) everywhere, and L = ρE/π.

@@ -10,7 +10,7 @@ use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{
     Bitmap, Bsdf, Colour, EmitterDescription, EmitterKind, MicrofacetDistribution, Microfacets,
 };
-use foton_tests::{Sketch, grey, mean, mean_and_sigma};
+use foton_tests::{Sketch, grey, seeds};
 
 const WHITE: Colour = Colour::Constant(Rgb::WHITE);
 
@@ -40,13 +40,6 @@ fn settings(photons: u32) -> Settings {
         samples_per_pixel: NonZeroU32::new(4).expect("above 0"),
         ..Settings::default()
     }
-}
-
-fn seeds(sketch: &Sketch, base: &Settings, passes: u32, count: u64) -> (f64, f64) {
-    let means: Vec<f64> = (0..count)
-        .map(|seed| mean(&sketch.render(Settings { seed, ..base.clone() }, passes).image()))
-        .collect();
-    mean_and_sigma(&means)
 }
 
 /// A small wall of the material seen from the front, lit by a lamp in an otherwise dark space.
