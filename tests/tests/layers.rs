@@ -16,7 +16,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("foton-format", &["foton-math", "foton-scene", "foton-film"]),
     ("foton-integrator", &["foton-math", "foton-scene", "foton-film"]),
     ("foton-session", &["foton-math", "foton-scene", "foton-integrator", "foton-film"]),
-    ("foton-preview", &["foton-math", "foton-session"]),
+    ("foton-preview", &["foton-math", "foton-film", "foton-session"]),
     ("foton-measure", &["foton-math", "foton-film", "foton-session", "foton-format"]),
     (
         "foton",
@@ -48,6 +48,8 @@ const OWNED: &[(&str, &str)] = &[
     ("egui-wgpu", "foton-preview"),
     ("egui-winit", "foton-preview"),
     ("egui_plot", "foton-preview"),
+    ("wgpu", "foton-preview"),
+    ("winit", "foton-preview"),
 ];
 
 /// These compute and nothing else: no files, no clocks, no network.
