@@ -20,6 +20,11 @@ impl Cancel {
         self.0.store(true, Ordering::Relaxed);
     }
 
+    /// Takes the request back: what comes next is to run.
+    pub fn rearm(&self) {
+        self.0.store(false, Ordering::Relaxed);
+    }
+
     /// Whether a stop was asked for.
     #[must_use]
     pub fn is_requested(&self) -> bool {

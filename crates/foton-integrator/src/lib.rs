@@ -10,6 +10,7 @@ mod features;
 mod gather;
 mod grid;
 mod hit_point;
+mod inspect;
 mod layers;
 mod ledger;
 mod light;
@@ -27,6 +28,7 @@ mod settings;
 
 pub use cancel::{Cancel, Cancelled};
 pub use features::{Feature, features};
+pub use inspect::{Disc, Radii, StoredPhoton};
 pub use layers::LayerKind;
 pub use ledger::Ledger;
 pub use memory::MemoryEstimate;

@@ -85,6 +85,11 @@ impl Light {
         each!(self, s => s.radiance.total(photons))
     }
 
+    /// All radiance of one pixel; black beyond the image.
+    pub(crate) fn pixel(&self, pixel: usize, photons: u64) -> Rgb {
+        each!(self, s => s.radiance.pixel(pixel, photons))
+    }
+
     /// Reflected radiance of one class; `None` where classes are not kept apart.
     pub(crate) fn class(&self, class: PathClass, photons: u64) -> Option<Vec<Rgb>> {
         match self {

@@ -50,6 +50,11 @@ impl PhotonMap {
         });
     }
 
+    /// All photons, cell by cell.
+    pub(crate) fn photons(&self) -> &[Photon] {
+        &self.photons
+    }
+
     /// Counts photons by cell and sums the counts up.
     fn count(&mut self, chunks: &[Chunk], cells: usize) {
         let share = chunks.len().div_ceil(rayon::current_num_threads()).max(1);

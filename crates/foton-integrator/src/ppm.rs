@@ -119,6 +119,7 @@ pub struct Ppm {
     ledger: Ledger,
     passes: u64,
     photons_emitted: u64,
+    last_photons: u64,
     changes: Vec<(u64, Change)>,
     start: Start,
 }
@@ -160,6 +161,7 @@ impl Ppm {
             ledger: Ledger::default(),
             passes: 0,
             photons_emitted: 0,
+            last_photons: 0,
             changes: Vec::new(),
             start,
         })
@@ -175,7 +177,7 @@ impl Ppm {
         cancel: &Cancel,
     ) -> Result<PassReport, Cancelled> {
         watch(Stage::Trace);
-        let photons = u64::from(self.settings.photons_per_pass.get());
+        let photons = u64::from(self.settings.photons_after(self.passes).get());
         let mut chunks = std::mem::take(&mut self.chunks);
         let shot = self.photon_pass(photons).shoot(&mut chunks, cancel);
         self.chunks = chunks;
@@ -202,6 +204,7 @@ impl Ppm {
             self.ledger += chunk.ledger;
         }
         self.photons_emitted += photons;
+        self.last_photons = photons;
         self.passes += 1;
         Ok(self.report(photons, rays, &tally))
     }
@@ -252,10 +255,7 @@ impl Ppm {
 
     /// Changes a setting from the next pass on. The change stands in [`Ppm::changes`] with the number of passes before it.
     pub fn change(&mut self, change: Change) {
-        match change {
-            Change::Alpha(alpha) => self.settings.alpha = alpha,
-            Change::PhotonsPerPass(photons) => self.settings.photons_per_pass = photons,
-        }
+        self.settings.change(change);
         self.changes.push((self.passes, change));
     }
 
@@ -321,7 +321,7 @@ impl Ppm {
     /// The last pass's own, independent estimate of reflected radiance: the image is the mean of these, weighted by photons.
     #[must_use]
     pub fn last_pass(&self) -> Image {
-        let scale = 1.0 / f64::from(self.settings.photons_per_pass.get());
+        let scale = 1.0 / self.last_photons.max(1) as f64;
         let pixels = self.light.last_pass().into_iter().map(|l| l * scale as f32);
         self.as_image(pixels.collect())
     }
@@ -329,33 +329,32 @@ impl Ppm {
     /// A layer beside the image; `None` for a path class when [`Settings::layers`] is off.
     #[must_use]
     pub fn layer(&self, kind: LayerKind) -> Option<Layer> {
-        let rgb = |pixels| LayerData::Rgb(self.as_image(pixels));
-        let class = |class| self.light.class(class, self.photons_emitted).map(rgb);
+        let rgb = |kind| self.colour_layer(kind).map(LayerData::Rgb);
         let (width, height) = self.size();
         let channels = match kind {
-            LayerKind::Direct => class(PathClass::Direct)?,
-            LayerKind::Caustic => class(PathClass::Caustic)?,
-            LayerKind::Indirect => class(PathClass::Indirect)?,
-            LayerKind::Emission => rgb(self.light.emission().to_vec()),
-            LayerKind::Radius => {
-                let world = self.scene.normalisation().world_length(1.0);
-                let values = self.per_pixel(|statistics| {
-                    let n = statistics.len().max(1) as f64;
-                    (statistics.iter().map(|s| s.radius2().sqrt()).sum::<f64>() / n * world) as f32
-                });
-                LayerData::F32(Plane { width, height, values })
-            }
-            LayerKind::PhotonCount => {
-                let sum = |s: &[Statistics]| s.iter().map(Statistics::photons_found).sum::<u64>();
-                let values = self.per_pixel(|s| u32::try_from(sum(s)).unwrap_or(u32::MAX));
-                LayerData::U32(Plane { width, height, values })
-            }
+            LayerKind::Direct | LayerKind::Caustic | LayerKind::Indirect | LayerKind::Emission => rgb(kind)?,
+            LayerKind::Radius => LayerData::F32(Plane { width, height, values: self.mean_radii() }),
+            LayerKind::PhotonCount => LayerData::U32(Plane { width, height, values: self.photons_found() }),
             LayerKind::ShapeId => LayerData::U32(Plane { width, height, values: self.shapes.clone() }),
         };
         Some(Layer { name: kind.name().to_owned(), channels })
     }
 
-    fn per_pixel<T>(&self, f: impl Fn(&[Statistics]) -> T) -> Vec<T> {
+    /// A layer of light; `None` for one that is not kept, or no light.
+    #[must_use]
+    pub fn colour_layer(&self, kind: LayerKind) -> Option<Image> {
+        let class = |class| self.light.class(class, self.photons_emitted);
+        let pixels = match kind {
+            LayerKind::Direct => class(PathClass::Direct)?,
+            LayerKind::Caustic => class(PathClass::Caustic)?,
+            LayerKind::Indirect => class(PathClass::Indirect)?,
+            LayerKind::Emission => self.light.emission().to_vec(),
+            LayerKind::Radius | LayerKind::PhotonCount | LayerKind::ShapeId => return None,
+        };
+        Some(self.as_image(pixels))
+    }
+
+    pub(crate) fn per_pixel<T>(&self, f: impl Fn(&[Statistics]) -> T) -> Vec<T> {
         let mut statistics = self.hit_points.statistics().copied();
         let mut of_pixel = Vec::new();
         let spans = self.hit_points.pixel_start.windows(2).map(|w| (w[1] - w[0]) as usize);
@@ -368,16 +367,20 @@ impl Ppm {
             .collect()
     }
 
-    /// The median radius of all hit points, in world units; 0 without hit points.
-    #[must_use]
-    pub fn median_radius(&self) -> f64 {
-        let mut radius2: Vec<f64> = self.hit_points.statistics().map(Statistics::radius2).collect();
-        let middle = radius2.len() / 2;
-        if radius2.is_empty() {
-            return 0.0;
-        }
-        let (_, median, _) = radius2.select_nth_unstable_by(middle, f64::total_cmp);
-        self.scene.normalisation().world_length(median.sqrt())
+    pub(crate) const fn hit_points(&self) -> &HitPoints {
+        &self.hit_points
+    }
+
+    pub(crate) const fn light(&self) -> &Light {
+        &self.light
+    }
+
+    pub(crate) const fn map(&self) -> &PhotonMap {
+        &self.map
+    }
+
+    pub(crate) const fn photons_in_last_pass(&self) -> u64 {
+        self.last_photons
     }
 
     /// Bytes held, the scene included.

@@ -66,13 +66,18 @@ impl<const LAYERS: usize> Radiance<LAYERS> {
 
     /// All radiance, emission included.
     pub(crate) fn total(&self, photons: u64) -> Vec<Rgb> {
-        let scale = if photons == 0 { 0.0 } else { 1.0 / photons as f64 };
-        let add = |(emission, sums): (&Rgb, &[[f64; 3]; LAYERS])| {
-            let channel = |c: usize| sums.iter().map(|s| s[c]).sum::<f64>() * scale;
-            let e = emission.to_array();
-            Rgb::from_array([0, 1, 2].map(|c| (f64::from(e[c]) + channel(c)) as f32))
+        (0..self.sums.len()).map(|pixel| self.pixel(pixel, photons)).collect()
+    }
+
+    /// All radiance of one pixel, emission included; black beyond the image.
+    pub(crate) fn pixel(&self, pixel: usize, photons: u64) -> Rgb {
+        let (Some(emission), Some(sums)) = (self.emission.get(pixel), self.sums.get(pixel)) else {
+            return Rgb::BLACK;
         };
-        self.emission.iter().zip(&self.sums).map(add).collect()
+        let scale = if photons == 0 { 0.0 } else { 1.0 / photons as f64 };
+        let channel = |c: usize| sums.iter().map(|s| s[c]).sum::<f64>() * scale;
+        let e = emission.to_array();
+        Rgb::from_array([0, 1, 2].map(|c| (f64::from(e[c]) + channel(c)) as f32))
     }
 
     /// Bytes held.

@@ -51,8 +51,10 @@ pub enum DirectLight {
 pub struct Settings {
     /// How fast radii shrink. May change between passes.
     pub alpha: Alpha,
-    /// Photons emitted in a pass. May change between passes.
+    /// Photons emitted in a pass, once passes have grown. May change between passes.
     pub photons_per_pass: NonZeroU32,
+    /// Photons emitted in the first pass, for an early picture: passes double from there to `photons_per_pass`.
+    pub first_pass: NonZeroU32,
     /// Eye samples a pixel.
     pub samples_per_pixel: NonZeroU32,
     /// First radius of every hit point in world units; `None`: from the pixel's footprint.
@@ -77,6 +79,7 @@ impl Default for Settings {
         Self {
             alpha: Alpha::default(),
             photons_per_pass: number(1 << 18),
+            first_pass: number(1 << 14),
             samples_per_pixel: number(4),
             radius: None,
             direct_light: DirectLight::default(),
@@ -86,6 +89,24 @@ impl Default for Settings {
             hit_points_per_sample: number(8),
             layers: false,
         }
+    }
+}
+
+impl Settings {
+    /// Takes a change on.
+    pub const fn change(&mut self, change: Change) {
+        match change {
+            Change::Alpha(alpha) => self.alpha = alpha,
+            Change::PhotonsPerPass(photons) => self.photons_per_pass = photons,
+        }
+    }
+
+    /// Photons that the pass after `passes` others emits.
+    #[must_use]
+    pub fn photons_after(&self, passes: u64) -> NonZeroU32 {
+        let doublings = u32::try_from(passes).unwrap_or(u32::MAX);
+        let grown = 2u32.saturating_pow(doublings).saturating_mul(self.first_pass.get());
+        NonZeroU32::new(grown).map_or(self.photons_per_pass, |grown| grown.min(self.photons_per_pass))
     }
 }
 
@@ -110,6 +131,17 @@ impl fmt::Display for Change {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn passes_double_up_to_the_photons_asked_for() {
+        let number = |n| NonZeroU32::new(n).expect("above zero");
+        let settings = Settings { photons_per_pass: number(100), first_pass: number(15), ..Settings::default() };
+        let photons: Vec<u32> = (0..5).map(|pass| settings.photons_after(pass).get()).collect();
+        assert_eq!(photons, [15, 30, 60, 100, 100]);
+        assert_eq!(settings.photons_after(1 << 40).get(), 100);
+        let small = Settings { photons_per_pass: number(7), ..settings };
+        assert_eq!(small.photons_after(0).get(), 7, "never more than asked for");
+    }
 
     #[test]
     fn alpha_is_in_the_half_open_unit_interval() {

@@ -1,5 +1,7 @@
 //! From a description to a scene: into scene units, into one list of primitives, into a tree.
 
+use std::sync::Arc;
+
 use foton_math::glam::{DAffine3, DMat3, DVec3, Mat3, Vec2, Vec3};
 use foton_math::{Aabb, Frame, Rgb};
 use thiserror::Error;
@@ -8,7 +10,7 @@ use crate::accel::Accel;
 use crate::census::Census;
 use crate::description::{
     Bsdf, Colour, EmitterDescription, EmitterKind, Geometry, Material, Mesh, SceneDescription,
-    ShapeDescription,
+    SensorDescription, ShapeDescription,
 };
 use crate::discrete::Discrete;
 use crate::emitter::{Area, Ball, Emitter, Kind, Reach, Spot};
@@ -76,7 +78,7 @@ impl Scene {
     /// # Errors
     /// When a shape or sensor of the description makes no sense; see [`BuildError`].
     pub fn build(description: &SceneDescription) -> Result<Self, BuildError> {
-        check_sensors(description)?;
+        check_sensors(&description.sensors)?;
         check_environments(description)?;
         let (min, max) = world_bounds(description)?;
         let normalisation = Normalisation::for_bounds(min, max);
@@ -131,8 +133,18 @@ impl Scene {
         scene.census.environment = emitters.iter().any(|e| e.is_environment() && !e.power().is_black());
         scene.emitter_choice = emitter_choice(&emitters);
         scene.census.emitters = emitters.iter().filter(|e| !e.power().is_black()).count() as u64;
-        scene.emitters = emitters;
+        scene.emitters = emitters.into();
         Ok(scene)
+    }
+
+    /// The same scene seen by other sensors, as [`Scene::build`] would make it: surfaces and emitters are shared.
+    ///
+    /// # Errors
+    /// When a sensor makes no sense; see [`BuildError`].
+    pub fn with_sensors(&self, sensors: &[SensorDescription]) -> Result<Self, BuildError> {
+        check_sensors(sensors)?;
+        let sensors = sensors.iter().map(|s| Sensor::new(s, &self.normalisation)).collect();
+        Ok(Self { sensors, ..self.clone() })
     }
 }
 
@@ -204,11 +216,11 @@ fn reach(scene: &Aabb, casters: &Aabb) -> Reach {
     Reach { scene: scene_ball, casters }
 }
 
-fn check_sensors(description: &SceneDescription) -> Result<(), BuildError> {
-    if description.sensors.is_empty() {
+fn check_sensors(sensors: &[SensorDescription]) -> Result<(), BuildError> {
+    if sensors.is_empty() {
         return Err(BuildError::NoSensor);
     }
-    for s in &description.sensors {
+    for s in sensors {
         let determinant = s.to_world.matrix3.determinant();
         let good = s.fov_degrees > 0.0
             && s.fov_degrees < 180.0
@@ -377,16 +389,16 @@ impl Gathered {
         Scene {
             shape_of: ordered.clone().map(|i| self.shape_of[i]).collect(),
             vertex_uvs: ordered.clone().filter_map(|i| self.vertex_uvs.get(i).copied()).collect(),
-            textures: Vec::new(),
+            textures: Arc::default(),
             vertex_normals: if smooth {
                 ordered.map(|i| self.vertex_normals[i]).collect()
             } else {
-                Vec::new()
+                Arc::default()
             },
-            accel,
+            accel: Arc::new(accel),
             shapes: Vec::new(),
             materials: Vec::new(),
-            emitters: Vec::new(),
+            emitters: Arc::default(),
             emitter_choice: Discrete::default(),
             sensors: Vec::new(),
             normalisation,

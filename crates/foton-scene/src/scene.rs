@@ -1,5 +1,7 @@
 //! The scene as rays meet it. It does not change while it renders: an edit makes the next scene.
 
+use std::sync::Arc;
+
 use foton_math::glam::{Mat3, Vec2, Vec3};
 use foton_math::{Aabb, Frame, Ray, Rgb};
 
@@ -28,19 +30,20 @@ pub struct Shape {
     pub(crate) to_object: Mat3,
 }
 
-/// An immutable scene, in scene units (see [`Normalisation`]).
+/// An immutable scene, in scene units (see [`Normalisation`]). What is large is shared by its clones.
+#[derive(Clone)]
 pub struct Scene {
-    pub(crate) accel: Accel,
+    pub(crate) accel: Arc<Accel>,
     /// Shape of each primitive, in the tree's order.
-    pub(crate) shape_of: Vec<u32>,
+    pub(crate) shape_of: Arc<[u32]>,
     /// Unit vertex normals of each primitive in the tree's order; zeros where flat. Empty when the scene has none.
-    pub(crate) vertex_normals: Vec<[Vec3; 3]>,
+    pub(crate) vertex_normals: Arc<[[Vec3; 3]]>,
     /// Texture coordinates of each primitive's vertices in the tree's order. Empty when no material asks for them.
-    pub(crate) vertex_uvs: Vec<[Vec2; 3]>,
-    pub(crate) textures: Vec<Sampler>,
+    pub(crate) vertex_uvs: Arc<[[Vec2; 3]]>,
+    pub(crate) textures: Arc<[Sampler]>,
     pub(crate) shapes: Vec<Shape>,
     pub(crate) materials: Vec<Material>,
-    pub(crate) emitters: Vec<Emitter>,
+    pub(crate) emitters: Arc<[Emitter]>,
     pub(crate) emitter_choice: Discrete,
     pub(crate) sensors: Vec<Sensor>,
     pub(crate) normalisation: Normalisation,

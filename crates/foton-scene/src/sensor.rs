@@ -74,6 +74,23 @@ impl Sensor {
         }
     }
 
+    /// The film position that a point is seen at, and its depth along the view axis in scene units; `None` behind the camera.
+    #[must_use]
+    pub fn project(&self, point: Vec3) -> Option<(Vec2, f32)> {
+        let v = point - self.origin;
+        let depth = v.dot(self.forward);
+        let along = |axis: Vec3| v.dot(axis) / (depth * axis.length_squared());
+        let (x, y) = (along(self.right), along(self.up));
+        let film = Vec2::new((x + 1.0) * self.width as f32, (1.0 - y) * self.height as f32) * 0.5;
+        (depth > 0.0 && film.is_finite()).then_some((film, depth))
+    }
+
+    /// Where the camera is, in scene units.
+    #[must_use]
+    pub const fn origin(&self) -> Vec3 {
+        self.origin
+    }
+
     /// Area of a pixel per square distance, perpendicular to a ray of unit `direction` (steradians).
     #[must_use]
     pub fn pixel_solid_angle(&self, direction: Vec3) -> f32 {
@@ -104,6 +121,18 @@ mod tests {
             far_clip: None,
         };
         Sensor::new(&description, &Normalisation::IDENTITY)
+    }
+
+    #[test]
+    fn a_point_on_a_ray_is_seen_where_the_ray_leaves_the_film() {
+        let sensor = sensor(FovAxis::X);
+        for film in [Vec2::new(3.0, 7.0), Vec2::new(150.5, 99.0), Vec2::new(100.0, 50.0)] {
+            let ray = sensor.ray(film);
+            let (seen, depth) = sensor.project(ray.at(12.0)).expect("in front");
+            assert!(seen.distance(film) < 1e-3 && depth > 0.0 && depth <= 12.0, "{film} {seen} {depth}");
+            assert_eq!(sensor.project(ray.at(-12.0)), None);
+        }
+        assert_eq!(sensor.project(sensor.origin()), None);
     }
 
     #[test]

@@ -26,7 +26,9 @@ impl Interrupt {
         self.finish.load(Ordering::Relaxed)
     }
 
-    pub(crate) const fn cancel(&self) -> &Cancel {
+    /// What discards the pass under way.
+    #[must_use]
+    pub const fn cancel(&self) -> &Cancel {
         &self.cancel
     }
 }

@@ -1,4 +1,5 @@
-//! Runs a render: threads, stop rules, stage clocks, interruption. It knows no files, no terminal and no window.
+//! Runs a render: threads, stop rules, stage clocks, interruption, snapshots; and the [`Engine`], which a window steers. It knows
+//! no scene files, no terminal and no window.
 //!
 //! ```
 //! use foton_session::{Interrupt, Session, StopRule};
@@ -11,18 +12,24 @@
 //! let scene = std::sync::Arc::new(foton_scene::Scene::build(&description)?);
 //! let settings = foton_integrator::Settings::default();
 //! let interrupt = Interrupt::default();
-//! let mut session = Session::start(scene, settings, None, &interrupt)?;
+//! let mut session = Session::start(scene, settings, None, interrupt.cancel())?;
 //! session.run(&StopRule::passes(2), &interrupt, &mut |_| Ok::<_, foton_session::StartError>(()))?;
 //! assert_eq!(session.ppm().image().pixels.len(), 64);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod clock;
+pub mod engine;
 mod interrupt;
+mod metadata;
 mod session;
+pub mod snapshot;
 mod stop;
 
 pub use clock::StageTimes;
+pub use engine::Engine;
+pub use foton_integrator::{Alpha, Change, DirectLight, PathClass, Radii, Settings, Stage};
 pub use interrupt::Interrupt;
+pub use metadata::SceneIdentity;
 pub use session::{Progress, Session, StartError, StopCause};
 pub use stop::StopRule;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use foton_integrator::{Cancelled, MemoryEstimate, PassReport, Ppm, Settings};
+use foton_integrator::{Cancel, Cancelled, MemoryEstimate, PassReport, Ppm, Settings};
 use foton_scene::Scene;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use thiserror::Error;
@@ -65,19 +65,19 @@ impl Session {
     /// Collects hit points on `threads` threads, by default as many as the machine has.
     ///
     /// # Errors
-    /// When interrupted twice, or when the system gives no threads.
+    /// When cancelled, or when the system gives no threads.
     pub fn start(
         scene: Arc<Scene>,
         settings: Settings,
         threads: Option<usize>,
-        interrupt: &Interrupt,
+        cancel: &Cancel,
     ) -> Result<Self, StartError> {
         let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build()?;
         let mut stages = StageTimes::default();
         let begin = Instant::now();
         let ppm = {
             let mut clock = StageClock::new(&mut stages);
-            pool.install(|| Ppm::start(scene, settings, &mut |stage| clock.begin(stage), interrupt.cancel()))?
+            pool.install(|| Ppm::start(scene, settings, &mut |stage| clock.begin(stage), cancel))?
         };
         Ok(Self { ppm, pool, stages, elapsed: begin.elapsed(), rays: 0 })
     }
@@ -102,16 +102,10 @@ impl Session {
             if rule.is_reached(passes, self.elapsed, last) {
                 return Ok(StopCause::Rule);
             }
-            let begin = Instant::now();
-            let report = {
-                let mut clock = StageClock::new(&mut self.stages);
-                let ppm = &mut self.ppm;
-                self.pool.install(|| ppm.advance(&mut |stage| clock.begin(stage), interrupt.cancel()))
-            };
-            last = begin.elapsed();
-            self.elapsed += last;
+            let before = self.elapsed;
+            let report = self.advance(interrupt.cancel());
+            last = self.elapsed - before;
             let Ok(report) = report else { return Ok(StopCause::Interrupted) };
-            self.rays += report.rays;
             after_pass(&Progress {
                 ppm: &self.ppm,
                 report,
@@ -120,6 +114,23 @@ impl Session {
                 stages: &self.stages,
             })?;
         }
+    }
+
+    /// Runs one pass.
+    ///
+    /// # Errors
+    /// When cancelled; the pass then has not happened.
+    pub fn advance(&mut self, cancel: &Cancel) -> Result<PassReport, Cancelled> {
+        let begin = Instant::now();
+        let report = {
+            let mut clock = StageClock::new(&mut self.stages);
+            let ppm = &mut self.ppm;
+            self.pool.install(|| ppm.advance(&mut |stage| clock.begin(stage), cancel))
+        };
+        self.elapsed += begin.elapsed();
+        let report = report?;
+        self.rays += report.rays;
+        Ok(report)
     }
 
     /// The render.
@@ -137,6 +148,12 @@ impl Session {
     #[must_use]
     pub const fn stages(&self) -> &StageTimes {
         &self.stages
+    }
+
+    /// Rays of all passes so far.
+    #[must_use]
+    pub const fn rays(&self) -> u64 {
+        self.rays
     }
 
     /// Time of rendering so far.

@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use foton_integrator::{Alpha, DirectLight, LayerKind, Settings};
+use foton_session::snapshot::Format;
 
-use crate::output::Format;
 
 /// Progressive photon mapping that a person can watch, steer and trust.
 #[derive(Debug, Parser)]

@@ -9,12 +9,11 @@ use foton_film::check_writable;
 use foton_format::{Opened, Options};
 use foton_integrator::{Alpha, Cancelled, LayerKind, Settings};
 use foton_scene::Scene;
-use foton_session::{Interrupt, Session, StartError, StopRule};
+use foton_session::snapshot::{self, Format};
+use foton_session::{Interrupt, SceneIdentity, Session, StartError, StopRule};
 
 use crate::args::{Render, Size};
 use crate::memory;
-use crate::metadata::SceneIdentity;
-use crate::output::{self, Format};
 use crate::talk::{Failure, Talk};
 
 /// How long a render without a stop rule takes.
@@ -53,14 +52,14 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
     refuse_beyond_memory(&scene, &settings, args.memory)?;
     let interrupt = interrupt_on_signals(talk);
     talk.begin();
-    let mut session = Session::start(scene, settings, args.threads.map(usize::from), &interrupt)?;
+    let mut session = Session::start(scene, settings, args.threads.map(usize::from), interrupt.cancel())?;
     let layers = if *format == Format::Exr { &args.layers[..] } else { &[] };
     let mut outputs = Vec::new();
     session.run(&rule, &interrupt, &mut |progress| {
         talk.pass(progress, &rule);
         if args.every.is_some_and(|e| e.is_due(progress.report.pass)) {
-            let path = output::numbered(path, progress.report.pass);
-            output::write(&path, *format, progress.ppm, layers, &identity)?;
+            let path = snapshot::numbered(path, progress.report.pass);
+            snapshot::write(&path, *format, progress.ppm, layers, &identity)?;
             outputs.push(path.display().to_string());
         }
         Ok::<_, Failure>(())
@@ -149,7 +148,7 @@ pub(crate) fn finish(
         return Err(StartError::Cancelled(Cancelled).into());
     }
     for (path, format) in files {
-        output::write(path, *format, session.ppm(), layers, identity)?;
+        snapshot::write(path, *format, session.ppm(), layers, identity)?;
         outputs.push(path.display().to_string());
     }
     talk.check_ledger(session.ppm().ledger());

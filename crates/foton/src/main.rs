@@ -9,8 +9,6 @@ mod embedded;
 mod info;
 mod job;
 mod memory;
-mod metadata;
-mod output;
 mod quick;
 mod talk;
 

@@ -6,11 +6,11 @@ use std::time::Duration;
 use foton_film::check_writable;
 use foton_format::Options;
 use foton_integrator::Settings;
+use foton_session::snapshot::{self, Format};
 use foton_session::{Session, StopRule};
 
 use crate::embedded;
 use crate::job::{build, finish, interrupt_on_signals, refuse_beyond_memory};
-use crate::output::{self, Format};
 use crate::talk::{Failure, Talk};
 
 /// When to stop, writing included.
@@ -31,20 +31,20 @@ pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failur
     let (scene, identity) = build(opened.map_err(Failure::Open)?, &name, None, talk)?;
     let settings = Settings::default();
     refuse_beyond_memory(&scene, &settings, None)?;
-    let stem = output::next_free(Path::new(""));
+    let stem = snapshot::next_free(Path::new(""));
     let (png, exr) = (stem.with_extension("png"), stem.with_extension("exr"));
     check_writable(&png)?;
     let interrupt = interrupt_on_signals(talk);
     talk.line(&format!("rendering {name} for a minute to {}; Ctrl-C stops earlier", png.display()));
     talk.begin();
-    let mut session = Session::start(scene, settings, None, &interrupt)?;
+    let mut session = Session::start(scene, settings, None, interrupt.cancel())?;
     let rule = StopRule::time(TIME);
     let mut first_picture = false;
     session.run(&rule, &interrupt, &mut |progress| {
         talk.pass(progress, &rule);
         if !first_picture && progress.elapsed >= FIRST_PICTURE {
             first_picture = true;
-            output::write(&png, Format::Png, progress.ppm, &[], &identity)?;
+            snapshot::write(&png, Format::Png, progress.ppm, &[], &identity)?;
         }
         Ok::<_, Failure>(())
     })?;

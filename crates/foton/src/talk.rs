@@ -154,7 +154,7 @@ impl Talk {
                 "seconds": seconds,
                 "photons_per_s": rate(r.photons),
                 "rays_per_s": rate(p.rays),
-                "radius_median": p.ppm.median_radius(),
+                "radius_median": p.ppm.radii().median,
                 "no_photon_share": r.no_photon_share,
                 "bytes": p.ppm.bytes(),
                 "stored": r.stored,

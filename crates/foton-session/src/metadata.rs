@@ -4,9 +4,12 @@ use foton_film::Metadata;
 use foton_integrator::{DirectLight, Ppm};
 
 /// The scene as metadata names it.
-pub(crate) struct SceneIdentity {
-    pub(crate) name: String,
-    pub(crate) hash: u64,
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SceneIdentity {
+    /// Its name, such as that of its file.
+    pub name: String,
+    /// Hash of what it was read from, and of all edits since.
+    pub hash: u64,
 }
 
 /// Metadata of a render as it stands.
@@ -19,16 +22,18 @@ pub(crate) fn of(ppm: &Ppm, scene: &SceneIdentity) -> Metadata {
         DirectLight::ShadowRays => "shadow-rays",
     };
     let settings = format!(
-        "integrator=ppm alpha={} photons={} radius={radius} direct={direct} max_depth={} spp={} size={}x{} sensor={} \
-         hit_points_per_sample={}",
+        "integrator=ppm alpha={} photons={} first_pass={} radius={radius} direct={direct} max_depth={} spp={} \
+         size={}x{} sensor={} hit_points_per_sample={} layers={}",
         s.alpha,
         s.photons_per_pass,
+        s.first_pass,
         Ppm::max_depth(ppm.scene(), s),
         s.samples_per_pixel,
         sensor.width,
         sensor.height,
         sensor.name,
         s.hit_points_per_sample,
+        s.layers,
     );
     let changes: Vec<String> =
         ppm.changes().iter().map(|(pass, change)| format!("{pass} {change}")).collect();

@@ -10,14 +10,17 @@ use crate::metadata::{self, SceneIdentity};
 
 /// Formats that images are written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Format {
+pub enum Format {
+    /// Linear radiance.
     Exr,
+    /// Tone-mapped, to look at.
     Png,
 }
 
 impl Format {
     /// The format that a file name asks for.
-    pub(crate) fn of(path: &Path) -> Option<Self> {
+    #[must_use]
+    pub fn of(path: &Path) -> Option<Self> {
         let extension = path.extension()?.to_str()?.to_ascii_lowercase();
         match extension.as_str() {
             "exr" => Some(Self::Exr),
@@ -28,7 +31,10 @@ impl Format {
 }
 
 /// Writes a render as it stands.
-pub(crate) fn write(
+///
+/// # Errors
+/// [`WriteError`] with the path; a file that was there before is then still whole.
+pub fn write(
     path: &Path,
     format: Format,
     ppm: &Ppm,
@@ -46,14 +52,16 @@ pub(crate) fn write(
 }
 
 /// `OUT-000016.exr` for `OUT.exr` after 16 passes.
-pub(crate) fn numbered(path: &Path, pass: u64) -> PathBuf {
+#[must_use]
+pub fn numbered(path: &Path, pass: u64) -> PathBuf {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let extension = path.extension().unwrap_or_default().to_string_lossy();
     path.with_file_name(format!("{stem}-{pass:06}.{extension}"))
 }
 
 /// `foton-001` with the next number of which neither a PNG nor an EXR is there.
-pub(crate) fn next_free(folder: &Path) -> PathBuf {
+#[must_use]
+pub fn next_free(folder: &Path) -> PathBuf {
     let taken = |stem: &Path| ["png", "exr"].iter().any(|e| stem.with_extension(e).exists());
     (1u32..).map(|n| folder.join(format!("foton-{n:03}"))).find(|stem| !taken(stem)).unwrap_or_default()
 }

@@ -1,0 +1,177 @@
+//! What a window sees of a render: a picture and numbers, never a hit point or a scene.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use foton_film::{Image, Plane};
+use foton_integrator::{PathClass, Radii, Settings};
+use foton_math::Rgb;
+
+use super::command::{Look, Shown};
+use crate::clock::StageTimes;
+use crate::stop::StopRule;
+
+/// What the engine is doing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Activity {
+    /// There is no scene.
+    #[default]
+    Empty,
+    /// Small pictures, while the camera or an object moves.
+    Moving,
+    /// Following eye paths.
+    Collecting,
+    /// Passes.
+    Rendering,
+    /// Waiting for a person.
+    Paused,
+    /// The stop rule is reached.
+    Done,
+}
+
+/// A picture, row-major from the top left.
+#[derive(Clone, Debug)]
+pub enum Picture {
+    /// Linear radiance.
+    Colour(Arc<Image>),
+    /// A measure, to be shown in false colours.
+    Measure {
+        /// What and in which unit.
+        label: &'static str,
+        /// The values.
+        plane: Arc<Plane<f32>>,
+    },
+}
+
+impl Picture {
+    /// Width and height in pixels.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        match self {
+            Self::Colour(image) => [image.width, image.height],
+            Self::Measure { plane, .. } => [plane.width, plane.height],
+        }
+    }
+}
+
+/// A photon of the last pass, seen from the camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dot {
+    /// Where, in pixels of the image.
+    pub film: [f32; 2],
+    /// How it came there.
+    pub class: PathClass,
+}
+
+/// What is known of the pixel that a person points at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    /// Column and row.
+    pub pixel: [u32; 2],
+    /// Radiance as it stands.
+    pub radiance: Rgb,
+    /// Mean radius of its hit points in world units; `None` without hit points.
+    pub radius: Option<f64>,
+    /// Photons that its hit points have found.
+    pub photons_found: u64,
+    /// Hit points.
+    pub hit_points: usize,
+    /// Distance from the camera to its first hit point, in world units.
+    pub distance: Option<f64>,
+    /// Names of the shape and material that it sees first.
+    pub surface: Option<(String, String)>,
+    /// The outline of its first hit point's disc, in pixels of the image.
+    pub disc: Vec<[f32; 2]>,
+    /// Photons of the last pass within that disc.
+    pub photons: Vec<Dot>,
+}
+
+/// A sensor of the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SensorFacts {
+    /// Its name.
+    pub name: String,
+    /// Where it is now.
+    pub look: Look,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+}
+
+/// What a window says of a scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SceneFacts {
+    /// Its name.
+    pub name: String,
+    /// Its file, if it has one.
+    pub file: Option<std::path::PathBuf>,
+    /// Its sensors.
+    pub sensors: Vec<SensorFacts>,
+    /// Surfaces.
+    pub shapes: usize,
+    /// The middle of all surfaces, in world units.
+    pub centre: [f64; 3],
+    /// Half of their greatest extent.
+    pub half_size: f64,
+    /// Whether the scene differs from its file.
+    pub edited: bool,
+}
+
+/// How a render stands.
+#[derive(Clone, Debug, Default)]
+pub struct Numbers {
+    /// Passes.
+    pub passes: u64,
+    /// Photons emitted.
+    pub photons: u64,
+    /// Photons emitted in the last pass.
+    pub photons_in_pass: u64,
+    /// Time of rendering, loading and pauses not included.
+    pub elapsed: Duration,
+    /// Photons a second over the last passes.
+    pub photons_per_s: f64,
+    /// Rays a second over the last passes.
+    pub rays_per_s: f64,
+    /// Time by stage in all.
+    pub stages: StageTimes,
+    /// Hit points.
+    pub hit_points: u64,
+    /// Share of hit points that have found no photon: unknown, not dark.
+    pub no_photon_share: f64,
+    /// Spread of radii in world units.
+    pub radii: Radii,
+    /// Bytes held.
+    pub bytes: usize,
+}
+
+/// The newest state of the engine.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Counts frames.
+    pub number: u64,
+    /// Counts starts: another number is another render.
+    pub render: u64,
+    /// What goes on.
+    pub activity: Activity,
+    /// Whether another scene is being opened.
+    pub opening: Option<String>,
+    /// Size of the whole image in pixels.
+    pub size: [u32; 2],
+    /// The picture; smaller than `size` while things move.
+    pub picture: Option<Picture>,
+    /// What the picture shows.
+    pub shown: Shown,
+    /// The numbers.
+    pub numbers: Numbers,
+    /// The settings as they are now.
+    pub settings: Settings,
+    /// Threads; `None`: as many as the machine has.
+    pub threads: Option<usize>,
+    /// When it will stop.
+    pub stop: StopRule,
+    /// The scene.
+    pub scene: Arc<SceneFacts>,
+    /// Photons of the last pass, if asked for.
+    pub dots: Arc<Vec<Dot>>,
+    /// The pixel asked about.
+    pub probe: Option<Probe>,
+}

@@ -1,0 +1,101 @@
+//! Opening and saving scenes: the binary hands in how; here is when. A scene is opened on a thread of its own, so that the
+//! present one goes on.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::thread;
+
+use crossbeam_channel::{Receiver, Sender, bounded};
+use foton_integrator::Settings;
+use foton_scene::Scene;
+use foton_scene::description::SceneDescription;
+
+use super::command::Source;
+use crate::metadata::SceneIdentity;
+
+/// A scene and what its file asks for.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// What to render.
+    pub description: SceneDescription,
+    /// Its name and hash.
+    pub identity: SceneIdentity,
+    /// Settings, with what the file suggests.
+    pub settings: Settings,
+    /// What the file says without effect, each with its place.
+    pub warnings: Vec<String>,
+}
+
+/// Opens and saves scenes.
+pub trait Loader: Send + Sync + 'static {
+    /// Opens a scene.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, each fault with its place, a line each.
+    fn open(&self, source: &Source) -> Result<Loaded, String>;
+
+    /// Writes the scene opened from `source`, as it is after edits, to a file; returns what there is to know about it.
+    ///
+    /// # Errors
+    /// Why it could not be written.
+    fn save(&self, source: &Source, description: &SceneDescription, path: &Path) -> Result<String, String>;
+}
+
+/// A scene that is ready to render.
+pub(super) struct Ready {
+    pub(super) source: Source,
+    pub(super) loaded: Loaded,
+    pub(super) scene: Arc<Scene>,
+}
+
+/// A scene that is being opened.
+pub(super) struct Opening {
+    pub(super) name: String,
+    pub(super) result: Receiver<Result<Box<Ready>, String>>,
+}
+
+impl Opening {
+    /// Begins to open a scene.
+    pub(super) fn begin(loader: &Arc<dyn Loader>, source: Source) -> Self {
+        let (sender, result) = bounded(1);
+        let loader = Arc::clone(loader);
+        let name = source.to_string();
+        let work = move || open(&*loader, source, &sender);
+        if let Err(error) = thread::Builder::new().name("open".to_owned()).spawn(work) {
+            let (sender, result) = bounded(1);
+            let _ = sender.send(Err(format!("cannot make a thread: {error}")));
+            return Self { name, result };
+        }
+        Self { name, result }
+    }
+}
+
+fn open(loader: &dyn Loader, source: Source, sender: &Sender<Result<Box<Ready>, String>>) {
+    let result = loader.open(&source).and_then(|loaded| {
+        let built = Scene::build(&loaded.description);
+        let scene = built.map_err(|cause| format!("{}: {cause}", loaded.identity.name))?;
+        Ok(Box::new(Ready { source, loaded, scene: Arc::new(scene) }))
+    });
+    // Nobody listens any more when opening was cancelled.
+    let _ = sender.send(result);
+}
+
+impl Source {
+    /// The file, if it is one.
+    #[must_use]
+    pub fn file(&self) -> Option<&PathBuf> {
+        match self {
+            Self::File(path) => Some(path),
+            Self::BuiltIn(_) => None,
+        }
+    }
+}
+
+impl std::fmt::Display for Source {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::BuiltIn(name) => f.write_str(name),
+            Self::File(path) => write!(f, "{}", path.display()),
+        }
+    }
+}

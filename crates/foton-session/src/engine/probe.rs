@@ -1,0 +1,94 @@
+//! What is drawn over the picture: the photons of the last pass, and the disc of the pixel that a person points at.
+
+use std::f64::consts::TAU;
+
+use foton_integrator::{Disc, Ppm, StoredPhoton};
+use foton_math::Ray;
+use foton_math::glam::{DVec3, Vec2};
+use foton_scene::Scene;
+use rayon::prelude::*;
+
+use super::frame::{Dot, Probe};
+
+/// Photons drawn at most.
+const DOTS: usize = 20_000;
+
+/// Photons drawn in a disc at most.
+const DISC_DOTS: usize = 2_000;
+
+/// Corners of a disc's outline.
+const CORNERS: u32 = 48;
+
+/// A photon counts as seen if nothing is nearer than this share of its distance.
+const SEEN: f32 = 1e-3;
+
+/// The photons of the last pass that the camera sees directly.
+pub(super) fn dots(ppm: &Ppm) -> Vec<Dot> {
+    ppm.stored_photons(DOTS).par_iter().filter_map(|photon| dot(ppm, photon, true)).collect()
+}
+
+fn dot(ppm: &Ppm, photon: &StoredPhoton, only_seen: bool) -> Option<Dot> {
+    let scene = ppm.scene();
+    let sensor = &scene.sensors()[ppm.settings().sensor];
+    let point = scene.normalisation().point(photon.position);
+    let (film, _) = sensor.project(point)?;
+    let size = Vec2::new(sensor.width as f32, sensor.height as f32);
+    if film.cmplt(Vec2::ZERO).any() || film.cmpge(size).any() {
+        return None;
+    }
+    if only_seen {
+        let way = point - sensor.origin();
+        let ray = Ray { t_max: way.length() * (1.0 - SEEN), ..Ray::new(sensor.origin(), way.normalize()) };
+        if scene.occluded(ray) {
+            return None;
+        }
+    }
+    Some(Dot { film: film.to_array(), class: photon.class })
+}
+
+/// What is known of a pixel; `None` outside the image.
+pub(super) fn probe(ppm: &Ppm, pixel: [u32; 2]) -> Option<Probe> {
+    let scene = ppm.scene();
+    let sensor = &scene.sensors()[ppm.settings().sensor];
+    let [x, y] = pixel;
+    if x >= sensor.width || y >= sensor.height {
+        return None;
+    }
+    let index = y as usize * sensor.width as usize + x as usize;
+    let discs = ppm.discs(index);
+    let first = discs.first();
+    let photons = first.map_or_else(Vec::new, |d| ppm.photons_near(d.position, d.radius, DISC_DOTS));
+    let eye = scene.normalisation().world_point(sensor.origin());
+    let film = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+    Some(Probe {
+        pixel,
+        radiance: ppm.radiance(index),
+        radius: (!discs.is_empty())
+            .then(|| discs.iter().map(|d| d.radius).sum::<f64>() / discs.len() as f64),
+        photons_found: discs.iter().map(|d| d.photons_found).sum(),
+        hit_points: discs.len(),
+        distance: first.map(|d| d.position.distance(eye)),
+        surface: surface(scene, sensor.ray(film)),
+        disc: first.map_or_else(Vec::new, |d| outline(scene, ppm.settings().sensor, d)),
+        photons: photons.iter().filter_map(|p| dot(ppm, p, false)).collect(),
+    })
+}
+
+fn surface(scene: &Scene, ray: Ray) -> Option<(String, String)> {
+    let hit = scene.nearest(ray)?;
+    let shape = scene.shapes().get(hit.shape as usize)?;
+    Some((shape.name.clone(), scene.material(hit.shape).name.clone()))
+}
+
+/// The edge of a disc in pixels; empty where a part of it is behind the camera.
+fn outline(scene: &Scene, sensor: usize, disc: &Disc) -> Vec<[f32; 2]> {
+    let tangent = disc.normal.any_orthonormal_vector();
+    let bitangent = disc.normal.cross(tangent);
+    let corner = |i: u32| -> Option<[f32; 2]> {
+        let (sin, cos) = (TAU * f64::from(i) / f64::from(CORNERS)).sin_cos();
+        let point: DVec3 = disc.position + (tangent * cos + bitangent * sin) * disc.radius;
+        let (film, _) = scene.sensors()[sensor].project(scene.normalisation().point(point))?;
+        Some(film.to_array())
+    };
+    (0..CORNERS).map(corner).collect::<Option<_>>().unwrap_or_default()
+}

@@ -1,0 +1,451 @@
+//! The engine's own thread: commands, then work, then a frame; for ever.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use crossbeam_channel::{Receiver, Sender, never, select};
+use foton_film::check_writable;
+use foton_integrator::{Cancel, Settings};
+use foton_scene::Scene;
+
+use super::Setup;
+use super::command::{Command, Configuration, Event, Shown, Source};
+use super::frame::{Activity, Frame, Numbers, Picture, SceneFacts};
+use super::loader::{Opening, Ready};
+use super::render::Render;
+use super::slot::NewestSender;
+use super::{probe, scene_facts};
+use crate::session::{Session, StartError};
+use crate::snapshot::{self, Format};
+use crate::stop::StopRule;
+
+/// Frames are at least this far apart unless a person is waiting for one.
+const FRAME_GAP: Duration = Duration::from_millis(30);
+
+/// What the thread is connected to.
+pub(super) struct Channels {
+    pub(super) commands: Receiver<Command>,
+    pub(super) frames: NewestSender<Frame>,
+    pub(super) events: Sender<Event>,
+}
+
+/// What goes on.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Flow {
+    /// Passes, until the stop rule.
+    Run,
+    /// So many passes, then wait.
+    Steps(u64),
+}
+
+/// The scene that is shown, with its edits.
+struct Current {
+    source: Source,
+    ready: super::loader::Loaded,
+    /// Sensors as the file has them.
+    original: Vec<foton_scene::description::SensorDescription>,
+    scene: Arc<Scene>,
+    facts: Arc<SceneFacts>,
+}
+
+/// The thread's state.
+pub(super) struct Worker {
+    setup: Setup,
+    channels: Channels,
+    cancel: Cancel,
+    current: Option<Current>,
+    opening: Option<Opening>,
+    settings: Settings,
+    threads: Option<usize>,
+    stop: StopRule,
+    flow: Flow,
+    render: Option<Render>,
+    /// The number of the render; it changes with each start.
+    render_number: u64,
+    /// Whether more camera moves are to follow.
+    moving: bool,
+    /// A render that cannot start is not tried again until something changes.
+    refused: bool,
+    last_pass: Duration,
+    shown: Shown,
+    show_photons: bool,
+    probed: Option<[u32; 2]>,
+    auto_snapshots: Option<PathBuf>,
+    frames: u64,
+    /// The whole picture as it last was: kept while the next render has none.
+    picture: Option<Picture>,
+    last_frame: Instant,
+    /// Whether there is something that no frame has shown.
+    unseen: bool,
+}
+
+impl Worker {
+    pub(super) fn new(setup: Setup, channels: Channels, cancel: Cancel) -> Self {
+        Self {
+            setup,
+            channels,
+            cancel,
+            current: None,
+            opening: None,
+            settings: Settings::default(),
+            threads: None,
+            stop: StopRule::default(),
+            flow: Flow::Run,
+            render: None,
+            render_number: 0,
+            moving: false,
+            refused: false,
+            last_pass: Duration::ZERO,
+            shown: Shown::Radiance,
+            show_photons: false,
+            probed: None,
+            auto_snapshots: None,
+            frames: 0,
+            picture: None,
+            last_frame: Instant::now(),
+            unseen: true,
+        }
+    }
+
+    /// Runs until asked to quit, or until nobody holds the engine.
+    pub(super) fn run(mut self) {
+        loop {
+            // A request that comes from here on is for work that is still to begin: at worst a pass is traced twice.
+            self.cancel.rearm();
+            let Some(commands) = self.wait_for_commands() else { return };
+            for command in commands {
+                if matches!(command, Command::Quit) {
+                    return;
+                }
+                self.obey(command);
+            }
+            self.take_opened();
+            self.work();
+            self.publish(false);
+        }
+    }
+
+    /// Commands that are there; waits for one when there is nothing else to do. `None` when the engine was dropped.
+    fn wait_for_commands(&mut self) -> Option<Vec<Command>> {
+        let mut commands: Vec<Command> = self.channels.commands.try_iter().collect();
+        if commands.is_empty() && self.is_idle() {
+            self.publish(true);
+            let nothing = never();
+            let opened = self.opening.as_ref().map_or(&nothing, |o| &o.result);
+            // What was opened stays in its channel: it is taken where commands are not waited for.
+            let mut wait = crossbeam_channel::Select::new();
+            wait.recv(&self.channels.commands);
+            wait.recv(opened);
+            wait.ready();
+            select! {
+                recv(self.channels.commands) -> command => commands.push(command.ok()?),
+                default => {}
+            }
+            commands.extend(self.channels.commands.try_iter());
+        }
+        Some(commands)
+    }
+
+    fn event(&self, event: Event) {
+        // A window that does not read its events has other troubles.
+        let _ = self.channels.events.try_send(event);
+        (self.setup.wake)();
+    }
+
+    fn obey(&mut self, command: Command) {
+        self.unseen = true;
+        match command {
+            Command::Open(source) => self.opening = Some(Opening::begin(&self.setup.loader, source)),
+            Command::CancelOpen => self.opening = None,
+            Command::Change(change) => {
+                self.settings.change(change);
+                if let Some(render) = self.render.as_mut().filter(|r| !r.is_small()) {
+                    render.session_mut().ppm_mut().change(change);
+                }
+            }
+            Command::Configure(configuration) => self.configure(&configuration),
+            Command::Pause => self.flow = Flow::Steps(0),
+            Command::Resume => self.flow = Flow::Run,
+            Command::Step => {
+                let left = if let Flow::Steps(n) = self.flow { n } else { 0 };
+                self.flow = Flow::Steps(left + 1);
+            }
+            Command::Restart => self.restart(),
+            Command::StopAt(rule) => self.stop = rule,
+            Command::Look { look, moving } => {
+                self.moving = moving;
+                if let Some(current) = &mut self.current {
+                    let sensor = &mut current.ready.description.sensors[self.settings.sensor];
+                    let there = super::Look { to_world: sensor.to_world, fov_degrees: sensor.fov_degrees };
+                    // The end of a move that went nowhere new goes on with the small picture that is there.
+                    if there != look {
+                        (sensor.to_world, sensor.fov_degrees) = (look.to_world, look.fov_degrees);
+                        self.look_again();
+                    }
+                }
+            }
+            Command::ResetLook => {
+                self.moving = false;
+                if let Some(current) = &mut self.current {
+                    let i = self.settings.sensor;
+                    current.ready.description.sensors[i].clone_from(&current.original[i]);
+                    self.look_again();
+                }
+            }
+            Command::Show(shown) => self.shown = shown,
+            Command::ShowPhotons(on) => self.show_photons = on,
+            Command::Probe(pixel) => self.probed = pixel,
+            Command::Snapshot(folder) => self.snapshot(&folder),
+            Command::AutoSnapshots(folder) => self.auto_snapshots = folder,
+            Command::SaveScene(path) => self.save_scene(&path),
+            Command::Quit => {}
+        }
+    }
+
+    fn configure(&mut self, configuration: &Configuration) {
+        configuration.apply(&mut self.settings);
+        if let Some(current) = &self.current {
+            self.settings.sensor = self.settings.sensor.min(current.ready.description.sensors.len() - 1);
+        }
+        self.threads = configuration.threads;
+        self.restart();
+    }
+
+    fn restart(&mut self) {
+        self.render = None;
+        self.render_number += 1;
+        self.refused = false;
+        // There is always a pass to look at, paused or not.
+        if self.flow == Flow::Steps(0) {
+            self.flow = Flow::Steps(1);
+        }
+    }
+
+    /// Makes the scene of the description's sensors, and starts anew.
+    fn look_again(&mut self) {
+        let Some(current) = &mut self.current else { return };
+        match current.scene.with_sensors(&current.ready.description.sensors) {
+            Ok(scene) => {
+                current.scene = Arc::new(scene);
+                current.facts = Arc::new(scene_facts(&current.source, &current.ready, &current.scene));
+                self.restart();
+            }
+            Err(cause) => self.event(Event::Failed(cause.to_string())),
+        }
+    }
+
+    /// Takes a scene that was opened meanwhile.
+    fn take_opened(&mut self) {
+        let Some(result) = self.opening.as_ref().and_then(|o| o.result.try_recv().ok()) else { return };
+        self.opening = None;
+        self.unseen = true;
+        match result {
+            Ok(ready) => self.show(*ready),
+            Err(message) => self.event(Event::Failed(message)),
+        }
+    }
+
+    fn show(&mut self, ready: Ready) {
+        let Ready { source, loaded, scene } = ready;
+        let facts = Arc::new(scene_facts(&source, &loaded, &scene));
+        self.event(Event::Opened { name: loaded.identity.name.clone(), warnings: loaded.warnings.clone() });
+        self.settings = Settings { layers: self.settings.layers, ..loaded.settings.clone() };
+        let original = loaded.description.sensors.clone();
+        self.current = Some(Current { source, ready: loaded, original, scene, facts });
+        self.moving = false;
+        self.picture = None;
+        self.probed = None;
+        self.flow = Flow::Run;
+        self.restart();
+    }
+
+    /// Whether there is nothing to do but wait.
+    fn is_idle(&self) -> bool {
+        if self.current.is_none() || self.refused {
+            return true;
+        }
+        let Some(render) = &self.render else { return false };
+        if render.is_small() {
+            return self.moving && render.is_good_enough_to_move();
+        }
+        match self.flow {
+            Flow::Steps(left) => left == 0,
+            Flow::Run => self.stop.is_reached(render.ppm().passes(), render.elapsed(), self.last_pass),
+        }
+    }
+
+    /// One step: a start or a pass.
+    fn work(&mut self) {
+        if self.is_idle() {
+            return;
+        }
+        let Some(current) = &self.current else { return };
+        let (scene, cancel) = (Arc::clone(&current.scene), self.cancel.clone());
+        let started = match &mut self.render {
+            None => {
+                let sensors = &current.ready.description.sensors;
+                Some(Render::small(&scene, sensors, &self.settings, self.threads, &cancel))
+            }
+            Some(render) if render.is_small() && !self.moving && render.ppm().passes() > 0 => {
+                self.publish(true);
+                if let Some(message) = self.beyond_memory(&scene) {
+                    self.refuse(message);
+                    return;
+                }
+                Some(Render::whole(&scene, &self.settings, self.threads, &cancel))
+            }
+            Some(_) => None,
+        };
+        match started {
+            Some(Ok(render)) => {
+                self.render = Some(render);
+                self.unseen = true;
+            }
+            Some(Err(StartError::Cancelled(_))) => return,
+            Some(Err(error)) => return self.refuse(error.to_string()),
+            None => {}
+        }
+        self.advance(&cancel);
+    }
+
+    fn advance(&mut self, cancel: &Cancel) {
+        let Some(render) = &mut self.render else { return };
+        let Ok(took) = render.advance(cancel) else { return };
+        self.unseen = true;
+        if render.is_small() {
+            return;
+        }
+        self.last_pass = took;
+        if let Flow::Steps(left) = &mut self.flow {
+            *left = left.saturating_sub(1);
+        }
+        let due = render.ppm().passes().is_power_of_two();
+        if let Some(folder) = self.auto_snapshots.clone().filter(|_| due) {
+            self.auto_snapshot(&folder);
+        }
+    }
+
+    fn refuse(&mut self, message: String) {
+        self.refused = true;
+        self.event(Event::Failed(message));
+    }
+
+    fn beyond_memory(&self, scene: &Scene) -> Option<String> {
+        let limit = self.setup.memory_limit?;
+        let estimate = Session::estimate_memory(scene, &self.settings);
+        (estimate.peak_bytes() > limit).then(|| {
+            format!(
+                "this render needs about {estimate}; {:.0} MiB may be used. Fewer eye samples or photons a pass need less",
+                limit / f64::from(1 << 20)
+            )
+        })
+    }
+
+    /// The whole render, once it has a pass.
+    fn rendered(&self) -> Option<(&Render, &Current)> {
+        let render = self.render.as_ref().filter(|r| !r.is_small() && r.ppm().passes() > 0)?;
+        Some((render, self.current.as_ref()?))
+    }
+
+    fn snapshot(&self, folder: &Path) {
+        if self.rendered().is_none() {
+            return self.event(Event::Failed("there is no pass to save yet".to_owned()));
+        }
+        self.write(&snapshot::next_free(folder));
+    }
+
+    fn auto_snapshot(&self, folder: &Path) {
+        let Some((render, current)) = self.rendered() else { return };
+        let stem = Path::new(&current.ready.identity.name).file_stem().unwrap_or_default().to_owned();
+        self.write(&snapshot::numbered(&folder.join(stem).with_extension("exr"), render.ppm().passes()).with_extension(""));
+    }
+
+    /// Writes both pictures of a stem.
+    fn write(&self, stem: &Path) {
+        let Some((render, current)) = self.rendered() else { return };
+        let mut written = Vec::new();
+        for (extension, format) in [("exr", Format::Exr), ("png", Format::Png)] {
+            let path = stem.with_extension(extension);
+            let result = check_writable(&path)
+                .and_then(|()| snapshot::write(&path, format, render.ppm(), &[], &current.ready.identity));
+            match result {
+                Ok(()) => written.push(path),
+                Err(error) => self.event(Event::Failed(error.to_string())),
+            }
+        }
+        if !written.is_empty() {
+            self.event(Event::Saved(written));
+        }
+    }
+
+    fn save_scene(&self, path: &Path) {
+        let Some(current) = &self.current else {
+            return self.event(Event::Failed("there is no scene to save".to_owned()));
+        };
+        match self.setup.loader.save(&current.source, &current.ready.description, path) {
+            Ok(note) => {
+                self.event(Event::Saved(vec![path.to_owned()]));
+                if !note.is_empty() {
+                    self.event(Event::Notice(note));
+                }
+            }
+            Err(message) => self.event(Event::Failed(message)),
+        }
+    }
+
+    fn activity(&self) -> Activity {
+        let Some(render) = &self.render else {
+            return if self.current.is_none() { Activity::Empty } else { Activity::Collecting };
+        };
+        match self.flow {
+            _ if self.moving => Activity::Moving,
+            _ if render.is_small() => Activity::Collecting,
+            Flow::Steps(0) => Activity::Paused,
+            Flow::Run if self.is_idle() => Activity::Done,
+            _ => Activity::Rendering,
+        }
+    }
+
+    /// Offers a frame if there is something new: at once if `now`, else not too soon after the last.
+    fn publish(&mut self, now: bool) {
+        if !self.unseen || (!now && self.last_frame.elapsed() < FRAME_GAP) {
+            return;
+        }
+        let activity = self.activity();
+        let mut numbers = Numbers::default();
+        let mut dots = Arc::default();
+        let mut probed = None;
+        if let Some(render) = self.render.as_mut().filter(|r| r.ppm().passes() > 0) {
+            self.picture = Some(render.picture(self.shown));
+            numbers = render.numbers();
+            if !render.is_small() {
+                if self.show_photons {
+                    dots = Arc::new(probe::dots(render.ppm()));
+                }
+                probed = self.probed.and_then(|pixel| probe::probe(render.ppm(), pixel));
+            }
+        }
+        let facts = self.current.as_ref().map(|c| Arc::clone(&c.facts)).unwrap_or_default();
+        self.frames += 1;
+        self.channels.frames.send(Frame {
+            number: self.frames,
+            render: self.render_number,
+            activity,
+            opening: self.opening.as_ref().map(|o| o.name.clone()),
+            size: facts.sensors.get(self.settings.sensor).map_or([0, 0], |s| s.size),
+            picture: self.picture.clone(),
+            shown: self.shown,
+            numbers,
+            settings: self.settings.clone(),
+            threads: self.threads,
+            stop: self.stop,
+            scene: facts,
+            dots,
+            probe: probed,
+        });
+        self.unseen = false;
+        self.last_frame = Instant::now();
+        (self.setup.wake)();
+    }
+}
