@@ -27,7 +27,7 @@ use crate::hash::Fnv1a;
 use crate::integrator::Suggested;
 use crate::meshes::{self, Format, Wanted};
 use crate::obj::{Obj, Problem};
-use crate::{Opened, Options, ReadFile, mtl, ply, stl};
+use crate::{Opened, Options, ReadFile, SceneNodes, mtl, ply, stl};
 
 /// Field of view along the shorter side of the image.
 const FOV_DEGREES: f64 = 45.0;
@@ -113,11 +113,14 @@ pub(crate) fn open(
     // There is no XML to keep; an empty scene stands for it, and its root for every shape.
     let document = Document::parse("<scene version=\"3.0.0\"/>")
         .map_err(|(place, message)| Report::new(&name, Path::new("")).fail(place, message))?;
-    let shape_nodes = vec![document.root(); description.shapes.len()];
+    let shapes = vec![document.root(); description.shapes.len()];
+    let nodes = SceneNodes { shapes, ..SceneNodes::default() };
     Ok(Opened {
         description,
         document,
-        shape_nodes,
+        nodes,
+        path: None,
+        options: options.clone(),
         suggested: Suggested::default(),
         warnings,
         source_hash: hash.finish(),

@@ -70,6 +70,8 @@ fn errors_by_line(diagnostics: &[Diagnostic]) -> String {
 struct Source {
     /// As the caller or the scene named it.
     file: String,
+    /// Where it is.
+    folder: PathBuf,
     /// Where the files that it names are looked for, the best place first.
     folders: Vec<PathBuf>,
     /// How many lines come before it: lines of included files are counted on behind those of all files before.
@@ -88,7 +90,8 @@ impl Report {
     /// For a scene called `file`, which looks for files in `folder`.
     pub(crate) fn new(file: &str, folder: &Path) -> Self {
         let folders = vec![folder.to_owned()];
-        let main = Source { file: file.to_owned(), folders, lines_before: 0, lines: 0 };
+        let main =
+            Source { file: file.to_owned(), folder: folder.to_owned(), folders, lines_before: 0, lines: 0 };
         Self { sources: vec![main], diagnostics: Vec::new() }
     }
 
@@ -102,7 +105,8 @@ impl Report {
         let lines_before = self.sources.last().map_or(0, |s| s.lines_before.saturating_add(s.lines));
         let mut folders = self.folders(place).to_vec();
         folders.insert(0, folder.to_owned());
-        self.sources.push(Source { file: file.to_owned(), folders, lines_before, lines: lines(text) });
+        let (file, folder) = (file.to_owned(), folder.to_owned());
+        self.sources.push(Source { file, folder, folders, lines_before, lines: lines(text) });
         lines_before
     }
 
@@ -111,9 +115,10 @@ impl Report {
         &self.source(place).folders
     }
 
-    /// Looks in `folder` before all others, for files named in the file of `place`.
-    pub(crate) fn look_in(&mut self, folder: PathBuf, place: Place) {
+    /// Looks in `folder` before all others, for files named in the file of `place`; from that file's own folder, as Mitsuba 3.
+    pub(crate) fn look_in(&mut self, folder: &str, place: Place) {
         let index = self.source_index(place);
+        let folder = self.sources[index].folder.join(folder);
         self.sources[index].folders.insert(0, folder);
     }
 

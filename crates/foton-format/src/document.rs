@@ -164,8 +164,18 @@ impl Document {
         })
     }
 
-    pub(crate) fn node_mut(&mut self, id: NodeId) -> Option<&mut Node> {
-        self.nodes.get_mut(id.0 as usize)
+    pub(crate) fn element_mut(&mut self, id: NodeId) -> Option<&mut Element> {
+        match self.nodes.get_mut(id.0 as usize) {
+            Some(Node::Element(element)) => Some(element),
+            _ => None,
+        }
+    }
+
+    /// Adds a node in no element; `None` if there are too many.
+    pub(crate) fn push(&mut self, node: Node) -> Option<NodeId> {
+        let id = NodeId(u32::try_from(self.nodes.len()).ok()?);
+        self.nodes.push(node);
+        Some(id)
     }
 
     /// Adds the nodes of another document behind all others, in no element, their lines counted on from

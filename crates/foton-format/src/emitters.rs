@@ -30,6 +30,7 @@ impl Reader<'_> {
         p.finish(&mut self.report);
         if let Some(kind) = kind {
             let name = self.name(element, plugin, self.description.emitters.len() + 1);
+            self.nodes.emitters.push(node);
             self.description.emitters.push(EmitterDescription { name, kind });
         }
     }

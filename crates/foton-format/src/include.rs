@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::diagnostic::{Place, Report};
-use crate::document::{Document, Element, Node, NodeId};
+use crate::document::{Document, Element, NodeId};
 use crate::files::Files;
 use crate::properties::{check_attributes, parse_attribute};
 use crate::substitute::Parameters;
@@ -105,8 +105,7 @@ impl Walk<'_, '_> {
         } else if check_attributes(element, &["value"], &[], self.report)
             && let Some(value) = element.attribute("value").filter(|v| !v.broken)
         {
-            let folder = Files::key(&value.value, element.place, self.report);
-            self.report.look_in(folder, element.place);
+            self.report.look_in(&value.value, element.place);
         }
     }
 
@@ -185,14 +184,5 @@ impl Walk<'_, '_> {
             return None;
         }
         Some((root, is_old(element, self.report)))
-    }
-}
-
-impl Document {
-    fn element_mut(&mut self, id: NodeId) -> Option<&mut Element> {
-        match self.node_mut(id) {
-            Some(Node::Element(element)) => Some(element),
-            _ => None,
-        }
     }
 }

@@ -37,6 +37,7 @@ mod obj;
 mod ply;
 mod properties;
 mod reader;
+mod save;
 mod sensor;
 mod serialized;
 mod shapes;
@@ -50,13 +51,14 @@ mod values;
 mod write;
 
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use foton_scene::description::SceneDescription;
 
 pub use diagnostic::{Diagnostic, OpenError, Place, Severity};
 pub use document::{Attribute, Document, Element, MAX_DEPTH, Node, NodeId};
 pub use integrator::Suggested;
+pub use save::{Saved, save_edited};
 pub use write::write_scene;
 
 use diagnostic::Report;
@@ -81,14 +83,31 @@ pub struct Opened {
     pub description: SceneDescription,
     /// The file's tree as it was written, before parameters were replaced.
     pub document: Document,
-    /// The element of each shape of the description, in its order; for those of another file its `<include>`.
-    pub shape_nodes: Vec<NodeId>,
+    /// Where in the document things stand.
+    pub nodes: SceneNodes,
+    /// The scene file; `None` for a scene from memory and for a mesh file.
+    pub path: Option<PathBuf>,
+    /// How it was read.
+    pub options: Options,
     /// Settings that the file asks for.
     pub suggested: Suggested,
     /// What the file says without effect.
     pub warnings: Vec<Diagnostic>,
     /// Hash of the contents of the file and of those it names, and of the defines. The same on every platform.
     pub source_hash: u64,
+}
+
+/// The elements that stand for what is in a description, in its order; for those of another file its `<include>`.
+#[derive(Clone, Debug, Default)]
+pub struct SceneNodes {
+    /// Of the sensors.
+    pub sensors: Vec<NodeId>,
+    /// Of the materials; `None` for those of shapes that name none.
+    pub materials: Vec<Option<NodeId>>,
+    /// Of the shapes.
+    pub shapes: Vec<NodeId>,
+    /// Of the emitters that are not surfaces.
+    pub emitters: Vec<NodeId>,
 }
 
 /// Opens a scene file; the files that it names are found from its folder. An OBJ, PLY or STL file is a whole scene: what
@@ -113,7 +132,8 @@ pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
         }
         Err(error) => return Err(report.fail(Place::default(), format!("cannot be read: {error}"))),
     };
-    read(report, &text, &|file| std::fs::read(file), options)
+    let opened = read(report, &text, &|file| std::fs::read(file), options)?;
+    Ok(Opened { path: Some(path.to_owned()), ..opened })
 }
 
 /// Reads a scene from memory. `name` stands in messages; `files` is asked for other files by the names in the
@@ -136,11 +156,15 @@ fn read(mut report: Report, xml: &str, files: &ReadFile<'_>, options: &Options) 
     let expanded = include::expand(&document, &options.defines, &mut files, &mut report);
     let mut reader = Reader::new(&expanded.document, files, report);
     reader.scene();
-    let Reader { report, files, description, shape_nodes, suggested, .. } = reader;
+    let Reader { report, files, description, mut nodes, suggested, .. } = reader;
     let warnings = report.finish()?;
     let source_hash = source_hash(xml, options, files.hash);
-    let shape_nodes = shape_nodes.into_iter().map(|node| expanded.origin(node)).collect();
-    Ok(Opened { description, document, shape_nodes, suggested, warnings, source_hash })
+    let required = [&mut nodes.sensors, &mut nodes.shapes, &mut nodes.emitters].into_iter().flatten();
+    for node in required.chain(nodes.materials.iter_mut().flatten()) {
+        *node = expanded.origin(*node);
+    }
+    let options = options.clone();
+    Ok(Opened { description, document, nodes, path: None, options, suggested, warnings, source_hash })
 }
 
 fn source_hash(xml: &str, options: &Options, files: Fnv1a) -> u64 {

@@ -47,6 +47,7 @@ impl Reader<'_> {
         let index = self.description.materials.len();
         let kind = element.attribute("type").map_or("bsdf", |t| &t.value);
         let name = self.name(element, kind, index + 1);
+        self.nodes.materials.push(Some(node));
         self.description.materials.push(Material { name, front, back, opacity });
         self.materials.indices.insert(node, index);
         Some(index)
@@ -62,6 +63,7 @@ impl Reader<'_> {
         let (name, reflectance) =
             if emits { ("default-black", Rgb::BLACK) } else { ("default-grey", Rgb::splat(0.5)) };
         let front = Bsdf::Diffuse { reflectance: reflectance.into() };
+        self.nodes.materials.push(None);
         self.description.materials.push(Material { name: name.to_owned(), front, back: None, opacity: None });
         self.materials.defaults[slot] = Some(index);
         index

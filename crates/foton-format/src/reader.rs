@@ -15,7 +15,7 @@ use crate::meshes::Meshes;
 use crate::names::{Plugins, did_you_mean};
 use crate::properties::{Properties, check_attributes, parse_attribute};
 use crate::textures::Textures;
-use crate::values;
+use crate::{SceneNodes, values};
 
 /// What is known while a scene is read.
 pub(crate) struct Reader<'a> {
@@ -29,7 +29,7 @@ pub(crate) struct Reader<'a> {
     pub(crate) materials: Materials,
     pub(crate) description: SceneDescription,
     pub(crate) suggested: Suggested,
-    pub(crate) shape_nodes: Vec<NodeId>,
+    pub(crate) nodes: SceneNodes,
     /// Area emitters of the scene itself, and whether a shape refers to them.
     pub(crate) loose_areas: HashMap<NodeId, bool>,
 }
@@ -48,7 +48,7 @@ impl<'a> Reader<'a> {
             materials: Materials::default(),
             description: SceneDescription::default(),
             suggested: Suggested::default(),
-            shape_nodes: Vec::new(),
+            nodes: SceneNodes::default(),
             loose_areas: HashMap::new(),
         }
     }

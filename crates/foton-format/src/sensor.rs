@@ -44,6 +44,7 @@ impl Reader<'_> {
             None if number == 1 => "sensor".to_owned(),
             _ => self.name(element, "sensor", number),
         };
+        self.nodes.sensors.push(node);
         self.description.sensors.push(SensorDescription {
             name,
             to_world: transform.map_or(DAffine3::IDENTITY, |t| t.value),

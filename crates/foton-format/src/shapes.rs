@@ -50,7 +50,7 @@ impl Reader<'_> {
         let Some((geometry, material)) = geometry.zip(material) else { return };
         let flip_normals = flip != (mirrored && is_turned_inside_out(plugin, &geometry));
         let name = self.name(element, "shape", self.description.shapes.len() + 1);
-        self.shape_nodes.push(node);
+        self.nodes.shapes.push(node);
         self.description.shapes.push(ShapeDescription {
             name,
             geometry,

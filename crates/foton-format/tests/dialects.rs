@@ -108,7 +108,7 @@ fn included_files_stand_where_they_are_named() {
     };
     assert_eq!((shapes.len(), radius(1), radius(3)), (4, 2.0, 2.0));
     let tags: Vec<_> =
-        opened.shape_nodes.iter().map(|n| opened.document.element(*n).unwrap().name.as_str()).collect();
+        opened.nodes.shapes.iter().map(|n| opened.document.element(*n).unwrap().name.as_str()).collect();
     assert_eq!(tags, ["shape", "include", "include", "shape"]);
 }
 

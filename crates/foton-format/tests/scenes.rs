@@ -124,7 +124,7 @@ fn shapes_keep_their_names_elements_and_flags() {
     assert_eq!((centre, radius), (DVec3::new(1.0, 2.0, 3.0), 4.0));
     assert!(matches!(shapes[1].geometry, Geometry::Disc));
     assert_eq!(mesh(&shapes[2].geometry).triangles.len(), 2);
-    let types = opened.shape_nodes.iter().filter_map(|&n| opened.document.element(n)?.attribute("type"));
+    let types = opened.nodes.shapes.iter().filter_map(|&n| opened.document.element(n)?.attribute("type"));
     assert_eq!(types.map(|t| t.value.as_str()).collect::<Vec<_>>(), ["sphere", "disk", "rectangle"]);
 }
 
@@ -254,7 +254,7 @@ fn the_tree_keeps_what_the_scene_does_not_use() {
     let opened = read(snippet);
     let root = opened.document.element(opened.document.root()).unwrap();
     assert_eq!(opened.document.node(root.children[1]), &Node::Comment(" kept ".to_owned()));
-    let (_, radius) = opened.document.elements_in(opened.shape_nodes[0]).next().unwrap();
+    let (_, radius) = opened.document.elements_in(opened.nodes.shapes[0]).next().unwrap();
     assert_eq!(radius.attribute("value").unwrap().value, "$r", "parameters stay");
 }
 
@@ -289,7 +289,7 @@ fn shared_scenes_open() {
         }
         let opened = open(&path, &Options::default()).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(opened.warnings, [], "{name}");
-        assert_eq!((opened.description.shapes.len(), opened.shape_nodes.len()), (shapes, shapes), "{name}");
+        assert_eq!((opened.description.shapes.len(), opened.nodes.shapes.len()), (shapes, shapes), "{name}");
         let count = opened.description.shapes.iter().map(|s| match &s.geometry {
             Geometry::Mesh(mesh) => mesh.triangles.len(),
             _ => 0,

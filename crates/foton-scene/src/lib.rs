@@ -12,6 +12,7 @@ mod discrete;
 mod emitter;
 mod environment;
 mod filter;
+pub mod metals;
 mod normalise;
 mod primitive;
 mod scene;

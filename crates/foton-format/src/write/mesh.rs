@@ -6,7 +6,7 @@ use foton_math::glam::{DVec2, DVec3};
 use foton_scene::description::Mesh;
 
 /// Whether two meshes are the same, number by number.
-pub(super) fn same(a: &Mesh, b: &Mesh) -> bool {
+pub(crate) fn same(a: &Mesh, b: &Mesh) -> bool {
     a.triangles == b.triangles
         && a.positions == b.positions
         && a.normals == b.normals
@@ -14,7 +14,7 @@ pub(super) fn same(a: &Mesh, b: &Mesh) -> bool {
 }
 
 /// Writes a mesh.
-pub(super) fn write_ply(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
+pub(crate) fn write_ply(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     let Mesh { positions, normals, texture_coordinates, triangles } = mesh;
     let is_narrow = positions.iter().chain(normals).all(|v| v.to_array().into_iter().all(is_single))
         && texture_coordinates.iter().all(|v| v.to_array().into_iter().all(is_single));

@@ -4,9 +4,9 @@
 //! shortest that read back to the same bits. What the description does not hold (samplers, integrators by name) is
 //! written as parameters with defaults, so that the file serves both programs. Nothing is validated here.
 
-mod mesh;
-mod surfaces;
-mod xml;
+pub(crate) mod mesh;
+pub(crate) mod surfaces;
+pub(crate) mod xml;
 
 use std::collections::{HashMap, HashSet};
 use std::fs;
@@ -17,7 +17,7 @@ use std::sync::Arc;
 use foton_film::{Image, Metadata, WriteError, atomic_write, write_exr};
 use foton_math::glam::DAffine3;
 use foton_scene::description::{
-    Bitmap, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Mesh, SceneDescription,
+    Bitmap, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
     SensorDescription, ShapeDescription,
 };
 
@@ -40,21 +40,19 @@ const TEXTURES: &str = "textures";
 /// If an index in the description refers to nothing.
 pub fn write_scene(description: &SceneDescription, path: &Path) -> Result<(), WriteError> {
     let stem = path.file_stem().map_or_else(|| "scene".to_owned(), |s| file_name(&s.to_string_lossy()));
-    let mut writer = Writer {
-        description,
-        folder: path.parent().unwrap_or(Path::new("")).to_owned(),
-        stem,
-        xml: Xml::new(),
-        ids: HashSet::new(),
-        files: HashSet::new(),
-        meshes: HashMap::new(),
-        bitmaps: HashMap::new(),
-        texture_ids: Vec::new(),
-        material_ids: Vec::new(),
-    };
+    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    let mut writer = Writer::new(description, folder, stem);
     writer.scene()?;
     let text = writer.xml.finish();
     atomic_write(path, |file| file.write_all(text.as_bytes()))
+}
+
+/// A material without textures as its `<bsdf>` element.
+pub(crate) fn material_xml(material: &Material) -> String {
+    let description = SceneDescription::default();
+    let mut writer = Writer::new(&description, PathBuf::new(), String::new());
+    writer.material(material);
+    writer.xml.finish()
 }
 
 struct Writer<'a> {
@@ -74,7 +72,22 @@ struct Writer<'a> {
     material_ids: Vec<String>,
 }
 
-impl Writer<'_> {
+impl<'a> Writer<'a> {
+    fn new(description: &'a SceneDescription, folder: PathBuf, stem: String) -> Self {
+        Self {
+            description,
+            folder,
+            stem,
+            xml: Xml::new(),
+            ids: HashSet::new(),
+            files: HashSet::new(),
+            meshes: HashMap::new(),
+            bitmaps: HashMap::new(),
+            texture_ids: Vec::new(),
+            material_ids: Vec::new(),
+        }
+    }
+
     fn scene(&mut self) -> Result<(), WriteError> {
         self.xml.open("scene", &[("version", "3.0.0")]);
         self.xml.leaf("default", &[("name", "integrator"), ("value", "path")]);

@@ -160,7 +160,7 @@ impl Writer<'_> {
     }
 }
 
-fn plugin(bsdf: &Bsdf) -> &'static str {
+pub(crate) fn plugin(bsdf: &Bsdf) -> &'static str {
     match bsdf {
         Bsdf::Diffuse { .. } => "diffuse",
         Bsdf::Dielectric { roughness: None, .. } => "dielectric",
@@ -180,7 +180,7 @@ fn is_transmitting(bsdf: &Bsdf) -> bool {
 }
 
 /// The mean channel; the channel itself where all are the same.
-fn mean(c: Rgb) -> f32 {
+pub(crate) fn mean(c: Rgb) -> f32 {
     if c.r == c.g && c.g == c.b { c.r } else { c.mean() }
 }
 

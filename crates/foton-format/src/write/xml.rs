@@ -70,13 +70,8 @@ impl Xml {
         if *transform == DAffine3::IDENTITY {
             return;
         }
-        let rows = transform.matrix3.transpose();
-        let row = |axis: DVec3, shift: f64| format!("{} {}", vector(axis), number(shift));
-        let t = transform.translation;
-        let value =
-            [row(rows.x_axis, t.x), row(rows.y_axis, t.y), row(rows.z_axis, t.z), "0 0 0 1".to_owned()];
         self.open("transform", &[("name", name)]);
-        self.leaf("matrix", &[("value", &value.join("  "))]);
+        self.leaf("matrix", &[("value", &matrix(transform))]);
         self.close("transform");
     }
 }
@@ -99,14 +94,14 @@ fn escaped(value: &str, is_name: bool) -> String {
 }
 
 /// The shortest text that reads back to the same number.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 || (1e-5..1e15).contains(&size) { value.to_string() } else { format!("{value:e}") }
 }
 
 /// The shortest text that reads back to the same number, also by way of double precision.
 #[allow(clippy::cast_possible_truncation, reason = "it is what a reader of double precision does")]
-pub(super) fn single(value: f32) -> String {
+pub(crate) fn single(value: f32) -> String {
     let size = value.abs();
     let short =
         if size == 0.0 || (1e-5..1e9).contains(&size) { value.to_string() } else { format!("{value:e}") };
@@ -114,13 +109,21 @@ pub(super) fn single(value: f32) -> String {
     if back == Ok(value) { short } else { number(f64::from(value)) }
 }
 
+/// The rows of a transform.
+pub(crate) fn matrix(transform: &DAffine3) -> String {
+    let rows = transform.matrix3.transpose();
+    let row = |axis: DVec3, shift: f64| format!("{} {}", vector(axis), number(shift));
+    let t = transform.translation;
+    [row(rows.x_axis, t.x), row(rows.y_axis, t.y), row(rows.z_axis, t.z), "0 0 0 1".to_owned()].join("  ")
+}
+
 /// Three numbers.
-pub(super) fn vector(v: DVec3) -> String {
+pub(crate) fn vector(v: DVec3) -> String {
     v.to_array().map(number).join(" ")
 }
 
 /// Three numbers of single precision.
-pub(super) fn colour(c: Rgb) -> String {
+pub(crate) fn colour(c: Rgb) -> String {
     c.to_array().map(single).join(" ")
 }
 

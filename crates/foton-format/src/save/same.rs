@@ -1,0 +1,136 @@
+//! Whether two descriptions are of one scene: names, and the order of materials and textures, do not count.
+
+use std::sync::Arc;
+
+use foton_math::Rgb;
+use foton_math::glam::DVec3;
+use foton_scene::description::{
+    Bitmap, Bsdf, Colour, EmitterKind, Geometry, Mesh, SceneDescription, SensorDescription, Texture,
+    TextureKind,
+};
+
+/// How far normals that were made again under another scale may lie from the first ones.
+const NORMALS: f64 = 1e-9;
+
+/// The first thing that differs, in words; `None` if nothing does.
+pub(super) fn difference(a: &SceneDescription, b: &SceneDescription) -> Option<String> {
+    if a.max_depth != b.max_depth {
+        return Some("its longest path".to_owned());
+    }
+    let counts = |d: &SceneDescription| (d.sensors.len(), d.shapes.len(), d.emitters.len());
+    if counts(a) != counts(b) {
+        return Some("how many things it has".to_owned());
+    }
+    if let Some((a, _)) = a.sensors.iter().zip(&b.sensors).find(|(a, b)| !same_sensor(a, b)) {
+        return Some(format!("sensor \"{}\"", a.name));
+    }
+    if let Some((a, _)) = a.emitters.iter().zip(&b.emitters).find(|(a, b)| !same_emitter(&a.kind, &b.kind)) {
+        return Some(format!("emitter \"{}\"", a.name));
+    }
+    for (x, y) in a.shapes.iter().zip(&b.shapes) {
+        let placed = (x.to_world, x.flip_normals, x.radiance) == (y.to_world, y.flip_normals, y.radiance);
+        if !placed || !same_geometry(&x.geometry, &y.geometry) {
+            return Some(format!("shape \"{}\"", x.name));
+        }
+        if !same_material((a, x.material), (b, y.material)) {
+            return Some(format!("the material of shape \"{}\"", x.name));
+        }
+    }
+    None
+}
+
+pub(super) fn same_sensor(a: &SensorDescription, b: &SensorDescription) -> bool {
+    let film = |s: &SensorDescription| (s.width, s.height, s.filter, s.near_clip, s.far_clip);
+    (a.to_world, a.fov_degrees, a.fov_axis) == (b.to_world, b.fov_degrees, b.fov_axis) && film(a) == film(b)
+}
+
+pub(super) fn same_emitter(a: &EmitterKind, b: &EmitterKind) -> bool {
+    use EmitterKind::{Environment, Point, Spot};
+    match (a, b) {
+        (
+            Environment { to_world: m, bitmap: x, scale: s },
+            Environment { to_world: n, bitmap: y, scale: t },
+        ) => m == n && s == t && same_bitmap(x, y),
+        (Spot { to_world: m, .. }, Spot { to_world: n, .. }) if m != n => false,
+        (Point { position: p, .. }, Point { position: q, .. }) if p != q => false,
+        // Numbers print with all their digits.
+        _ => format!("{a:?}") == format!("{b:?}"),
+    }
+}
+
+fn same_geometry(a: &Geometry, b: &Geometry) -> bool {
+    match (a, b) {
+        (Geometry::Mesh(a), Geometry::Mesh(b)) => Arc::ptr_eq(a, b) || same_mesh(a, b),
+        (Geometry::Sphere { centre: c, radius: r }, Geometry::Sphere { centre: d, radius: s }) => {
+            (c, r) == (d, s)
+        }
+        (Geometry::Disc, Geometry::Disc) => true,
+        (
+            Geometry::Cylinder { from: a, to: b, radius: r },
+            Geometry::Cylinder { from: c, to: d, radius: s },
+        ) => (a, b, r) == (c, d, s),
+        _ => false,
+    }
+}
+
+fn same_mesh(a: &Mesh, b: &Mesh) -> bool {
+    let near = |(a, b): (&DVec3, &DVec3)| a.distance(*b) <= NORMALS;
+    a.triangles == b.triangles
+        && a.positions == b.positions
+        && a.texture_coordinates == b.texture_coordinates
+        && a.normals.len() == b.normals.len()
+        && a.normals.iter().zip(&b.normals).all(near)
+}
+
+type MaterialOf<'a> = (&'a SceneDescription, usize);
+
+fn same_material((a, i): MaterialOf<'_>, (b, j): MaterialOf<'_>) -> bool {
+    let (Some(x), Some(y)) = (a.materials.get(i), b.materials.get(j)) else { return false };
+    let white = Colour::Constant(Rgb::WHITE);
+    let opacities = [x.opacity.unwrap_or(white), y.opacity.unwrap_or(white)];
+    let sides = [(Some(x.front), Some(y.front)), (x.back, y.back)];
+    same_colour((a, opacities[0]), (b, opacities[1]))
+        && sides.iter().all(|(x, y)| match (x, y) {
+            (Some(x), Some(y)) => same_bsdf((a, x), (b, y)),
+            (x, y) => x.is_none() && y.is_none(),
+        })
+}
+
+fn same_bsdf((a, x): (&SceneDescription, &Bsdf), (b, y): (&SceneDescription, &Bsdf)) -> bool {
+    let colours = |bsdf: &Bsdf| {
+        let mut colours = Vec::new();
+        let rest = bsdf.map(|c| {
+            colours.push(c);
+            Rgb::BLACK
+        });
+        (colours, rest)
+    };
+    let ((of_x, x), (of_y, y)) = (colours(x), colours(y));
+    x == y && of_x.len() == of_y.len() && of_x.iter().zip(&of_y).all(|(x, y)| same_colour((a, *x), (b, *y)))
+}
+
+fn same_colour((a, x): (&SceneDescription, Colour), (b, y): (&SceneDescription, Colour)) -> bool {
+    match (x, y) {
+        (Colour::Constant(x), Colour::Constant(y)) => x == y,
+        (Colour::Texture(x), Colour::Texture(y)) => {
+            a.textures.get(x).zip(b.textures.get(y)).is_some_and(|(x, y)| same_texture(x, y))
+        }
+        _ => false,
+    }
+}
+
+fn same_texture(a: &Texture, b: &Texture) -> bool {
+    let kind = match (&a.kind, &b.kind) {
+        (TextureKind::Checkerboard { colours: x }, TextureKind::Checkerboard { colours: y }) => x == y,
+        (
+            TextureKind::Bitmap { bitmap: x, wrap: v, bilinear: s },
+            TextureKind::Bitmap { bitmap: y, wrap: w, bilinear: t },
+        ) => (v, s) == (w, t) && same_bitmap(x, y),
+        _ => false,
+    };
+    kind && a.to_uv == b.to_uv
+}
+
+fn same_bitmap(a: &Arc<Bitmap>, b: &Arc<Bitmap>) -> bool {
+    Arc::ptr_eq(a, b) || (a.width, a.height, &a.pixels) == (b.width, b.height, &b.pixels)
+}

@@ -1,0 +1,178 @@
+//! What an inspector shows and sets: plain values with names, units, ranges and help.
+
+/// A number, colour, choice or switch of a shape, its material, or a light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FieldId {
+    /// Position along a world axis, 0 to 2.
+    Position(u8),
+    /// The longest side of the bounds.
+    Size,
+    /// Of a sphere or disc.
+    Radius,
+    /// Where light comes from, around the up axis.
+    Azimuth,
+    /// Where light comes from, above the horizon.
+    Elevation,
+    /// A light's brightest channel.
+    Brightness,
+    /// A light's colour, its brightest channel 1.
+    LightColour,
+    /// A light's power over all directions.
+    Power,
+    /// Half angle of a spot's cone.
+    Cutoff,
+    /// Half angle of the cone in which a spot is brightest.
+    Beam,
+    /// Of a material.
+    Opacity,
+    /// Of a material's side.
+    Material(Side, Property),
+}
+
+/// A side of a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Side {
+    /// The side that the normal points to, and the other one if it is of the same kind.
+    Front,
+    /// The other side, where it differs.
+    Back,
+}
+
+/// A property of a material's side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Property {
+    /// What kind of material it is.
+    Kind,
+    /// Its colour, or that of the base under a coat.
+    Colour,
+    /// Factor on reflected light.
+    Reflections,
+    /// Factor on transmitted light.
+    Transmission,
+    /// Index of refraction inside.
+    InsideIor,
+    /// Index of refraction outside.
+    OutsideIor,
+    /// Whether it is rough.
+    Rough,
+    /// Roughness in all directions.
+    Roughness,
+    /// Roughness along u.
+    RoughnessU,
+    /// Roughness along v.
+    RoughnessV,
+    /// How microfacets are distributed.
+    Distribution,
+    /// A metal by name.
+    Metal,
+    /// A channel of a metal's index of refraction, 0 to 2.
+    Eta(u8),
+    /// A channel of a metal's extinction, 0 to 2.
+    K(u8),
+    /// Whether a coated base's colour deepens with each reflection inside.
+    Nonlinear,
+}
+
+/// A field's value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// In the field's unit.
+    Number(f64),
+    /// Linear red, green and blue from 0 to 1.
+    Colour([f32; 3]),
+    /// Index into the options.
+    Choice(usize),
+    /// On or off.
+    Toggle(bool),
+}
+
+/// Which values a field takes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Control {
+    /// Numbers in a range.
+    Number {
+        /// The least one.
+        min: f64,
+        /// The largest one.
+        max: f64,
+        /// Whether a slider moves by factors.
+        logarithmic: bool,
+    },
+    /// Colours.
+    Colour,
+    /// One of these.
+    Choice(Vec<String>),
+    /// On or off.
+    Toggle,
+}
+
+/// A field as the inspector shows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// Which one it is.
+    pub id: FieldId,
+    /// Its name.
+    pub label: &'static str,
+    /// Unit of a number; empty where it has none.
+    pub unit: &'static str,
+    /// What it does, in a sentence or two.
+    pub help: &'static str,
+    /// What it is now.
+    pub value: Value,
+    /// What it can be.
+    pub control: Control,
+}
+
+impl Field {
+    /// Whether it can take a value.
+    #[must_use]
+    pub fn accepts(&self, value: Value) -> bool {
+        match (&self.control, value) {
+            (Control::Number { min, max, .. }, Value::Number(v)) => v >= *min && v <= *max,
+            (Control::Colour, Value::Colour(c)) => c.iter().all(|x| (0.0..=1.0).contains(x)),
+            (Control::Choice(options), Value::Choice(i)) => i < options.len(),
+            (Control::Toggle, Value::Toggle(_)) => true,
+            _ => false,
+        }
+    }
+}
+
+/// Makes fields: id, label, help, and what the kind needs.
+pub(crate) struct Fields(pub(crate) Vec<Field>);
+
+impl Fields {
+    /// A number; the range grows to hold the value that is there.
+    pub(crate) fn number(
+        &mut self,
+        id: FieldId,
+        (label, unit): (&'static str, &'static str),
+        value: f64,
+        (min, max, logarithmic): (f64, f64, bool),
+        help: &'static str,
+    ) {
+        let control = Control::Number { min: min.min(value), max: max.max(value), logarithmic };
+        self.0.push(Field { id, label, unit, help, value: Value::Number(value), control });
+    }
+
+    pub(crate) fn colour(&mut self, id: FieldId, label: &'static str, value: [f32; 3], help: &'static str) {
+        let value = Value::Colour(value);
+        self.0.push(Field { id, label, unit: "", help, value, control: Control::Colour });
+    }
+
+    pub(crate) fn choice(
+        &mut self,
+        id: FieldId,
+        label: &'static str,
+        chosen: usize,
+        options: Vec<String>,
+        help: &'static str,
+    ) {
+        let (value, control) = (Value::Choice(chosen), Control::Choice(options));
+        self.0.push(Field { id, label, unit: "", help, value, control });
+    }
+
+    pub(crate) fn toggle(&mut self, id: FieldId, label: &'static str, on: bool, help: &'static str) {
+        let value = Value::Toggle(on);
+        self.0.push(Field { id, label, unit: "", help, value, control: Control::Toggle });
+    }
+}

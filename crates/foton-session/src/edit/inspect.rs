@@ -1,0 +1,105 @@
+//! What an inspector shows of a shape or light: its title, its fields, and whom an edit would touch besides.
+
+use foton_scene::description::{Geometry, SceneDescription};
+
+use super::camera::UpAxis;
+use super::field::{Field, FieldId, Fields};
+use super::{Target, geometry, light, material, pick};
+
+/// A shape or light as the inspector shows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inspection {
+    /// Its name in the scene file.
+    pub title: String,
+    /// What it is, in words.
+    pub kind: String,
+    /// A surface's material.
+    pub material: Option<MaterialUse>,
+    /// What a person should know: what is shared, and what cannot be edited.
+    pub notes: Vec<String>,
+    /// Its fields, in the order in which they are shown.
+    pub fields: Vec<Field>,
+}
+
+/// A material and who uses it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MaterialUse {
+    /// Its name.
+    pub name: String,
+    /// How many shapes have it: editing it changes them all. [`Edit::OwnMaterial`](super::Edit::OwnMaterial) parts one.
+    pub shapes: usize,
+}
+
+/// What there is to see and set of a shape or light; `None` if it is not there.
+#[must_use]
+pub fn inspect(description: &SceneDescription, target: Target) -> Option<Inspection> {
+    let mut fields = Fields(Vec::new());
+    position_fields(description, target, &mut fields);
+    let inspection = match target {
+        Target::Shape(index) => shape(description, index, fields)?,
+        Target::Emitter(index) => {
+            let emitter = description.emitters.get(index)?;
+            light::fields(&emitter.kind, up_axis(description), &mut fields);
+            Inspection {
+                title: emitter.name.clone(),
+                kind: light::kind_name(&emitter.kind).to_owned(),
+                material: None,
+                notes: Vec::new(),
+                fields: fields.0,
+            }
+        }
+    };
+    Some(inspection)
+}
+
+/// The up axis of a scene: that of its first camera.
+pub(crate) fn up_axis(description: &SceneDescription) -> UpAxis {
+    description.sensors.first().map_or(UpAxis::Y, UpAxis::guess)
+}
+
+fn position_fields(description: &SceneDescription, target: Target, fields: &mut Fields) {
+    let Some(middle) = pick::middle(description, target) else { return };
+    for (axis, label) in (0u8..).zip(["X", "Y", "Z"]) {
+        let help = "Of its middle, in the world.";
+        let value = middle[usize::from(axis)];
+        fields.number(FieldId::Position(axis), (label, "units"), value, (-1e6, 1e6, false), help);
+    }
+}
+
+fn shape(description: &SceneDescription, index: usize, mut fields: Fields) -> Option<Inspection> {
+    let shape = description.shapes.get(index)?;
+    let used = description.materials.get(shape.material)?;
+    let light = shape.radiance.is_some();
+    let help = if light {
+        "Scales it about its middle. Its power stays, so a smaller light is brighter and makes sharper caustics."
+    } else {
+        "Scales it about its middle."
+    };
+    let (id, label, size) = match geometry::radius(shape) {
+        Some(radius) => (FieldId::Radius, "Radius", radius),
+        None => (FieldId::Size, "Size", geometry::size(shape)),
+    };
+    if size > 0.0 {
+        fields.number(id, (label, "units"), size, (size * 0.01, size * 100.0, true), help);
+    }
+    light::surface_fields(shape, &mut fields);
+    let textured = material::fields(used, &mut fields);
+    let shapes = description.shapes.iter().filter(|s| s.material == shape.material).count();
+    let mut notes = Vec::new();
+    if shapes > 1 {
+        notes.push(format!("The material \"{}\" is shared by {shapes} shapes.", used.name));
+    }
+    if textured {
+        notes.push("Colours that come from textures cannot be edited here.".to_owned());
+    }
+    let surface = match shape.geometry {
+        Geometry::Mesh(_) => "mesh",
+        Geometry::Sphere { .. } => "sphere",
+        Geometry::Disc => "disc",
+        Geometry::Cylinder { .. } => "tube",
+    };
+    let made_of = material::kind_name(used);
+    let kind = if light { format!("light: {surface}") } else { format!("{made_of} {surface}") };
+    let material = Some(MaterialUse { name: used.name.clone(), shapes });
+    Some(Inspection { title: shape.name.clone(), kind, material, notes, fields: fields.0 })
+}

@@ -1,0 +1,195 @@
+//! Fields of lights: what they emit, with colour and brightness apart, and setting them.
+
+use std::f64::consts::PI;
+
+use foton_math::Rgb;
+use foton_math::glam::{DMat3, DQuat, DVec3};
+use foton_scene::description::{EmitterKind, ShapeDescription};
+
+use super::camera::UpAxis;
+use super::field::{FieldId, Fields, Value};
+use super::geometry;
+
+/// Brightnesses and powers that a slider offers.
+const RANGE: (f64, f64, bool) = (1e-4, 1e6, true);
+
+const BRIGHTNESS: &str = "Of its strongest channel. Noise and speed do not change with it.";
+const COLOUR: &str = "Linear; its strongest channel counts as 1, so that brightness stays what it is.";
+
+/// The factor from a spot's intensity to its power: ∫ over its cones, the falloff linear in the angle.
+fn spot_solid_angle(cutoff_degrees: f64, beam_degrees: f64) -> f64 {
+    let (c, b) = (cutoff_degrees.to_radians(), beam_degrees.min(cutoff_degrees).to_radians());
+    let mean_cosine = if c - b > 1e-9 { (c.sin() - b.sin()) / (c - b) } else { c.cos() };
+    2.0 * PI * (1.0 - mean_cosine)
+}
+
+fn strength(light: Rgb) -> f64 {
+    f64::from(light.max_component())
+}
+
+/// The colour with its strongest channel 1; white where there is no light.
+fn hue(light: Rgb) -> [f32; 3] {
+    let most = light.max_component();
+    if most > 0.0 && most.is_finite() {
+        light.map(|x| (x / most).clamp(0.0, 1.0)).to_array()
+    } else {
+        [1.0; 3]
+    }
+}
+
+/// Brightness, colour and power; `watts` is the power of a light of 1.
+fn emission_fields(light: Rgb, label: (&'static str, &'static str), watts: Option<f64>, out: &mut Fields) {
+    out.number(FieldId::Brightness, label, strength(light), RANGE, BRIGHTNESS);
+    out.colour(FieldId::LightColour, "Light colour", hue(light), COLOUR);
+    if let Some(watts) = watts {
+        let power = f64::from(light.mean()) * watts;
+        let help = "Over all directions, the mean of the channels: what photons share among them.";
+        out.number(FieldId::Power, ("Power", "W"), power, RANGE, help);
+    }
+}
+
+/// Sets brightness, colour or power. Light that has none gets a white one.
+fn set_emission(light: &mut Rgb, watts: Option<f64>, field: FieldId, value: Value) {
+    let bright = if light.is_black() { Rgb::WHITE } else { *light };
+    let to = |size: f64, is: f64| bright * (size / is) as f32;
+    match (field, value) {
+        (FieldId::Brightness, Value::Number(x)) => *light = to(x, strength(bright)),
+        (FieldId::Power, Value::Number(x)) => {
+            *light = to(x, f64::from(bright.mean()) * watts.unwrap_or(1.0));
+        }
+        (FieldId::LightColour, Value::Colour(c)) => {
+            let most = c.iter().copied().fold(0.0, f32::max);
+            if most > 0.0 {
+                *light = Rgb::from_array(c) * (strength(*light) as f32 / most);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Appends the fields of a shape that emits.
+pub(crate) fn surface_fields(shape: &ShapeDescription, out: &mut Fields) {
+    if let Some(radiance) = shape.radiance {
+        let watts = PI * geometry::area(shape);
+        emission_fields(radiance, ("Radiance", "W/(m²·sr)"), Some(watts), out);
+    }
+}
+
+pub(crate) fn set_surface(shape: &mut ShapeDescription, field: FieldId, value: Value) {
+    let watts = PI * geometry::area(shape);
+    if let Some(radiance) = &mut shape.radiance {
+        set_emission(radiance, Some(watts), field, value);
+    }
+}
+
+/// The factor to its power, where that is finite.
+fn watts(kind: &EmitterKind) -> Option<f64> {
+    match *kind {
+        EmitterKind::Point { .. } => Some(4.0 * PI),
+        EmitterKind::Spot { cutoff_degrees, beam_degrees, .. } => {
+            Some(spot_solid_angle(cutoff_degrees, beam_degrees))
+        }
+        _ => None,
+    }
+}
+
+/// The kind of a light in words.
+pub(crate) fn kind_name(kind: &EmitterKind) -> &'static str {
+    match kind {
+        EmitterKind::Point { .. } => "point light",
+        EmitterKind::Spot { .. } => "spot light",
+        EmitterKind::Constant { .. } => "even sky",
+        EmitterKind::Directional { .. } => "directional light",
+        EmitterKind::Environment { .. } => "environment map",
+    }
+}
+
+/// Where a light comes from, if it has a direction.
+fn origin(kind: &EmitterKind) -> Option<DVec3> {
+    let from = match kind {
+        EmitterKind::Spot { to_world, .. } => -to_world.matrix3.z_axis,
+        EmitterKind::Directional { direction, .. } => -*direction,
+        _ => return None,
+    };
+    from.try_normalize()
+}
+
+/// Appends the fields of a light without a surface, but its position.
+pub(crate) fn fields(kind: &EmitterKind, up: UpAxis, out: &mut Fields) {
+    if let Some(from) = origin(kind) {
+        let (azimuth, elevation) = up.angles(from);
+        let help = "Around the up axis, where its light comes from.";
+        let azimuth = azimuth.to_degrees();
+        out.number(FieldId::Azimuth, ("Azimuth", "°"), azimuth, (-180.0, 180.0, false), help);
+        let help = "Above the horizon, where its light comes from.";
+        let elevation = elevation.to_degrees();
+        out.number(FieldId::Elevation, ("Elevation", "°"), elevation, (-89.9, 89.9, false), help);
+    }
+    let watts = watts(kind);
+    match kind {
+        EmitterKind::Point { intensity, .. } => {
+            emission_fields(*intensity, ("Intensity", "W/sr"), watts, out);
+        }
+        EmitterKind::Spot { intensity, cutoff_degrees, beam_degrees, .. } => {
+            emission_fields(*intensity, ("Intensity", "W/sr"), watts, out);
+            let help =
+                "Half angle of the cone, beyond which there is no light. A narrow one wastes no photons.";
+            out.number(FieldId::Cutoff, ("Cone", "°"), *cutoff_degrees, (0.1, 180.0, false), help);
+            let help = "Half angle within which it is brightest; from there it fades to the cone's edge.";
+            out.number(FieldId::Beam, ("Beam", "°"), *beam_degrees, (0.0, *cutoff_degrees, false), help);
+        }
+        EmitterKind::Constant { radiance } => {
+            emission_fields(*radiance, ("Radiance", "W/(m²·sr)"), watts, out);
+        }
+        EmitterKind::Directional { irradiance, .. } => {
+            emission_fields(*irradiance, ("Irradiance", "W/m²"), watts, out);
+        }
+        EmitterKind::Environment { scale, .. } => {
+            let help = "Factor on the picture's radiance.";
+            out.number(FieldId::Brightness, ("Brightness", "×"), f64::from(*scale), RANGE, help);
+        }
+    }
+}
+
+/// Sets a field of a light without a surface; the value fits the field.
+pub(crate) fn set(kind: &mut EmitterKind, up: UpAxis, field: FieldId, value: Value) {
+    if let (FieldId::Azimuth | FieldId::Elevation, Value::Number(degrees), Some(from)) =
+        (field, value, origin(kind))
+    {
+        let (mut azimuth, mut elevation) = up.angles(from);
+        if field == FieldId::Azimuth {
+            azimuth = degrees.to_radians();
+        } else {
+            elevation = degrees.to_radians();
+        }
+        return turn(kind, -from, -up.direction(azimuth, elevation));
+    }
+    let watts = watts(kind);
+    match (kind, field, value) {
+        (EmitterKind::Spot { cutoff_degrees, beam_degrees, .. }, FieldId::Cutoff, Value::Number(x)) => {
+            *cutoff_degrees = x;
+            *beam_degrees = beam_degrees.min(x);
+        }
+        (EmitterKind::Spot { beam_degrees, .. }, FieldId::Beam, Value::Number(x)) => *beam_degrees = x,
+        (EmitterKind::Environment { scale, .. }, FieldId::Brightness, Value::Number(x)) => *scale = x as f32,
+        (
+            EmitterKind::Point { intensity: light, .. }
+            | EmitterKind::Spot { intensity: light, .. }
+            | EmitterKind::Constant { radiance: light }
+            | EmitterKind::Directional { irradiance: light, .. },
+            ..,
+        ) => set_emission(light, watts, field, value),
+        (EmitterKind::Environment { .. }, ..) => {}
+    }
+}
+
+fn turn(kind: &mut EmitterKind, was: DVec3, now: DVec3) {
+    match kind {
+        EmitterKind::Spot { to_world, .. } => {
+            let turn = DMat3::from_quat(DQuat::from_rotation_arc(was, now));
+            to_world.matrix3 = turn * to_world.matrix3;
+        }
+        EmitterKind::Directional { direction, .. } => *direction = now * direction.length(),
+        _ => {}
+    }
+}

@@ -1,0 +1,120 @@
+//! What lies under a film position: a surface, or the marker of a light without one.
+
+use foton_math::glam::{DVec2, DVec3, Vec2};
+use foton_scene::Scene;
+use foton_scene::description::{EmitterKind, SceneDescription};
+
+use super::Target;
+use super::view::View;
+
+/// How far from a light's marker a click still means it, in pixels.
+pub const MARKER_REACH: f64 = 10.0;
+
+/// What a person clicked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picked {
+    /// What it is.
+    pub target: Target,
+    /// Its name in the scene file.
+    pub name: String,
+    /// The name of its material; for a light its kind.
+    pub material: String,
+    /// Where it was met, in world units; for directional light a point in its direction.
+    pub position: [f64; 3],
+    /// From the camera, in world units.
+    pub distance: f64,
+    /// Unit normal on the outside; towards the camera for a light.
+    pub normal: [f64; 3],
+}
+
+/// The first surface through a film position in pixels, (0, 0) being the image's top left corner. Glass counts.
+#[must_use]
+pub fn pick(scene: &Scene, sensor: usize, film: [f64; 2]) -> Option<Picked> {
+    let ray = scene.sensors().get(sensor)?.ray(DVec2::from(film).as_vec2());
+    let surface = scene.nearest(ray)?;
+    let shape = &scene.shapes()[surface.shape as usize];
+    let to_world = scene.normalisation();
+    let position = to_world.world_point(surface.position);
+    Some(Picked {
+        target: Target::Shape(surface.shape as usize),
+        name: shape.name.clone(),
+        material: scene.material(surface.shape).name.clone(),
+        position: position.to_array(),
+        distance: position.distance(to_world.world_point(ray.origin)),
+        normal: surface.normal.as_dvec3().to_array(),
+    })
+}
+
+/// The light without a surface whose marker is nearest to a film position, within [`MARKER_REACH`].
+#[must_use]
+pub fn pick_light(description: &SceneDescription, sensor: usize, film: [f64; 2]) -> Option<Picked> {
+    let view = View::new(description.sensors.get(sensor)?);
+    let reach = |at: DVec2| at.distance(film.into());
+    let (index, at) = (0..description.emitters.len())
+        .filter_map(|i| Some((i, marker_position(description, i, &view)?)))
+        .filter(|(_, at)| reach(*at) <= MARKER_REACH)
+        .min_by(|a, b| reach(a.1).total_cmp(&reach(b.1)))?;
+    let emitter = &description.emitters[index];
+    let (position, material) = match &emitter.kind {
+        EmitterKind::Point { position, .. } => (*position, "point light"),
+        EmitterKind::Spot { to_world, .. } => (to_world.translation, "spot light"),
+        _ => (view.origin + view.direction(at), "directional light"),
+    };
+    let away = position - view.origin;
+    Some(Picked {
+        target: Target::Emitter(index),
+        name: emitter.name.clone(),
+        material: material.to_owned(),
+        position: position.to_array(),
+        distance: away.length(),
+        normal: (-away).normalize_or_zero().to_array(),
+    })
+}
+
+/// A light's marker if there is one here, or else the first surface.
+#[must_use]
+pub fn pick_any(
+    scene: &Scene,
+    description: &SceneDescription,
+    sensor: usize,
+    film: [f64; 2],
+) -> Option<Picked> {
+    pick_light(description, sensor, film).or_else(|| pick(scene, sensor, film))
+}
+
+/// The distance from a camera to what it looks at: the surface in the middle of its image, or else the scene's middle.
+#[must_use]
+pub fn focus_distance(scene: &Scene, sensor: usize) -> f64 {
+    let Some(s) = scene.sensors().get(sensor) else { return 1.0 };
+    let middle = Vec2::new(s.width as f32, s.height as f32) * 0.5;
+    if let Some(picked) = pick(scene, sensor, middle.as_dvec2().to_array()) {
+        return picked.distance;
+    }
+    let (ray, bounds) = (s.ray(middle), scene.bounds());
+    let ahead = (bounds.centre() - ray.origin).dot(ray.direction).max(0.1 * bounds.radius());
+    scene.normalisation().world_length(f64::from(ahead))
+}
+
+/// Where the marker of a light stands; a directional light's where its light comes from.
+pub(crate) fn marker_position(description: &SceneDescription, emitter: usize, view: &View) -> Option<DVec2> {
+    let visible = |at: &DVec2| at.cmpge(DVec2::ZERO).all() && at.cmple(view.film).all();
+    let at = match &description.emitters.get(emitter)?.kind {
+        EmitterKind::Point { position, .. } => view.project(*position),
+        EmitterKind::Spot { to_world, .. } => view.project(to_world.translation),
+        EmitterKind::Directional { direction, .. } => view.project_direction(-*direction),
+        EmitterKind::Constant { .. } | EmitterKind::Environment { .. } => None,
+    };
+    at.filter(visible)
+}
+
+/// A point of a surface or light that stands for the whole of it, in world units.
+pub(crate) fn middle(description: &SceneDescription, target: Target) -> Option<DVec3> {
+    match target {
+        Target::Shape(i) => Some(super::geometry::centre(description.shapes.get(i)?)),
+        Target::Emitter(i) => match &description.emitters.get(i)?.kind {
+            EmitterKind::Point { position, .. } => Some(*position),
+            EmitterKind::Spot { to_world, .. } => Some(to_world.translation),
+            _ => None,
+        },
+    }
+}
