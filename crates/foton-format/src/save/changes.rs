@@ -267,9 +267,15 @@ impl<'a> Changes<'a> {
         let id = self.free_id(&after.name);
         let source = nodes.get(old.material).copied().flatten();
         let source = source.filter(|n| self.document.element(*n).is_some_and(|e| e.name == "bsdf"));
+        let first = self.document.elements_in(node).next().map(|(child, _)| child);
+        let here = first.map_or_else(String::new, |child| self.document.indentation(node, child));
         let copy = match source {
-            Some(source) => self.document.copy(source)?,
-            None => materials::build(&mut self.document, after, "")?,
+            Some(source) => {
+                let parent = self.document.parent(source).unwrap_or(source);
+                let there = self.document.indentation(parent, source);
+                self.document.copy(source, [&there, &here])?
+            }
+            None => materials::build(&mut self.document, after, &here)?,
         };
         if let Some(element) = self.document.element_mut(copy) {
             element.attributes.retain(|a| a.name != "name");

@@ -112,16 +112,23 @@ impl Document {
         self.elements().find(|(_, e)| is_it(e))
     }
 
-    /// A copy of an element and all in it, without ids.
-    pub(super) fn copy(&mut self, node: NodeId) -> Result<NodeId, Obstacle> {
+    /// A copy of an element and all in it, without ids; its lines are indented anew, from one indentation to another.
+    pub(super) fn copy(&mut self, node: NodeId, indentation: [&str; 2]) -> Result<NodeId, Obstacle> {
         let mut copy = self.node(node).clone();
-        if let Node::Element(element) = &mut copy {
-            if element.name != "ref" {
-                element.attributes.retain(|a| a.name != "id");
+        match &mut copy {
+            Node::Element(element) => {
+                if element.name != "ref" {
+                    element.attributes.retain(|a| a.name != "id");
+                }
+                for child in &mut element.children {
+                    *child = self.copy(*child, indentation)?;
+                }
             }
-            for child in &mut element.children {
-                *child = self.copy(*child)?;
+            Node::Text(text) => {
+                let [from, to] = indentation.map(|i| format!("\n{i}"));
+                *text = text.replace(&from, &to);
             }
+            _ => {}
         }
         self.push(copy).ok_or_else(|| "the file has too many elements".to_owned())
     }

@@ -20,7 +20,7 @@ use super::view::View;
 pub type Segment = [[f32; 2]; 2];
 
 /// Meshes of more triangles show their bounds instead.
-const MOST_TRIANGLES: usize = 100_000;
+const MOST_TRIANGLES: usize = 200_000;
 /// Lines of a circle.
 const CIRCLE: usize = 64;
 /// Half the size of a light's marker in pixels.
@@ -118,18 +118,15 @@ fn shared_edges(mesh: &Mesh) -> Vec<[u32; 4]> {
     let key = |p: &DVec3| p.to_array().map(|x| (x + 0.0).to_bits());
     let welded: Vec<u32> =
         (0u32..).zip(&mesh.positions).map(|(i, p)| *places.entry(key(p)).or_insert(i)).collect();
-    // An edge of one face alone is that face's on both sides until a second one comes.
-    let mut faces: HashMap<[u32; 2], [u32; 2]> = HashMap::with_capacity(mesh.triangles.len() * 3 / 2);
+    let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(mesh.triangles.len() * 3);
     for (face, triangle) in (0u32..).zip(&mesh.triangles) {
         let Some([a, b, c]) = corners(triangle, &welded) else { continue };
-        for edge in [[a, b], [b, c], [c, a]] {
-            let edge = [edge[0].min(edge[1]), edge[0].max(edge[1])];
-            faces.entry(edge).and_modify(|f| f[1] = face).or_insert([face, face]);
-        }
+        sides.extend([[a, b], [b, c], [c, a]].map(|[a, b]| ([a.min(b), a.max(b)], face)));
     }
-    let mut edges: Vec<_> = faces.into_iter().map(|([a, b], [f, g])| [a, b, f, g]).collect();
-    edges.sort_unstable();
-    edges
+    sides.sort_unstable();
+    // Of the faces along an edge the outermost two; one alone is on both sides.
+    let along = sides.chunk_by(|(a, _), (b, _)| a == b);
+    along.map(|faces| [faces[0].0[0], faces[0].0[1], faces[0].1, faces[faces.len() - 1].1]).collect()
 }
 
 /// A triangle's corners after welding, unless it names vertices that are not there or has lost a side.
