@@ -18,15 +18,31 @@ pub enum ToneMap {
     /// Khronos PBR Neutral: faithful up to 0.8, then compressed and desaturated toward white.
     #[default]
     PbrNeutral,
+    /// The base look of AgX: 16.5 stops of light on an S-shaped curve, colours toward white as they brighten.
+    AgX,
 }
 
 impl ToneMap {
+    /// Every map, in the order in which a person is offered them.
+    pub const ALL: [Self; 3] = [Self::Linear, Self::PbrNeutral, Self::AgX];
+
+    /// What a person calls it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "Linear",
+            Self::PbrNeutral => "PBR Neutral",
+            Self::AgX => "AgX",
+        }
+    }
+
     /// The mapped colour, linear in [0, 1]³, of a colour in [0, [`BRIGHTEST`]]³.
     #[must_use]
     pub fn apply(self, c: Rgb) -> Rgb {
         match self {
             Self::Linear => c.map(|v| v.clamp(0.0, 1.0)),
             Self::PbrNeutral => pbr_neutral(c),
+            Self::AgX => agx(c),
         }
     }
 }
@@ -71,6 +87,34 @@ pub fn pbr_neutral(c: Rgb) -> Rgb {
     let p_n = 1.0 - (1.0 - K_S) * (1.0 - K_S) / (p + 1.0 - 2.0 * K_S);
     let g = 1.0 / (K_D * (p - p_n) + 1.0);
     c * (p_n / p * g) + Rgb::splat(p_n * (1.0 - g))
+}
+
+/// The base look of AgX \[AGX22\], with the inverse inset and power of \[WRE23\], of a colour in [0, [`BRIGHTEST`]]³.
+///
+/// With g(c) = w·c, a grey in which w sums to one, and m = 0.2:
+///
+/// - inset: c ← (1 − m)·c + m·g(c); it moves the primaries of sRGB a fifth of the way to white, so that g keeps its value;
+/// - curve: y = [`agx_curve`]((log₂(c/0.18) + 10)/16.5) in each channel, from 10 stops below middle grey to 6.5 above;
+/// - outset, the inverse of the inset, clamped, and raised to 2.2, from encoded to linear: ((y − m·g(y))/(1 − m))^2.2.
+#[must_use]
+pub fn agx(c: Rgb) -> Rgb {
+    const MIX: f32 = 0.2;
+    let grey = |c: Rgb| 0.211_994_6 * c.r + 0.392_150_8 * c.g + 0.395_854_6 * c.b;
+    let inset = c * (1.0 - MIX) + Rgb::splat(MIX * grey(c));
+    let y = inset.map(|v| agx_curve((v.max(1e-10) / 0.18).log2().clamp(-10.0, 6.5) / 16.5 + 10.0 / 16.5));
+    let outset = (y - Rgb::splat(MIX * grey(y))) * (1.0 / (1.0 - MIX));
+    outset.map(|v| v.clamp(0.0, 1.0).powf(2.2))
+}
+
+/// The S-shaped curve of AgX \[AGX22\], from [0, 1] onto [0, 1]: y = 1/2 + 2·d/(1 + k·|d|^p)^(1/p) with d = x − 10/16.5.
+///
+/// The slope at middle grey is 2. p is 3 below it and 3.25 above, and k = 4^p − X^(−p), where X is the way from middle grey
+/// to the end of that side, takes the curve through (0, 0) and (1, 1).
+#[must_use]
+pub fn agx_curve(x: f32) -> f32 {
+    let d = x - 10.0 / 16.5;
+    let (p, k) = if d < 0.0 { (3.0, 59.507_875) } else { (3.25, 69.862_79) };
+    0.5 + 2.0 * d / (1.0 + k * d.abs().powf(p)).powf(1.0 / p)
 }
 
 /// The transfer function of sRGB (IEC 61966-2-1), exact and piecewise, from linear to encoded, on [0, 1].

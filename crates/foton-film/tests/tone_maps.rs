@@ -1,7 +1,9 @@
 //! The tone maps and the sRGB curve against values worked out by hand and the properties their sources promise.
 
 use foton_film::ToneMap;
-use foton_film::tone_map::{BRIGHTEST, NOT_FINITE, display, expose, pbr_neutral, quantise, srgb_encode};
+use foton_film::tone_map::{
+    BRIGHTEST, NOT_FINITE, agx, agx_curve, display, expose, pbr_neutral, quantise, srgb_encode,
+};
 use foton_math::Rgb;
 
 #[track_caller]
@@ -70,6 +72,74 @@ fn neutral_of_any_colour_stays_in_the_cube_and_its_peak_rises() {
 }
 
 #[test]
+fn agx_leaves_black_and_white_and_puts_middle_grey_at_half() {
+    assert_eq!(agx(Rgb::BLACK), Rgb::BLACK);
+    // Ten stops below middle grey and darker is black, 6.5 above and brighter is white.
+    assert_close(agx(Rgb::splat(0.18 / 1024.0)), [0.0; 3]);
+    assert_close(agx(Rgb::splat(0.18 * 6.5f32.exp2())), [1.0; 3]);
+    assert_close(agx(Rgb::splat(0.18)), [0.5f32.powf(2.2); 3]);
+}
+
+#[test]
+fn agx_matches_values_worked_out_by_hand() {
+    // By the matrices from the primaries of sRGB and of sRGB drawn a fifth to white, in double precision, not by w and m.
+    assert_close(agx(Rgb::new(1.0, 0.0, 0.0)), [0.720041, 0.039344, 0.039344]);
+    assert_close(agx(Rgb::new(0.2, 0.5, 0.05)), [0.247263, 0.448220, 0.097755]);
+    assert_close(agx(Rgb::new(4.0, 2.0, 1.0)), [0.887074, 0.754679, 0.614973]);
+}
+
+#[test]
+fn the_curve_of_agx_rises_from_its_ends_and_follows_the_published_fit() {
+    let mut last = -1e-6;
+    for i in 0..=1000u16 {
+        let x = f32::from(i) / 1000.0;
+        let y = agx_curve(x);
+        assert!(y > last && y < 1.0 + 1e-6, "{x} → {y} after {last}");
+        last = y;
+        // [WRE23] gives a polynomial fit of a mean squared error of 3.7e-6.
+        let fit =
+            [15.5, -40.14, 31.96, -6.868, 0.4298, 0.1191, -0.00232].iter().fold(0.0, |sum, a| sum * x + a);
+        assert!((y - fit).abs() < 0.007, "{x} → {y}, the fit says {fit}");
+    }
+    assert!(agx_curve(0.0).abs() < 1e-6 && (agx_curve(1.0) - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn agx_turns_bright_colours_to_white_and_keeps_greys_grey() {
+    assert_close(agx(Rgb::new(BRIGHTEST, 0.0, 0.0)), [1.0; 3]);
+    for v in rising() {
+        let Rgb { r, g, b } = agx(Rgb::splat(v));
+        assert!((r - g).abs() < 1e-6 && (g - b).abs() < 1e-6, "{v} → {r}, {g}, {b}");
+    }
+}
+
+#[test]
+fn maps_of_grey_rise_from_black_to_one() {
+    for map in ToneMap::ALL {
+        let mut last = 0.0;
+        for v in rising().chain([100.0, 1e4, BRIGHTEST]) {
+            let Rgb { r, .. } = map.apply(Rgb::splat(v));
+            assert!(r >= last && r <= 1.0, "{}: {v} → {r} after {last}", map.name());
+            last = r;
+        }
+        assert_eq!(map.apply(Rgb::BLACK), Rgb::BLACK);
+    }
+}
+
+#[test]
+fn maps_of_any_colour_stay_in_the_cube() {
+    for map in ToneMap::ALL {
+        for hue in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.2, 1.0, 0.0], [1.0, 0.99, 0.98]] {
+            for v in rising().chain([BRIGHTEST]) {
+                let mapped = map.apply(Rgb::from_array(hue) * v);
+                let inside = mapped.to_array().iter().all(|c| (0.0..=1.0).contains(c));
+                assert!(inside, "{}: {hue:?}·{v} → {mapped:?}", map.name());
+            }
+        }
+    }
+}
+
+#[test]
 fn srgb_has_its_known_values() {
     for (linear, encoded) in [
         (0.0, 0.0),
@@ -115,7 +185,7 @@ fn pixels_that_are_not_finite_are_magenta() {
 
 #[test]
 fn negative_channels_count_as_zero_and_the_brightest_is_white() {
-    for map in [ToneMap::Linear, ToneMap::PbrNeutral] {
+    for map in ToneMap::ALL {
         assert_eq!(display(Rgb::new(-1.0, -1e30, 0.5), map, 0.0), display(Rgb::new(0.0, 0.0, 0.5), map, 0.0));
         assert_eq!(display(Rgb::splat(f32::MAX), map, 10.0), [255; 3]);
     }

@@ -11,8 +11,11 @@ struct Step {
     run: fn() -> Result<(), Trouble>,
 }
 
+/// The step that runs the tests of the workspace.
+pub(crate) const CARGO_TEST: &str = "cargo test";
+
 const STEPS: [Step; 2] =
-    [Step { name: "cargo test", run: cargo_test }, Step { name: conformance::STEP, run: conformance::quick }];
+    [Step { name: CARGO_TEST, run: cargo_test }, Step { name: conformance::STEP, run: conformance::quick }];
 
 /// Runs every step whose packages are there, then sums up. Where nobody watches, a step that could not run counts as failed.
 pub(crate) fn all(install: bool) -> Result<(), Trouble> {

@@ -6,6 +6,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use crate::test::CARGO_TEST;
+
 /// Why a task did not succeed.
 #[derive(Debug)]
 pub(crate) enum Trouble {
@@ -30,24 +32,66 @@ pub(crate) struct SystemPackage {
     pub(crate) name: &'static str,
     /// The step of `cargo xtask test` that cannot run without it.
     pub(crate) needed_for: &'static str,
-    /// A command that succeeds where the package, or something as good, is installed.
-    probe: &'static [&'static str],
+    /// How to see whether the package, or something as good, is installed.
+    probe: Probe,
+}
+
+/// How a package is recognised.
+enum Probe {
+    /// This command succeeds.
+    Command(&'static [&'static str]),
+    /// This program is found. Asked on Linux alone.
+    Program(&'static str),
+    /// The dynamic linker knows a library of this name. Asked on Linux alone: other systems bring their own windows.
+    Library(&'static str),
+    /// A file of such a name is there. Asked on Linux alone.
+    File(&'static str),
 }
 
 /// Everything beyond Rust that the tests use.
 pub(crate) const SYSTEM_PACKAGES: &[SystemPackage] = &[
-    SystemPackage { name: "python3", needed_for: crate::conformance::STEP, probe: &["python3", "--version"] },
-    SystemPackage {
-        name: "python3-venv",
-        needed_for: crate::conformance::STEP,
-        probe: &["python3", "-c", "import ensurepip, venv"],
-    },
+    needed(crate::conformance::STEP, "python3", Probe::Command(&["python3", "--version"])),
+    needed(
+        crate::conformance::STEP,
+        "python3-venv",
+        Probe::Command(&["python3", "-c", "import ensurepip, venv"]),
+    ),
+    // A window, and something that draws it: software where there is no graphics card.
+    needed(CARGO_TEST, "mesa-vulkan-drivers", Probe::File("/usr/share/vulkan/icd.d/*.json")),
+    needed(CARGO_TEST, "libvulkan1", Probe::Library("libvulkan.so.1")),
+    needed(CARGO_TEST, "libegl1", Probe::Library("libEGL.so.1")),
+    needed(CARGO_TEST, "libgbm1", Probe::Library("libgbm.so.1")),
+    needed(CARGO_TEST, "libgl1-mesa-dri", Probe::File("/usr/lib/*/dri/*_dri.so")),
+    needed(CARGO_TEST, "libwayland-client0", Probe::Library("libwayland-client.so.0")),
+    needed(CARGO_TEST, "libx11-xcb1", Probe::Library("libX11-xcb.so.1")),
+    needed(CARGO_TEST, "libxcursor1", Probe::Library("libXcursor.so.1")),
+    needed(CARGO_TEST, "libxi6", Probe::Library("libXi.so.6")),
+    needed(CARGO_TEST, "libxkbcommon-x11-0", Probe::Library("libxkbcommon-x11.so.0")),
+    needed(CARGO_TEST, "libxrandr2", Probe::Library("libXrandr.so.2")),
+    // A display that nobody sees, hands for it, and eyes.
+    needed(CARGO_TEST, "xvfb", Probe::Program("Xvfb")),
+    needed(CARGO_TEST, "xdotool", Probe::Program("xdotool")),
+    needed(CARGO_TEST, "imagemagick", Probe::Program("import")),
 ];
 
+const fn needed(needed_for: &'static str, name: &'static str, probe: Probe) -> SystemPackage {
+    SystemPackage { name, needed_for, probe }
+}
+
 impl SystemPackage {
-    /// Whether the probe fails.
+    /// Whether it is not there.
     fn is_missing(&self) -> bool {
-        !succeeds(self.probe)
+        let shell = |line: &str, word: &str| !succeeds(&["sh", "-c", line, "sh", word]);
+        match self.probe {
+            Probe::Command(words) => !succeeds(words),
+            Probe::Program(name) => cfg!(target_os = "linux") && shell("command -v \"$1\"", name),
+            Probe::Library(name) => {
+                cfg!(target_os = "linux")
+                    && shell("PATH=$PATH:/sbin:/usr/sbin; ldconfig -p | grep -qF \"$1\"", name)
+            }
+            // Not quoted, so that the pattern is tried.
+            Probe::File(pattern) => cfg!(target_os = "linux") && shell("ls $1", pattern),
+        }
     }
 }
 
