@@ -1,8 +1,14 @@
 //! The live window: it draws the newest frame and sends commands. It sees frames, statistics and commands, never a hit point,
 //! a photon or a scene.
+//!
+//! [`run`] is all there is to call. Inside, `state` holds what is known and set, `panels` draw it, `present` puts pictures on
+//! the screen, and `window` ties them to the system.
 
-// The window, which uses all of it, is not there yet.
-#[cfg_attr(not(test), allow(dead_code))]
 mod files;
-#[cfg_attr(not(test), allow(dead_code))]
+mod panels;
+mod preferences;
 mod present;
+mod state;
+mod window;
+
+pub use window::{Options, WindowError, run};

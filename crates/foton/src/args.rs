@@ -16,8 +16,12 @@ use foton_session::snapshot::Format;
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
-    /// Scene file (Mitsuba 3 XML) to render for at most a minute; without one, the scene that ships with foton
+    /// Scene to open in the window: Mitsuba XML, OBJ, PLY or STL; without one, the scene that ships with foton. Where there can
+    /// be no window, it is rendered for a minute
     pub(crate) scene: Option<PathBuf>,
+    /// Write a line of JSON for each frame that the window draws
+    #[arg(long, value_name = "FILE")]
+    pub(crate) frame_log: Option<PathBuf>,
 }
 
 /// What to do.

@@ -1,29 +1,56 @@
-//! The scene that ships inside the program.
+//! The scenes that ship inside the program.
 
 use std::io;
 use std::path::Path;
 
 use foton_format::{OpenError, Opened, Options};
 
-/// Its name in messages and metadata.
-pub(crate) const NAME: &str = "glass-and-ring";
+/// A scene and the files that it names.
+pub(crate) struct Embedded {
+    /// Its name in messages and metadata.
+    pub(crate) name: &'static str,
+    xml: &'static str,
+    files: &'static [(&'static str, &'static [u8])],
+}
 
-const XML: &str = include_str!("../../../assets/glass-and-ring/scene.xml");
+/// A scene in `assets`, with the meshes that it names.
+macro_rules! scene {
+    ($name:literal $(, $mesh:literal)*) => {
+        Embedded {
+            name: $name,
+            xml: include_str!(concat!("../../../assets/", $name, "/scene.xml")),
+            files: &[$((
+                concat!("meshes/", $mesh),
+                include_bytes!(concat!("../../../assets/", $name, "/meshes/", $mesh)),
+            )),*],
+        }
+    };
+}
 
-const MESHES: [(&str, &[u8]); 4] = [
-    ("meshes/backdrop.obj", include_bytes!("../../../assets/glass-and-ring/meshes/backdrop.obj")),
-    ("meshes/gem.obj", include_bytes!("../../../assets/glass-and-ring/meshes/gem.obj")),
-    ("meshes/goblet.obj", include_bytes!("../../../assets/glass-and-ring/meshes/goblet.obj")),
-    ("meshes/ring.obj", include_bytes!("../../../assets/glass-and-ring/meshes/ring.obj")),
+/// All of them; the first is opened where no other is asked for.
+pub(crate) static ALL: [Embedded; 5] = [
+    scene!("glass-and-ring", "backdrop.obj", "gem.obj", "goblet.obj", "ring.obj"),
+    scene!("pool", "water.obj", "joints.obj", "tiles-dark.obj", "tiles-middle.obj", "tiles-light.obj"),
+    scene!("ring", "band.obj"),
+    scene!("box-spheres"),
+    scene!("cornell-spheres"),
 ];
 
-/// Opens it.
-pub(crate) fn open(options: &Options) -> Result<Opened, OpenError> {
-    let mesh = |path: &Path| {
-        let found = MESHES.iter().find(|(name, _)| Path::new(name) == path);
-        found.map(|(_, bytes)| bytes.to_vec()).ok_or_else(|| io::ErrorKind::NotFound.into())
-    };
-    foton_format::read_str(NAME, XML, &mesh, options)
+impl Embedded {
+    /// The scene of that name.
+    #[cfg(feature = "window")]
+    pub(crate) fn named(name: &str) -> Option<&'static Self> {
+        ALL.iter().find(|scene| scene.name == name)
+    }
+
+    /// Opens it.
+    pub(crate) fn open(&self, options: &Options) -> Result<Opened, OpenError> {
+        let file = |path: &Path| {
+            let found = self.files.iter().find(|(name, _)| Path::new(name) == path);
+            found.map(|(_, bytes)| bytes.to_vec()).ok_or_else(|| io::ErrorKind::NotFound.into())
+        };
+        foton_format::read_str(self.name, self.xml, &file, options)
+    }
 }
 
 #[cfg(test)]
@@ -31,8 +58,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_embedded_scene_opens_without_a_warning() {
-        let opened = open(&Options::default()).expect("opens");
-        assert_eq!(opened.warnings, []);
+    fn the_embedded_scenes_open_without_a_warning() {
+        for scene in &ALL {
+            let opened = scene.open(&Options::default()).expect("opens");
+            assert_eq!(opened.warnings, [], "{}", scene.name);
+        }
     }
 }

@@ -11,36 +11,49 @@ mod job;
 mod memory;
 mod quick;
 mod talk;
+#[cfg(feature = "window")]
+mod window;
 
 use std::process::ExitCode;
 
 use clap::Parser;
 
 use args::{Args, Command};
-use talk::Talk;
+use talk::{Failure, Talk};
+
+/// The window; where there can be none, a picture within a minute.
+fn live(args: &Args, talk: &mut Talk) -> Result<(), Failure> {
+    #[cfg(feature = "window")]
+    match window::show(args.scene.as_deref(), args.frame_log.as_deref()) {
+        Ok(()) => return Ok(()),
+        Err(error @ foton_preview::WindowError::Log { .. }) => return Err(Failure::Window(error.to_string())),
+        Err(error) => talk.line(&error.to_string()),
+    }
+    quick::render(args.scene.as_deref(), talk)
+}
 
 fn main() -> ExitCode {
     let args = Args::parse();
-    let (result, mut talk) = match args.command {
+    let (result, mut talk) = match &args.command {
         Some(Command::Render(render)) => {
             let mut talk = Talk::new(render.json);
-            (job::render(&render, &mut talk), talk)
+            (job::render(render, &mut talk), talk)
         }
         Some(Command::Convert(args)) => {
             let talk = Talk::new(false);
-            (convert::run(&args, &talk), talk)
+            (convert::run(args, &talk), talk)
         }
         Some(Command::Info(args)) => {
             let talk = Talk::new(args.json);
-            (info::print(&args, &talk), talk)
+            (info::print(args, &talk), talk)
         }
         Some(Command::Compare(args)) => {
             let talk = Talk::new(args.json);
-            (compare::run(&args, &talk), talk)
+            (compare::run(args, &talk), talk)
         }
         None => {
             let mut talk = Talk::new(false);
-            (quick::render(args.scene.as_deref(), &mut talk), talk)
+            (live(&args, &mut talk), talk)
         }
     };
     match result {

@@ -9,7 +9,7 @@ use foton_integrator::Settings;
 use foton_session::snapshot::{self, Format};
 use foton_session::{Session, StopRule};
 
-use crate::embedded;
+use crate::embedded::ALL;
 use crate::job::{build, finish, interrupt_on_signals, refuse_beyond_memory};
 use crate::talk::{Failure, Talk};
 
@@ -26,7 +26,7 @@ pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failur
         Some(path) => {
             (foton_format::open(path, &options), path.file_name().unwrap_or_default().to_string_lossy())
         }
-        None => (embedded::open(&options), embedded::NAME.into()),
+        None => (ALL[0].open(&options), ALL[0].name.into()),
     };
     let (scene, identity) = build(opened.map_err(Failure::Open)?, &name, None, talk)?;
     let settings = Settings::default();

@@ -22,6 +22,8 @@ pub(crate) enum Failure {
     Start(StartError),
     Write(WriteError),
     Read(ReadError),
+    #[cfg(feature = "window")]
+    Window(String),
     Compare { a: String, b: String, cause: CompareError },
 }
 
@@ -42,6 +44,8 @@ impl fmt::Display for Failure {
             Self::Start(cause) => cause.fmt(f),
             Self::Write(cause) => cause.fmt(f),
             Self::Read(cause) => cause.fmt(f),
+            #[cfg(feature = "window")]
+            Self::Window(cause) => cause.fmt(f),
             Self::Compare { a, b, cause } => write!(f, "A is {a}, B is {b}: {cause}"),
         }
     }

@@ -66,6 +66,12 @@ impl History {
         &self.current
     }
 
+    /// Whether a step is under way.
+    #[must_use]
+    pub const fn is_open(&self) -> bool {
+        self.open.is_some()
+    }
+
     /// Ends the step under way. It counts as one, or as none if nothing changed.
     pub fn commit(&mut self) {
         let Some(step) = self.open.take() else { return };

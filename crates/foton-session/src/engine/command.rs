@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use foton_integrator::{Change, DirectLight, Settings};
-use foton_math::glam::DAffine3;
+use foton_integrator::{DirectLight, Settings};
 
+use crate::edit::{DragMode, FieldId, Value};
 use crate::stop::StopRule;
 
 /// A scene to open.
@@ -65,13 +65,83 @@ impl Configuration {
     }
 }
 
-/// Where the camera is and what it spans.
+/// A move of the camera. Angles in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Look {
-    /// Camera to world, as in a scene file: it looks along +z, +y is up, +x points to the image's left.
-    pub to_world: DAffine3,
-    /// Field of view in degrees along the sensor's own axis.
-    pub fov_degrees: f64,
+pub enum Gesture {
+    /// Around what it looks at.
+    Orbit {
+        /// Around the up axis.
+        yaw: f64,
+        /// Above the horizon.
+        pitch: f64,
+    },
+    /// Where it stands.
+    Turn {
+        /// Around the up axis.
+        yaw: f64,
+        /// Above the horizon.
+        pitch: f64,
+    },
+    /// Across the view, in pixels of what it looks at.
+    Pan {
+        /// To the image's right.
+        right: f64,
+        /// Downwards.
+        down: f64,
+    },
+    /// Multiplies the distance to what it looks at.
+    Zoom(f64),
+    /// As shares of the distance to what it looks at.
+    Fly {
+        /// The way it looks.
+        forward: f64,
+        /// To the image's right.
+        right: f64,
+        /// Up.
+        up: f64,
+    },
+    /// In degrees along the sensor's own axis.
+    FieldOfView(f64),
+}
+
+/// A change of the scene. Film positions are pixels from the image's top left corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Change {
+    /// Takes hold of what is chosen.
+    BeginDrag {
+        /// Where.
+        film: [f64; 2],
+        /// Which way it may go.
+        mode: DragMode,
+    },
+    /// Moves what is held.
+    DragTo([f64; 2]),
+    /// Lets go.
+    EndDrag([f64; 2]),
+    /// Puts what is held back.
+    CancelDrag,
+    /// Moves what is chosen by small steps: to the right and downwards in the image.
+    Nudge {
+        /// How many steps.
+        steps: [f64; 2],
+        /// Which way it may go.
+        mode: DragMode,
+    },
+    /// Sets a field of what is chosen.
+    SetField {
+        /// Which one.
+        field: FieldId,
+        /// To what.
+        value: Value,
+        /// Whether a control that is dragged was let go: all until then is one step of the history.
+        done: bool,
+    },
+    /// Gives what is chosen a material of its own.
+    OwnMaterial,
+    /// Takes the last step back.
+    Undo,
+    /// Makes the step again that was taken back last.
+    Redo,
 }
 
 /// The picture that frames carry.
@@ -104,7 +174,7 @@ pub enum Command {
     /// Forgets a scene that is being opened.
     CancelOpen,
     /// From the next pass on.
-    Change(Change),
+    Steer(foton_integrator::Change),
     /// Starts anew.
     Configure(Configuration),
     /// Finishes the pass under way and waits.
@@ -118,14 +188,20 @@ pub enum Command {
     /// When to stop.
     StopAt(StopRule),
     /// Moves the camera; while `moving`, pictures are small and quick.
-    Look {
-        /// Where to.
-        look: Look,
+    Camera {
+        /// How.
+        gesture: Gesture,
         /// Whether more is to follow at once.
         moving: bool,
     },
+    /// Whether more moves are to follow at once.
+    Moving(bool),
     /// Puts the camera back where the scene's file has it.
-    ResetLook,
+    ResetCamera,
+    /// Chooses the surface or light at a film position.
+    Choose(Option<[f64; 2]>),
+    /// Changes the scene.
+    Edit(Change),
     /// What frames carry.
     Show(Shown),
     /// Whether frames carry the photons of the last pass.
@@ -143,11 +219,22 @@ pub enum Command {
 }
 
 impl Command {
+    /// Whether it ends with files on the disk.
+    pub(super) const fn writes(&self) -> bool {
+        matches!(self, Self::Snapshot(_) | Self::SaveScene(_))
+    }
+
     /// Whether the pass under way would be for nothing.
     pub(super) const fn interrupts(&self) -> bool {
         matches!(
             self,
-            Self::Configure(_) | Self::Restart | Self::Look { .. } | Self::ResetLook | Self::Quit
+            Self::Configure(_)
+                | Self::Restart
+                | Self::Camera { .. }
+                | Self::ResetCamera
+                | Self::Choose(_)
+                | Self::Edit(_)
+                | Self::Quit
         )
     }
 }

@@ -7,8 +7,9 @@ use foton_film::{Image, Plane};
 use foton_integrator::{PathClass, Radii, Settings};
 use foton_math::Rgb;
 
-use super::command::{Look, Shown};
+use super::command::Shown;
 use crate::clock::StageTimes;
+use crate::edit::{Inspection, Segment, Target};
 use crate::stop::StopRule;
 
 /// What the engine is doing.
@@ -91,10 +92,23 @@ pub struct Probe {
 pub struct SensorFacts {
     /// Its name.
     pub name: String,
-    /// Where it is now.
-    pub look: Look,
+    /// Field of view in degrees along its own axis.
+    pub fov_degrees: f64,
     /// Width and height in pixels.
     pub size: [u32; 2],
+    /// As an element of Mitsuba XML.
+    pub xml: String,
+}
+
+/// What is chosen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Selection {
+    /// Which shape or light.
+    pub target: Target,
+    /// Its fields.
+    pub inspection: Inspection,
+    /// Its outline.
+    pub outline: Vec<Segment>,
 }
 
 /// What a window says of a scene.
@@ -108,12 +122,12 @@ pub struct SceneFacts {
     pub sensors: Vec<SensorFacts>,
     /// Surfaces.
     pub shapes: usize,
-    /// The middle of all surfaces, in world units.
-    pub centre: [f64; 3],
-    /// Half of their greatest extent.
-    pub half_size: f64,
     /// Whether the scene differs from its file.
-    pub edited: bool,
+    pub is_edited: bool,
+    /// What undoing would take back.
+    pub undo: Option<String>,
+    /// What redoing would make again.
+    pub redo: Option<String>,
 }
 
 /// How a render stands.
@@ -174,4 +188,8 @@ pub struct Frame {
     pub dots: Arc<Vec<Dot>>,
     /// The pixel asked about.
     pub probe: Option<Probe>,
+    /// What is chosen.
+    pub selection: Option<Selection>,
+    /// Where lights without a surface are.
+    pub lights: Vec<Segment>,
 }

@@ -1,6 +1,7 @@
 //! Opening and saving scenes: the binary hands in how; here is when. A scene is opened on a thread of its own, so that the
 //! present one goes on.
 
+use std::any::Any;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
@@ -24,6 +25,8 @@ pub struct Loaded {
     pub settings: Settings,
     /// What the file says without effect, each with its place.
     pub warnings: Vec<String>,
+    /// What the loader wants back when the scene is saved.
+    pub origin: Arc<dyn Any + Send + Sync>,
 }
 
 /// Opens and saves scenes.
@@ -34,11 +37,16 @@ pub trait Loader: Send + Sync + 'static {
     /// Everything that is wrong with it, each fault with its place, a line each.
     fn open(&self, source: &Source) -> Result<Loaded, String>;
 
-    /// Writes the scene opened from `source`, as it is after edits, to a file; returns what there is to know about it.
+    /// Writes a scene as it is after edits to a file, given its [`Loaded::origin`]; returns what there is to know about it.
     ///
     /// # Errors
     /// Why it could not be written.
-    fn save(&self, source: &Source, description: &SceneDescription, path: &Path) -> Result<String, String>;
+    fn save(
+        &self,
+        origin: &(dyn Any + Send + Sync),
+        description: &SceneDescription,
+        path: &Path,
+    ) -> Result<String, String>;
 }
 
 /// A scene that is ready to render.

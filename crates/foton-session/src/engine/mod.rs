@@ -9,18 +9,19 @@ mod loader;
 mod probe;
 mod render;
 mod slot;
+mod stage;
 mod worker;
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
+use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, Sender, bounded};
 use foton_integrator::Cancel;
-use foton_scene::Scene;
-use foton_scene::description::SensorDescription;
 
-pub use command::{Command, Configuration, Event, Look, Shown, Source};
-pub use frame::{Activity, Dot, Frame, Numbers, Picture, Probe, SceneFacts, SensorFacts};
+pub use command::{Change, Command, Configuration, Event, Gesture, Shown, Source};
+pub use frame::{Activity, Dot, Frame, Numbers, Picture, Probe, SceneFacts, Selection, SensorFacts};
 pub use loader::{Loaded, Loader};
 
 /// Commands that may wait at once. A window sends a few for each frame it draws.
@@ -45,7 +46,15 @@ pub struct Engine {
     frames: Receiver<Frame>,
     events: Receiver<Event>,
     cancel: Cancel,
+    /// Files that were asked for and are not written yet.
+    unwritten: Arc<AtomicUsize>,
 }
+
+/// Between looks at whether all files are written.
+const LOOK_AGAIN: Duration = Duration::from_millis(2);
+
+/// How long to wait for files at most.
+const PATIENCE: Duration = Duration::from_secs(30);
 
 impl Engine {
     /// Starts the thread; it waits for a scene.
@@ -59,20 +68,37 @@ impl Engine {
         let cancel = Cancel::default();
         let channels =
             worker::Channels { commands: command_receiver, frames: frame_sender, events: event_sender };
-        let worker = worker::Worker::new(setup, channels, cancel.clone());
+        let unwritten = Arc::new(AtomicUsize::new(0));
+        let worker = worker::Worker::new(setup, channels, cancel.clone(), Arc::clone(&unwritten));
         thread::Builder::new().name("engine".to_owned()).spawn(move || worker.run())?;
-        Ok(Self { commands, frames, events, cancel })
+        Ok(Self { commands, frames, events, cancel, unwritten })
     }
 
     /// Asks for something. Where the pass under way would be for nothing, it is discarded. Returns whether the engine is there
     /// and had room.
     pub fn send(&self, command: Command) -> bool {
-        let interrupts = command.interrupts();
+        let (interrupts, writes) = (command.interrupts(), command.writes());
+        if writes {
+            self.unwritten.fetch_add(1, Ordering::SeqCst);
+        }
         let sent = self.commands.try_send(command).is_ok();
+        if writes && !sent {
+            self.unwritten.fetch_sub(1, Ordering::SeqCst);
+        }
         if interrupts {
             self.cancel.request();
         }
         sent
+    }
+
+    /// Ends the engine. Returns at once, in the middle of a pass too, unless files that were asked for are still to be written:
+    /// then when they are.
+    pub fn finish_writing(&self) {
+        self.send(Command::Quit);
+        let begin = Instant::now();
+        while self.unwritten.load(Ordering::SeqCst) > 0 && begin.elapsed() < PATIENCE {
+            thread::sleep(LOOK_AGAIN);
+        }
     }
 
     /// The newest frame, if there is one that was not taken yet.
@@ -103,26 +129,5 @@ impl Engine {
 impl Drop for Engine {
     fn drop(&mut self) {
         self.send(Command::Quit);
-    }
-}
-
-/// What a window says of a scene.
-fn scene_facts(source: &Source, loaded: &Loaded, scene: &Scene) -> SceneFacts {
-    let sensor = |s: &SensorDescription| SensorFacts {
-        name: s.name.clone(),
-        look: Look { to_world: s.to_world, fov_degrees: s.fov_degrees },
-        size: [s.width, s.height],
-    };
-    let bounds = scene.bounds();
-    let normalisation = scene.normalisation();
-    let centre = normalisation.world_point((bounds.min + bounds.max) * 0.5);
-    SceneFacts {
-        name: loaded.identity.name.clone(),
-        file: source.file().cloned(),
-        sensors: loaded.description.sensors.iter().map(sensor).collect(),
-        shapes: loaded.description.shapes.len(),
-        centre: centre.to_array(),
-        half_size: normalisation.world_length(f64::from(bounds.size().max_element()) * 0.5),
-        edited: false,
     }
 }

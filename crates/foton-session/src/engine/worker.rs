@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, Sender, never, select};
@@ -10,12 +11,13 @@ use foton_integrator::{Cancel, Settings};
 use foton_scene::Scene;
 
 use super::Setup;
-use super::command::{Command, Configuration, Event, Shown, Source};
-use super::frame::{Activity, Frame, Numbers, Picture, SceneFacts};
+use super::command::{Change, Command, Configuration, Event, Shown};
+use super::frame::{Activity, Frame, Numbers, Picture};
 use super::loader::{Opening, Ready};
 use super::render::Render;
+use super::probe;
 use super::slot::NewestSender;
-use super::{probe, scene_facts};
+use super::stage::{Effect, Stage};
 use crate::session::{Session, StartError};
 use crate::snapshot::{self, Format};
 use crate::stop::StopRule;
@@ -39,22 +41,13 @@ enum Flow {
     Steps(u64),
 }
 
-/// The scene that is shown, with its edits.
-struct Current {
-    source: Source,
-    ready: super::loader::Loaded,
-    /// Sensors as the file has them.
-    original: Vec<foton_scene::description::SensorDescription>,
-    scene: Arc<Scene>,
-    facts: Arc<SceneFacts>,
-}
-
 /// The thread's state.
 pub(super) struct Worker {
     setup: Setup,
     channels: Channels,
     cancel: Cancel,
-    current: Option<Current>,
+    unwritten: Arc<AtomicUsize>,
+    stage: Option<Stage>,
     opening: Option<Opening>,
     settings: Settings,
     threads: Option<usize>,
@@ -81,12 +74,13 @@ pub(super) struct Worker {
 }
 
 impl Worker {
-    pub(super) fn new(setup: Setup, channels: Channels, cancel: Cancel) -> Self {
+    pub(super) fn new(setup: Setup, channels: Channels, cancel: Cancel, unwritten: Arc<AtomicUsize>) -> Self {
         Self {
             setup,
             channels,
             cancel,
-            current: None,
+            unwritten,
+            stage: None,
             opening: None,
             settings: Settings::default(),
             threads: None,
@@ -118,7 +112,11 @@ impl Worker {
                 if matches!(command, Command::Quit) {
                     return;
                 }
+                let writes = command.writes();
                 self.obey(command);
+                if writes {
+                    self.unwritten.fetch_sub(1, Ordering::SeqCst);
+                }
             }
             self.take_opened();
             self.work();
@@ -158,7 +156,7 @@ impl Worker {
         match command {
             Command::Open(source) => self.opening = Some(Opening::begin(&self.setup.loader, source)),
             Command::CancelOpen => self.opening = None,
-            Command::Change(change) => {
+            Command::Steer(change) => {
                 self.settings.change(change);
                 if let Some(render) = self.render.as_mut().filter(|r| !r.is_small()) {
                     render.session_mut().ppm_mut().change(change);
@@ -173,26 +171,25 @@ impl Worker {
             }
             Command::Restart => self.restart(),
             Command::StopAt(rule) => self.stop = rule,
-            Command::Look { look, moving } => {
+            Command::Camera { gesture, moving } => {
                 self.moving = moving;
-                if let Some(current) = &mut self.current {
-                    let sensor = &mut current.ready.description.sensors[self.settings.sensor];
-                    let there = super::Look { to_world: sensor.to_world, fov_degrees: sensor.fov_degrees };
-                    // The end of a move that went nowhere new goes on with the small picture that is there.
-                    if there != look {
-                        (sensor.to_world, sensor.fov_degrees) = (look.to_world, look.fov_degrees);
-                        self.look_again();
-                    }
-                }
+                let sensor = self.settings.sensor;
+                self.on_stage(|stage| stage.gesture(sensor, gesture));
             }
-            Command::ResetLook => {
+            Command::Moving(moving) => self.moving = moving,
+            Command::ResetCamera => {
                 self.moving = false;
-                if let Some(current) = &mut self.current {
-                    let i = self.settings.sensor;
-                    current.ready.description.sensors[i].clone_from(&current.original[i]);
-                    self.look_again();
-                }
+                let sensor = self.settings.sensor;
+                self.on_stage(|stage| stage.reset_camera(sensor));
             }
+            Command::Choose(film) => {
+                let sensor = self.settings.sensor;
+                self.on_stage(|stage| {
+                    stage.choose(sensor, film);
+                    Ok(Effect::None)
+                });
+            }
+            Command::Edit(change) => self.edit(change),
             Command::Show(shown) => self.shown = shown,
             Command::ShowPhotons(on) => self.show_photons = on,
             Command::Probe(pixel) => self.probed = pixel,
@@ -205,8 +202,8 @@ impl Worker {
 
     fn configure(&mut self, configuration: &Configuration) {
         configuration.apply(&mut self.settings);
-        if let Some(current) = &self.current {
-            self.settings.sensor = self.settings.sensor.min(current.ready.description.sensors.len() - 1);
+        if let Some(stage) = &self.stage {
+            self.settings.sensor = self.settings.sensor.min(stage.sensors().len() - 1);
         }
         self.threads = configuration.threads;
         self.restart();
@@ -222,17 +219,40 @@ impl Worker {
         }
     }
 
-    /// Makes the scene of the description's sensors, and starts anew.
-    fn look_again(&mut self) {
-        let Some(current) = &mut self.current else { return };
-        match current.scene.with_sensors(&current.ready.description.sensors) {
-            Ok(scene) => {
-                current.scene = Arc::new(scene);
-                current.facts = Arc::new(scene_facts(&current.source, &current.ready, &current.scene));
-                self.restart();
-            }
-            Err(cause) => self.event(Event::Failed(cause.to_string())),
+    /// Changes the stage, and starts anew where that changes the picture.
+    fn on_stage(&mut self, change: impl FnOnce(&mut Stage) -> Result<Effect, String>) {
+        let Some(stage) = &mut self.stage else { return };
+        match change(stage) {
+            Ok(Effect::Anew) => self.restart(),
+            Ok(Effect::None) => {}
+            Err(message) => self.event(Event::Failed(message)),
         }
+    }
+
+    fn edit(&mut self, change: Change) {
+        let sensor = self.settings.sensor;
+        match change {
+            Change::BeginDrag { .. } | Change::DragTo(_) | Change::SetField { done: false, .. } => self.moving = true,
+            _ => self.moving = false,
+        }
+        self.on_stage(|stage| match change {
+            Change::BeginDrag { film, mode } => {
+                stage.begin_drag(sensor, film, mode);
+                Ok(Effect::None)
+            }
+            Change::DragTo(film) => stage.drag_to(film),
+            Change::EndDrag(film) => {
+                let effect = stage.drag_to(film);
+                stage.end_drag(film);
+                effect
+            }
+            Change::CancelDrag => stage.cancel_drag(),
+            Change::Nudge { steps, mode } => stage.nudge(sensor, steps, mode),
+            Change::SetField { field, value, done } => stage.set_field(field, value, done),
+            Change::OwnMaterial => stage.own_material(),
+            Change::Undo => stage.undo(),
+            Change::Redo => stage.redo(),
+        });
     }
 
     /// Takes a scene that was opened meanwhile.
@@ -247,12 +267,10 @@ impl Worker {
     }
 
     fn show(&mut self, ready: Ready) {
-        let Ready { source, loaded, scene } = ready;
-        let facts = Arc::new(scene_facts(&source, &loaded, &scene));
+        let loaded = &ready.loaded;
         self.event(Event::Opened { name: loaded.identity.name.clone(), warnings: loaded.warnings.clone() });
         self.settings = Settings { layers: self.settings.layers, ..loaded.settings.clone() };
-        let original = loaded.description.sensors.clone();
-        self.current = Some(Current { source, ready: loaded, original, scene, facts });
+        self.stage = Some(Stage::new(ready));
         self.moving = false;
         self.picture = None;
         self.probed = None;
@@ -262,7 +280,7 @@ impl Worker {
 
     /// Whether there is nothing to do but wait.
     fn is_idle(&self) -> bool {
-        if self.current.is_none() || self.refused {
+        if self.stage.is_none() || self.refused {
             return true;
         }
         let Some(render) = &self.render else { return false };
@@ -280,12 +298,11 @@ impl Worker {
         if self.is_idle() {
             return;
         }
-        let Some(current) = &self.current else { return };
-        let (scene, cancel) = (Arc::clone(&current.scene), self.cancel.clone());
+        let Some(stage) = &self.stage else { return };
+        let (scene, cancel) = (Arc::clone(stage.scene()), self.cancel.clone());
         let started = match &mut self.render {
             None => {
-                let sensors = &current.ready.description.sensors;
-                Some(Render::small(&scene, sensors, &self.settings, self.threads, &cancel))
+                Some(Render::small(&scene, stage.sensors(), &self.settings, self.threads, &cancel))
             }
             Some(render) if render.is_small() && !self.moving && render.ppm().passes() > 0 => {
                 self.publish(true);
@@ -343,9 +360,9 @@ impl Worker {
     }
 
     /// The whole render, once it has a pass.
-    fn rendered(&self) -> Option<(&Render, &Current)> {
+    fn rendered(&self) -> Option<(&Render, &Stage)> {
         let render = self.render.as_ref().filter(|r| !r.is_small() && r.ppm().passes() > 0)?;
-        Some((render, self.current.as_ref()?))
+        Some((render, self.stage.as_ref()?))
     }
 
     fn snapshot(&self, folder: &Path) {
@@ -356,19 +373,21 @@ impl Worker {
     }
 
     fn auto_snapshot(&self, folder: &Path) {
-        let Some((render, current)) = self.rendered() else { return };
-        let stem = Path::new(&current.ready.identity.name).file_stem().unwrap_or_default().to_owned();
-        self.write(&snapshot::numbered(&folder.join(stem).with_extension("exr"), render.ppm().passes()).with_extension(""));
+        let Some((render, stage)) = self.rendered() else { return };
+        let stem = Path::new(&stage.facts().name).file_stem().unwrap_or_default().to_owned();
+        let path = snapshot::numbered(&folder.join(stem).with_extension("exr"), render.ppm().passes());
+        self.write(&path.with_extension(""));
     }
 
     /// Writes both pictures of a stem.
     fn write(&self, stem: &Path) {
-        let Some((render, current)) = self.rendered() else { return };
+        let Some((render, stage)) = self.rendered() else { return };
+        let identity = stage.identity();
         let mut written = Vec::new();
         for (extension, format) in [("exr", Format::Exr), ("png", Format::Png)] {
             let path = stem.with_extension(extension);
             let result = check_writable(&path)
-                .and_then(|()| snapshot::write(&path, format, render.ppm(), &[], &current.ready.identity));
+                .and_then(|()| snapshot::write(&path, format, render.ppm(), &[], &identity));
             match result {
                 Ok(()) => written.push(path),
                 Err(error) => self.event(Event::Failed(error.to_string())),
@@ -379,12 +398,13 @@ impl Worker {
         }
     }
 
-    fn save_scene(&self, path: &Path) {
-        let Some(current) = &self.current else {
+    fn save_scene(&mut self, path: &Path) {
+        let Some(stage) = &mut self.stage else {
             return self.event(Event::Failed("there is no scene to save".to_owned()));
         };
-        match self.setup.loader.save(&current.source, &current.ready.description, path) {
+        match self.setup.loader.save(&*stage.origin, stage.description(), path) {
             Ok(note) => {
+                stage.saved();
                 self.event(Event::Saved(vec![path.to_owned()]));
                 if !note.is_empty() {
                     self.event(Event::Notice(note));
@@ -396,7 +416,7 @@ impl Worker {
 
     fn activity(&self) -> Activity {
         let Some(render) = &self.render else {
-            return if self.current.is_none() { Activity::Empty } else { Activity::Collecting };
+            return if self.stage.is_none() { Activity::Empty } else { Activity::Collecting };
         };
         match self.flow {
             _ if self.moving => Activity::Moving,
@@ -426,14 +446,18 @@ impl Worker {
                 probed = self.probed.and_then(|pixel| probe::probe(render.ppm(), pixel));
             }
         }
-        let facts = self.current.as_ref().map(|c| Arc::clone(&c.facts)).unwrap_or_default();
+        let sensor = self.settings.sensor;
+        let stage = self.stage.as_ref();
+        let facts = stage.map(|s| Arc::clone(s.facts())).unwrap_or_default();
+        let selection = stage.and_then(|s| s.selection(sensor));
+        let lights = stage.map_or_else(Vec::new, |s| s.light_markers(sensor));
         self.frames += 1;
         self.channels.frames.send(Frame {
             number: self.frames,
             render: self.render_number,
             activity,
             opening: self.opening.as_ref().map(|o| o.name.clone()),
-            size: facts.sensors.get(self.settings.sensor).map_or([0, 0], |s| s.size),
+            size: facts.sensors.get(sensor).map_or([0, 0], |s| s.size),
             picture: self.picture.clone(),
             shown: self.shown,
             numbers,
@@ -443,6 +467,8 @@ impl Worker {
             scene: facts,
             dots,
             probe: probed,
+            selection,
+            lights,
         });
         self.unseen = false;
         self.last_frame = Instant::now();

@@ -1,0 +1,183 @@
+//! The sliders: what steers the render while it runs, and what starts it anew.
+
+use std::num::NonZeroU32;
+use std::time::Duration;
+
+use foton_session::engine::{Command, Configuration, Gesture};
+use foton_session::{Alpha, Change, DirectLight, Settings, StopRule};
+
+use super::heading;
+use crate::state::State;
+
+pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
+    let Some(frame) = &state.frame else {
+        ui.weak("No scene yet: open one, or drop a file here.");
+        return;
+    };
+    let (settings, stop, threads) = (frame.settings.clone(), frame.stop, frame.threads);
+    heading(ui, "While it runs");
+    steer(ui, state, &settings);
+    heading(ui, "Stop");
+    stop_rule(ui, state, stop);
+    heading(ui, "Starts anew");
+    anew(ui, state, &settings, threads);
+    heading(ui, "Camera");
+    camera(ui, state, settings.sensor);
+}
+
+fn steer(ui: &mut egui::Ui, state: &mut State, settings: &Settings) {
+    let mut alpha = settings.alpha.get();
+    let slider = ui.add(egui::Slider::new(&mut alpha, 0.01..=1.0).text("α").max_decimals(3).smart_aim(false));
+    state.place("alpha", &slider);
+    let slider = slider.on_hover_text(
+        "Share of new photons that each hit point keeps, from above 0 to 1. Small: radii shrink fast, so blur goes and noise stays. \
+         Large: smooth, but the blur of the radius stays longer. 2/3 lets both fall together. Costs no time.",
+    );
+    if slider.changed()
+        && let Some(alpha) = Alpha::new(alpha)
+    {
+        state.steer(Change::Alpha(alpha));
+    }
+    let mut photons = settings.photons_per_pass.get();
+    let slider = ui.add(
+        egui::Slider::new(&mut photons, 1 << 10..=1 << 24).logarithmic(true).text("photons a pass"),
+    );
+    state.place("photons per pass", &slider);
+    let slider = slider.on_hover_text(
+        "Photons traced in each pass, 1 024 to 16 777 216. Fewer: the picture answers sooner. More: less overhead for each photon, \
+         and radii shrink by fewer, better-founded steps.",
+    );
+    if slider.changed()
+        && let Some(photons) = NonZeroU32::new(photons)
+    {
+        state.steer(Change::PhotonsPerPass(photons));
+    }
+}
+
+fn stop_rule(ui: &mut egui::Ui, state: &mut State, rule: StopRule) {
+    let mut new = rule;
+    ui.horizontal(|ui| {
+        let mut on = rule.passes.is_some();
+        ui.checkbox(&mut on, "after");
+        let mut passes = rule.passes.unwrap_or(64);
+        let value = ui.add_enabled(on, egui::DragValue::new(&mut passes).range(1..=1_000_000_000u64).suffix(" passes"));
+        value.on_hover_text("Pauses after so many passes; Resume with a higher number goes on");
+        new.passes = on.then_some(passes);
+    });
+    ui.horizontal(|ui| {
+        let mut on = rule.time.is_some();
+        ui.checkbox(&mut on, "after ");
+        let mut seconds = rule.time.map_or(60.0, |t| t.as_secs_f64());
+        let value = ui.add_enabled(
+            on,
+            egui::DragValue::new(&mut seconds).range(0.1..=1e7).speed(0.5).max_decimals(1).suffix(" s"),
+        );
+        value.on_hover_text("Pauses after so much rendering; a pass that would end later is not begun");
+        new.time = on.then(|| Duration::from_secs_f64(seconds));
+    });
+    if new != rule {
+        state.ask(Command::StopAt(new));
+    }
+}
+
+/// Settings that start the render anew: sent when a control is let go.
+fn anew(ui: &mut egui::Ui, state: &mut State, settings: &Settings, threads: Option<usize>) {
+    let now = Configuration::of(settings, threads);
+    let mut draft = state.draft.take().unwrap_or_else(|| now.clone());
+    let mut held = false;
+    let mut hold = |response: &egui::Response| held |= response.dragged() || response.has_focus();
+    ui.horizontal(|ui| {
+        ui.label("Direct light");
+        ui.selectable_value(&mut draft.direct_light, DirectLight::Photons, "photons")
+            .on_hover_text("Direct light by photons, like all other light: no extra time, soft shadow edges at first");
+        ui.selectable_value(&mut draft.direct_light, DirectLight::ShadowRays, "shadow rays")
+            .on_hover_text("A shadow ray from each hit point in each pass: sharp shadows at once, slower passes");
+    });
+    let mut samples = draft.samples_per_pixel.get();
+    let value = ui.add(egui::Slider::new(&mut samples, 1..=64).text("hit points a pixel").clamping(egui::SliderClamping::Edits));
+    hold(&value);
+    value.on_hover_text("Eye samples a pixel, 1 to 64. More: smoother edges and gloss. Memory and gathering grow with it.");
+    draft.samples_per_pixel = NonZeroU32::new(samples).unwrap_or(NonZeroU32::MIN);
+    ui.horizontal(|ui| {
+        let mut own = draft.radius.is_some();
+        ui.checkbox(&mut own, "first radius")
+            .on_hover_text("Off: from each pixel's footprint. Large: smooth and blurred at first; small: sharp and noisy");
+        let start = state.frame.as_ref().map_or(1.0, |f| f.numbers.radii.median).max(1e-9);
+        let mut radius = draft.radius.unwrap_or(start);
+        let speed = radius * 0.01;
+        let value = ui.add_enabled(
+            own,
+            egui::DragValue::new(&mut radius).range(1e-9..=1e9).speed(speed).suffix(" world units"),
+        );
+        hold(&value);
+        draft.radius = own.then_some(radius);
+    });
+    ui.horizontal(|ui| {
+        let label = ui.label("Seed");
+        let value = ui.add(egui::DragValue::new(&mut draft.seed)).labelled_by(label.id);
+        hold(&value);
+        value.on_hover_text("Another seed gives other noise and the same light");
+        let label = ui.label("Threads");
+        let most = std::thread::available_parallelism().map_or(1, |n| n.get());
+        let mut n = draft.threads.unwrap_or(most);
+        let value = ui.add(egui::DragValue::new(&mut n).range(1..=4 * most)).labelled_by(label.id);
+        hold(&value);
+        value.on_hover_text("The picture is the same for any number");
+        if n != draft.threads.unwrap_or(most) {
+            draft.threads = Some(n);
+        }
+    });
+    sensors(ui, state, &mut draft);
+    if draft != now {
+        if held {
+            state.draft = Some(draft);
+        } else {
+            state.ask(Command::Configure(draft));
+            state.notice("Started anew with the new settings");
+        }
+    }
+}
+
+fn sensors(ui: &mut egui::Ui, state: &State, draft: &mut Configuration) {
+    let Some(frame) = state.frame.as_ref().filter(|f| f.scene.sensors.len() > 1) else { return };
+    let name = frame.scene.sensors.get(draft.sensor).map_or("", |s| s.name.as_str());
+    let label = ui.label("Camera of the scene");
+    let list = egui::ComboBox::from_id_salt("sensor").selected_text(name).show_ui(ui, |ui| {
+        for (i, sensor) in frame.scene.sensors.iter().enumerate() {
+            ui.selectable_value(&mut draft.sensor, i, &sensor.name);
+        }
+    });
+    list.response.labelled_by(label.id);
+}
+
+fn camera(ui: &mut egui::Ui, state: &mut State, sensor: usize) {
+    let Some(fov) = state.frame.as_ref().and_then(|f| f.scene.sensors.get(sensor)).map(|s| s.fov_degrees) else {
+        return;
+    };
+    let mut degrees = fov;
+    let slider = ui.add(egui::Slider::new(&mut degrees, 1.0..=170.0).text("field of view").suffix("°").max_decimals(1));
+    if slider.changed() {
+        state.ask(Command::Camera { gesture: Gesture::FieldOfView(degrees), moving: slider.dragged() });
+    }
+    if slider.drag_stopped() {
+        state.ask(Command::Moving(false));
+    }
+    if ui.button("Reset camera").on_hover_text("Back to where the scene's file has it (H)").clicked() {
+        state.ask(Command::ResetCamera);
+    }
+    heading(ui, "Snapshots");
+    ui.horizontal(|ui| {
+        ui.label("Folder");
+        let text = state.preferences.snapshot_folder.display().to_string();
+        let mut edited = text.clone();
+        let field = ui.add(egui::TextEdit::singleline(&mut edited).desired_width(180.0));
+        if field.changed() {
+            state.preferences.snapshot_folder = edited.into();
+        }
+    });
+    let auto = ui.checkbox(&mut state.auto_snapshots, "at passes 1, 2, 4, 8, …");
+    if auto.on_hover_text("Writes a picture at powers of two: frames of a film of the convergence").changed() {
+        let folder = state.auto_snapshots.then(|| state.snapshot_folder());
+        state.ask(Command::AutoSnapshots(folder));
+    }
+}

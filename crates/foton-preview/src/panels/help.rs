@@ -1,0 +1,46 @@
+//! The overlay of keys and gestures.
+
+use crate::state::State;
+
+const KEYS: [(&str, &str); 22] = [
+    ("drag", "turn the camera"),
+    ("Shift+drag, right drag", "move the camera across"),
+    ("wheel", "camera nearer, farther"),
+    ("W A S D Q E", "fly"),
+    ("H", "camera back to the file's"),
+    ("click", "choose a shape or light"),
+    ("drag what is chosen", "move it on the floor; its arrow or Alt: up and down"),
+    ("arrow keys, Page up, Page down", "move it a little"),
+    ("Ctrl+Z, Ctrl+Shift+Z", "undo, redo"),
+    ("Esc", "let go, choose nothing, close"),
+    ("Ctrl+wheel, Ctrl+drag", "zoom and move the image"),
+    ("F, double click", "fit the image"),
+    ("Space", "pause, resume"),
+    (".", "one pass"),
+    ("Ctrl+R", "restart"),
+    ("P", "snapshot: EXR and PNG"),
+    ("O", "photons as dots"),
+    ("K", "pin this pass, compare"),
+    ("1 … 5", "radiance, luminance, radius, photons, none yet"),
+    ("Ctrl+O", "open a scene"),
+    ("Ctrl+S", "save the edited scene"),
+    ("?", "this list"),
+];
+
+pub(super) fn show(ctx: &egui::Context, state: &mut State) {
+    if !state.show_help {
+        return;
+    }
+    let mut open = true;
+    let window = egui::Window::new("Keys and gestures").open(&mut open).resizable(false).collapsible(false);
+    window.anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, |ui| {
+        egui::Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
+            for (keys, what) in KEYS {
+                ui.strong(keys);
+                ui.label(what);
+                ui.end_row();
+            }
+        });
+    });
+    state.show_help = open;
+}

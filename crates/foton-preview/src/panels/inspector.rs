@@ -1,0 +1,118 @@
+//! What is chosen: its material and numbers, all of them editable live.
+
+use foton_session::edit::{Control, Field, Value};
+use foton_session::engine::{Change, Command};
+
+use super::heading;
+use crate::state::State;
+
+pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
+    let Some(selection) = state.frame.as_ref().and_then(|f| f.selection.clone()) else { return };
+    let inspection = &selection.inspection;
+    ui.add_space(6.0);
+    ui.horizontal(|ui| {
+        ui.label(egui::RichText::new(&inspection.title).strong().size(16.0));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if ui.button("Close").on_hover_text("Nothing chosen (Esc)").clicked() {
+                state.ask(Command::Choose(None));
+            }
+        });
+    });
+    ui.weak(&inspection.kind);
+    if let Some(material) = &inspection.material {
+        ui.horizontal_wrapped(|ui| {
+            ui.label(format!("Material {}", material.name));
+            if material.shapes > 1 {
+                ui.weak(format!("shared by {} shapes", material.shapes));
+                let own = ui.button("Make its own").on_hover_text("Edits then change this shape alone");
+                if own.clicked() {
+                    state.ask(Command::Edit(Change::OwnMaterial));
+                }
+            }
+        });
+    }
+    heading(ui, "Properties");
+    for field in &inspection.fields {
+        show_field(ui, state, field);
+    }
+    for note in &inspection.notes {
+        ui.weak(note);
+    }
+    ui.add_space(8.0);
+    history(ui, state);
+}
+
+fn history(ui: &mut egui::Ui, state: &mut State) {
+    let Some(scene) = state.frame.as_ref().map(|f| f.scene.clone()) else { return };
+    ui.horizontal(|ui| {
+        let steps = [("Undo", &scene.undo, Change::Undo, "Ctrl+Z"), ("Redo", &scene.redo, Change::Redo, "Ctrl+Shift+Z")];
+        for (label, step, change, keys) in steps {
+            let button = ui.add_enabled(step.is_some(), egui::Button::new(label));
+            let button = button.on_hover_text(format!("{} ({keys})", step.as_deref().unwrap_or("Nothing")));
+            if button.clicked() {
+                state.ask(Command::Edit(change));
+            }
+        }
+    });
+}
+
+fn show_field(ui: &mut egui::Ui, state: &mut State, field: &Field) {
+    let mut set = |value: Value, done: bool| state.ask(Command::Edit(Change::SetField { field: field.id, value, done }));
+    match (&field.control, field.value) {
+        (Control::Number { min, max, logarithmic }, Value::Number(value)) => {
+            let mut number = value;
+            let unit = if field.unit.is_empty() { String::new() } else { format!(" {}", field.unit) };
+            let response = if *logarithmic {
+                let slider = egui::Slider::new(&mut number, *min..=*max).logarithmic(true).suffix(unit);
+                ui.add(slider.text(field.label))
+            } else if max - min <= 1000.0 {
+                ui.add(egui::Slider::new(&mut number, *min..=*max).suffix(unit).text(field.label))
+            } else {
+                let response = ui.horizontal(|ui| {
+                    let label = ui.label(field.label);
+                    let speed = (value.abs() * 0.005).max(1e-4);
+                    let drag = egui::DragValue::new(&mut number).range(*min..=*max).speed(speed).suffix(unit);
+                    ui.add(drag).labelled_by(label.id)
+                });
+                response.inner
+            };
+            let response = response.on_hover_text(field.help);
+            if response.changed() && number.is_finite() {
+                set(Value::Number(number.clamp(*min, *max)), !response.dragged());
+            } else if response.drag_stopped() {
+                set(Value::Number(value), true);
+            }
+        }
+        (Control::Colour, Value::Colour(colour)) => {
+            ui.horizontal(|ui| {
+                let mut linear = colour;
+                let label = ui.label(field.label);
+                let response = ui.color_edit_button_rgb(&mut linear).labelled_by(label.id).on_hover_text(field.help);
+                if response.changed() {
+                    set(Value::Colour(linear.map(|c| c.clamp(0.0, 1.0))), true);
+                }
+            });
+        }
+        (Control::Choice(options), Value::Choice(chosen)) => {
+            ui.horizontal(|ui| {
+                let label = ui.label(field.label);
+                let text = options.get(chosen).map_or("", String::as_str);
+                let list = egui::ComboBox::from_id_salt(field.label).selected_text(text).show_ui(ui, |ui| {
+                    for (i, option) in options.iter().enumerate() {
+                        if ui.selectable_label(i == chosen, option).clicked() {
+                            set(Value::Choice(i), true);
+                        }
+                    }
+                });
+                list.response.labelled_by(label.id).on_hover_text(field.help);
+            });
+        }
+        (Control::Toggle, Value::Toggle(on)) => {
+            let mut now = on;
+            if ui.checkbox(&mut now, field.label).on_hover_text(field.help).changed() {
+                set(Value::Toggle(now), true);
+            }
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,105 @@
+//! The panels: pure functions of the window's state. What they ask for goes into its outbox.
+
+mod canvas;
+mod controls;
+mod help;
+mod inspector;
+mod keys;
+mod legend;
+mod messages;
+mod numbers;
+mod overlay;
+mod toolbar;
+
+#[cfg(test)]
+mod tests;
+
+use foton_session::engine::Command;
+
+use crate::files::Outcome;
+use crate::state::{DialogPurpose, State};
+
+/// Everything in the window.
+pub(crate) fn show(ui: &mut egui::Ui, state: &mut State) {
+    state.places.clear();
+    keys::obey(ui, state);
+    egui::Panel::top("toolbar").show(ui, |ui| toolbar::show(ui, state));
+    egui::Panel::bottom("status").show(ui, |ui| numbers::status(ui, state));
+    egui::Panel::left("controls").default_size(300.0).size_range(260.0..=440.0).show(ui, |ui| {
+        egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            controls::show(ui, state);
+            numbers::show(ui, state);
+        });
+    });
+    if state.frame.as_ref().is_some_and(|f| f.selection.is_some()) {
+        egui::Panel::right("inspector").default_size(280.0).size_range(240.0..=440.0).show(ui, |ui| {
+            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| inspector::show(ui, state));
+        });
+    }
+    egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| canvas::show(ui, state));
+    messages::show(ui.ctx(), state);
+    help::show(ui.ctx(), state);
+    dialog(ui.ctx(), state);
+}
+
+fn dialog(ctx: &egui::Context, state: &mut State) {
+    let Some((purpose, mut dialog)) = state.dialog.take() else { return };
+    match dialog.show(ctx) {
+        Outcome::Browsing => state.dialog = Some((purpose, dialog)),
+        Outcome::Cancelled => {}
+        Outcome::Chosen(path) => {
+            if let Some(folder) = path.parent() {
+                state.preferences.scene_folder = folder.to_owned();
+            }
+            match purpose {
+                DialogPurpose::OpenScene => state.open(path),
+                DialogPurpose::SaveScene => state.ask(Command::SaveScene(path)),
+            }
+        }
+    }
+}
+
+/// A heading over a group of controls.
+fn heading(ui: &mut egui::Ui, text: &str) {
+    ui.add_space(8.0);
+    ui.label(egui::RichText::new(text).strong());
+    ui.add_space(2.0);
+}
+
+/// A number with thousands set apart: `12 345 678`.
+fn grouped(n: u64) -> String {
+    let digits = n.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// A positive number in three digits, with powers of ten where that is shorter.
+fn short(x: f64) -> String {
+    match x.abs() {
+        0.0 => "0".to_owned(),
+        a if (0.01..1e4).contains(&a) => {
+            let decimals = (2 - a.log10().floor() as i32).clamp(0, 4);
+            format!("{x:.*}", decimals as usize)
+        }
+        _ => format!("{x:.2e}"),
+    }
+}
+
+#[cfg(test)]
+mod words {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_grouped() {
+        assert_eq!(grouped(1_234_567), "1\u{202f}234\u{202f}567");
+        assert_eq!((grouped(0), grouped(999)), ("0".to_owned(), "999".to_owned()));
+        assert_eq!((short(0.0), short(12.345), short(0.0456)), ("0".into(), "12.3".into(), "0.0456".into()));
+        assert_eq!((short(1.5e-5), short(123_456.0)), ("1.50e-5".to_owned(), "1.23e5".to_owned()));
+    }
+}

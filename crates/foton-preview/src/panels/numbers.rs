@@ -1,0 +1,112 @@
+//! The numbers: how the render stands, where its time goes, and how both went.
+
+use egui_plot::{Line, Plot, PlotPoints};
+use foton_session::engine::{Activity, Frame};
+
+use super::{grouped, heading, short};
+use crate::state::{State, Trace};
+
+/// The line at the bottom.
+pub(super) fn status(ui: &mut egui::Ui, state: &State) {
+    ui.horizontal(|ui| {
+        let Some(frame) = &state.frame else {
+            ui.weak("no scene");
+            return;
+        };
+        let n = &frame.numbers;
+        ui.label(activity(frame));
+        ui.separator();
+        ui.label(format!("pass {}", n.passes));
+        ui.separator();
+        ui.label(format!("{} photons", grouped(n.photons)));
+        ui.separator();
+        ui.label(format!("{:.2} M photons/s", n.photons_per_s / 1e6));
+        ui.separator();
+        if let Some(probe) = frame.probe.as_ref().filter(|p| Some(p.pixel) == state.probed) {
+            let c = probe.radiance;
+            let [r, g, b] = [c.r, c.g, c.b].map(|v| short(f64::from(v)));
+            let mut text = format!("({}, {})  {r} {g} {b} W/m²/sr", probe.pixel[0], probe.pixel[1]);
+            if let Some(radius) = probe.radius {
+                text += &format!("  r {}  N {}", short(radius), grouped(probe.photons_found));
+            }
+            if let Some(distance) = probe.distance {
+                text += &format!("  depth {}", short(distance));
+            }
+            if let Some((shape, material)) = &probe.surface {
+                text += &format!("  {shape} · {material}");
+            }
+            ui.label(text);
+        } else {
+            ui.weak(&frame.scene.name);
+        }
+    });
+}
+
+fn activity(frame: &Frame) -> String {
+    match frame.activity {
+        Activity::Empty => "no scene".to_owned(),
+        Activity::Moving => "moving".to_owned(),
+        Activity::Collecting => "collecting hit points…".to_owned(),
+        Activity::Rendering => match frame.stop.fraction(frame.numbers.passes, frame.numbers.elapsed) {
+            Some(share) => format!("rendering {:.0} %", share * 100.0),
+            None => "rendering".to_owned(),
+        },
+        Activity::Paused => "paused".to_owned(),
+        Activity::Done => "done".to_owned(),
+    }
+}
+
+/// The table and the plots.
+pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
+    let Some(frame) = state.frame.clone() else { return };
+    let n = &frame.numbers;
+    heading(ui, "Numbers");
+    egui::Grid::new("numbers").num_columns(2).spacing([12.0, 3.0]).show(ui, |ui| {
+        let mut row = |name: &str, value: String, help: &str| {
+            ui.weak(name).on_hover_text(help);
+            ui.monospace(value);
+            ui.end_row();
+        };
+        row("time", format!("{:.1} s", n.elapsed.as_secs_f64()), "Of rendering; pauses do not count");
+        row("rays/s", format!("{:.2} M", n.rays_per_s / 1e6), "Over the last two seconds");
+        row("hit points", grouped(n.hit_points), "Where eye paths end on surfaces that spread light");
+        row("without photon", format!("{:.2} %", n.no_photon_share * 100.0), "Unknown, not dark");
+        let r = &n.radii;
+        row("radius", short(r.median), "Median over all hit points, in world units");
+        row("from, to", format!("{}, {}", short(r.smallest), short(r.largest)), "Smallest and largest radius");
+        row("memory", format!("{:.0} MiB", n.bytes as f64 / f64::from(1 << 20)), "Scene, hit points and photons");
+        row("image", format!("{} × {}", frame.size[0], frame.size[1]), "In pixels");
+    });
+    let all: f64 = n.stages.iter().map(|(_, t)| t.as_secs_f64()).sum();
+    if all > 0.0 {
+        let parts: Vec<String> = n
+            .stages
+            .iter()
+            .filter(|(_, t)| t.as_secs_f64() > 0.005 * all)
+            .map(|(stage, t)| format!("{} {:.0} %", stage.name().replace('_', " "), 100.0 * t.as_secs_f64() / all))
+            .collect();
+        ui.weak(parts.join(" · ")).on_hover_text("Where the time went, in all");
+    }
+    ui.checkbox(&mut state.preferences.show_plots, "Plots");
+    if state.preferences.show_plots {
+        plot(ui, "M photons/s over time (s)", &state.rate);
+        plot(ui, "median radius over time (s)", &state.radius);
+    }
+    if !state.adapter.is_empty() {
+        ui.weak(&state.adapter);
+    }
+}
+
+fn plot(ui: &mut egui::Ui, name: &str, trace: &Trace) {
+    ui.weak(name);
+    let points: Vec<[f64; 2]> = trace.points.iter().copied().collect();
+    Plot::new(name)
+        .height(72.0)
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .show_x(false)
+        .include_y(0.0)
+        .show(ui, |plot| plot.line(Line::new(name, PlotPoints::from(points))));
+}

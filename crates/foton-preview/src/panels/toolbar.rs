@@ -1,0 +1,192 @@
+//! The bar on top: scene, run, snapshot, what is shown.
+
+use foton_film::ToneMap;
+use foton_session::engine::{Activity, Command, Configuration, Shown, Source};
+
+use crate::files::{FileDialog, SCENES};
+use crate::state::{DialogPurpose, Pinned, Placement, State};
+
+pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
+    ui.horizontal_wrapped(|ui| {
+        scene_menu(ui, state);
+        ui.separator();
+        run(ui, state);
+        ui.separator();
+        view(ui, state);
+        ui.separator();
+        compare(ui, state);
+        let help = ui.button("?").on_hover_text("Keys and gestures (?)");
+        if help.clicked() {
+            state.show_help = !state.show_help;
+        }
+    });
+}
+
+fn scene_menu(ui: &mut egui::Ui, state: &mut State) {
+    ui.menu_button("Scene", |ui| {
+        if ui.button("Open…").clicked() {
+            open_dialog(state);
+        }
+        ui.menu_button("Built in", |ui| {
+            for name in state.built_in.clone() {
+                if ui.button(&name).clicked() {
+                    state.ask(Command::Open(Source::BuiltIn(name)));
+                }
+            }
+        });
+        if ui.button("Save edited scene…").clicked() {
+            save_dialog(state);
+        }
+        let xml = state.frame.as_ref().and_then(|f| f.scene.sensors.get(f.settings.sensor)).map(|s| s.xml.clone());
+        let copy = ui.add_enabled(xml.is_some(), egui::Button::new("Copy camera as XML"));
+        if let Some(xml) = xml.filter(|_| copy.clicked()) {
+            ui.ctx().copy_text(xml);
+            state.notice("The camera is on the clipboard, as Mitsuba XML");
+        }
+        ui.separator();
+        ui.checkbox(&mut state.preferences.dark, "Dark colours");
+    });
+    if state.changed_on_disk && ui.button("Reload").on_hover_text("The scene's file has changed on the disk").clicked() {
+        state.changed_on_disk = false;
+        if let Some(file) = state.frame.as_ref().and_then(|f| f.scene.file.clone()) {
+            state.open(file);
+        }
+    }
+    let opening = state.frame.as_ref().and_then(|f| f.opening.clone());
+    if let Some(name) = opening {
+        ui.spinner();
+        ui.label(format!("Opening {name}"));
+        if ui.button("Cancel").clicked() {
+            state.ask(Command::CancelOpen);
+        }
+    }
+}
+
+pub(super) fn open_dialog(state: &mut State) {
+    state.dialog = Some((DialogPurpose::OpenScene, FileDialog::open(&state.preferences.scene_folder, SCENES)));
+}
+
+pub(super) fn save_dialog(state: &mut State) {
+    let name = state.frame.as_ref().map_or("scene", |f| f.scene.name.as_str());
+    let stem = name.strip_suffix(".xml").unwrap_or(name);
+    let path = state.preferences.scene_folder.join(format!("{stem}-edited.xml"));
+    state.dialog = Some((DialogPurpose::SaveScene, FileDialog::save(&path, &["xml"])));
+}
+
+fn run(ui: &mut egui::Ui, state: &mut State) {
+    let activity = state.frame.as_ref().map_or(Activity::Empty, |f| f.activity);
+    let waits = matches!(activity, Activity::Paused | Activity::Done);
+    let (label, command) = if waits { ("Resume", Command::Resume) } else { ("Pause", Command::Pause) };
+    let there = activity != Activity::Empty;
+    let pause = ui.add_enabled(there, egui::Button::new(label)).on_hover_text("After the pass under way (space)");
+    state.place("pause", &pause);
+    if pause.clicked() {
+        state.ask(command);
+    }
+    let step = ui.add_enabled(there && waits, egui::Button::new("Step")).on_hover_text("One pass (.)");
+    if step.clicked() {
+        state.ask(Command::Step);
+    }
+    let restart = ui.add_enabled(there, egui::Button::new("Restart")).on_hover_text("From the first pass on (Ctrl+R)");
+    if restart.clicked() {
+        state.ask(Command::Restart);
+    }
+    let snapshot = ui.add_enabled(there, egui::Button::new("Snapshot")).on_hover_text(
+        "Saves this pass as EXR and PNG, as `foton render` would write them (P)",
+    );
+    state.place("snapshot", &snapshot);
+    if snapshot.clicked() {
+        let folder = state.snapshot_folder();
+        state.ask(Command::Snapshot(folder));
+    }
+}
+
+/// What can be shown, by name.
+pub(super) const PICTURES: [(&str, Shown); 5] = [
+    ("Radiance", Shown::Radiance),
+    ("Luminance", Shown::Luminance),
+    ("Radius", Shown::Radius),
+    ("Photons found", Shown::PhotonCount),
+    ("No photon yet", Shown::Unknown),
+];
+
+fn view(ui: &mut egui::Ui, state: &mut State) {
+    let now = PICTURES.iter().find(|(_, shown)| *shown == state.shown).map_or("Light by kind", |(name, _)| name);
+    let label = ui.label("Show");
+    let list = egui::ComboBox::from_id_salt("picture").selected_text(now).show_ui(ui, |ui| {
+        for (name, shown) in PICTURES {
+            if ui.selectable_label(state.shown == shown, name).clicked() {
+                state.choose_shown(shown);
+            }
+        }
+    });
+    list.response.labelled_by(label.id);
+    if matches!(state.shown, Shown::Radiance | Shown::Classes { .. }) {
+        let exposure = ui.add(
+            egui::Slider::new(&mut state.exposure_stops, -8.0..=8.0)
+                .text("Exposure")
+                .suffix(" stops")
+                .step_by(0.1)
+                .clamping(egui::SliderClamping::Never),
+        );
+        exposure.on_hover_text("Each stop doubles the light on the screen; nothing is rendered anew");
+        let label = ui.label("Tone");
+        let list = egui::ComboBox::from_id_salt("tone").selected_text(state.tone_map.name()).show_ui(ui, |ui| {
+            for map in ToneMap::ALL {
+                ui.selectable_value(&mut state.tone_map, map, map.name());
+            }
+        });
+        list.response.labelled_by(label.id);
+        ui.menu_button("Light", |ui| classes(ui, state)).response.on_hover_text("Which kinds of light are shown");
+    }
+    let photons = ui.toggle_value(&mut state.show_photons, "Photons");
+    state.place("photons", &photons);
+    if photons.on_hover_text("The last pass's photons as dots (O): direct yellow, caustic white, indirect blue").changed() {
+        state.ask(Command::ShowPhotons(state.show_photons));
+    }
+    if ui.button("Fit").on_hover_text("The whole image (F)").clicked() {
+        state.placement = Placement::FIT;
+    }
+}
+
+fn classes(ui: &mut egui::Ui, state: &mut State) {
+    let (mut reflected, mut emission) = match state.shown {
+        Shown::Classes { reflected, emission } => (reflected, emission),
+        _ => ([true; 3], true),
+    };
+    let before = (reflected, emission);
+    let names = ["Direct", "Caustic", "Indirect"];
+    for (on, name) in reflected.iter_mut().zip(names) {
+        ui.checkbox(on, name);
+    }
+    ui.checkbox(&mut emission, "Emitters");
+    ui.weak("Keeping kinds apart takes more memory;\nswitching it on starts anew.");
+    if (reflected, emission) == before {
+        return;
+    }
+    if reflected == [true; 3] && emission {
+        state.choose_shown(Shown::Radiance);
+        return;
+    }
+    state.choose_shown(Shown::Classes { reflected, emission });
+    let apart = state.frame.as_ref().map(|f| (f.settings.clone(), f.threads));
+    if let Some((settings, threads)) = apart.filter(|(settings, _)| !settings.layers) {
+        let configuration = Configuration { layers: true, ..Configuration::of(&settings, threads) };
+        state.ask(Command::Configure(configuration));
+        state.notice("Started anew, with direct, caustic and indirect light kept apart");
+    }
+}
+
+fn compare(ui: &mut egui::Ui, state: &mut State) {
+    let picture = state.frame.as_ref().and_then(|f| f.picture.clone().map(|p| (p, f.numbers.passes)));
+    if state.pinned.is_some() {
+        if ui.button("Unpin").on_hover_text("Ends the comparison (K)").clicked() {
+            state.pinned = None;
+        }
+    } else if let Some((picture, passes)) = picture {
+        let pin = ui.button("Pin").on_hover_text("Keeps this picture to the right of a line that can be dragged, to compare with (K)");
+        if pin.clicked() {
+            state.pinned = Some(Pinned { picture, label: format!("pass {passes}") });
+        }
+    }
+}

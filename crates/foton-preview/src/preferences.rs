@@ -1,0 +1,99 @@
+//! What is remembered from one time to the next: a small JSON file in the user's configuration folder. Never a reason to fail.
+
+use std::path::PathBuf;
+
+use serde_json::{Value, json};
+
+/// What is remembered.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Preferences {
+    /// Width and height of the window in points.
+    pub(crate) window: [f32; 2],
+    pub(crate) dark: bool,
+    pub(crate) snapshot_folder: PathBuf,
+    /// Where file dialogs begin.
+    pub(crate) scene_folder: PathBuf,
+    pub(crate) show_plots: bool,
+}
+
+impl Default for Preferences {
+    fn default() -> Self {
+        Self {
+            window: [1280.0, 800.0],
+            dark: true,
+            snapshot_folder: PathBuf::from("."),
+            scene_folder: PathBuf::from("."),
+            show_plots: true,
+        }
+    }
+}
+
+impl Preferences {
+    fn path() -> Option<PathBuf> {
+        let from = |name: &str| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);
+        let folder = from("XDG_CONFIG_HOME")
+            .or_else(|| from("APPDATA"))
+            .or_else(|| from("HOME").map(|home| home.join(".config")))?;
+        Some(folder.join("foton").join("window.json"))
+    }
+
+    /// What was remembered; what cannot be read is as at the first time.
+    pub(crate) fn load() -> Self {
+        let text = Self::path().and_then(|path| std::fs::read_to_string(path).ok());
+        text.map_or_else(Self::default, |text| Self::parse(&text))
+    }
+
+    fn parse(text: &str) -> Self {
+        let Ok(value) = serde_json::from_str::<Value>(text) else { return Self::default() };
+        let default = Self::default();
+        let side = |i: usize| {
+            let side = value["window"][i].as_f64().map(|v| v as f32);
+            side.filter(|v| (320.0..=16384.0).contains(v)).unwrap_or(default.window[i])
+        };
+        let folder = |name: &str, default: &PathBuf| {
+            let folder = value[name].as_str().map(PathBuf::from).filter(|f| f.is_dir());
+            folder.unwrap_or_else(|| default.clone())
+        };
+        Self {
+            window: [side(0), side(1)],
+            dark: value["dark"].as_bool().unwrap_or(default.dark),
+            snapshot_folder: folder("snapshot_folder", &default.snapshot_folder),
+            scene_folder: folder("scene_folder", &default.scene_folder),
+            show_plots: value["show_plots"].as_bool().unwrap_or(default.show_plots),
+        }
+    }
+
+    fn text(&self) -> String {
+        let value = json!({
+            "window": self.window,
+            "dark": self.dark,
+            "snapshot_folder": self.snapshot_folder.to_string_lossy(),
+            "scene_folder": self.scene_folder.to_string_lossy(),
+            "show_plots": self.show_plots,
+        });
+        format!("{value:#}\n")
+    }
+
+    /// Remembers; a disk that refuses is nobody's business here.
+    pub(crate) fn save(&self) {
+        let Some(path) = Self::path() else { return };
+        if let Some(folder) = path.parent() {
+            let _ = std::fs::create_dir_all(folder);
+        }
+        let _ = foton_film::atomic_write(&path, |file| std::io::Write::write_all(file, self.text().as_bytes()));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_reads_back_and_nonsense_is_the_default() {
+        let preferences = Preferences { window: [900.0, 700.0], dark: false, ..Preferences::default() };
+        assert_eq!(Preferences::parse(&preferences.text()), preferences);
+        for bad in ["", "[]", "{\"window\":[1e9,\"x\"],\"dark\":3}", "{\"snapshot_folder\":\"/nowhere/at/all\"}"] {
+            assert_eq!(Preferences::parse(bad), Preferences::default(), "{bad}");
+        }
+    }
+}

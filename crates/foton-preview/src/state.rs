@@ -1,0 +1,249 @@
+//! What the window knows and what a person has set in it. Panels are functions of this; what they ask of the engine goes into
+//! the outbox, so that tests drive them without an engine.
+
+use std::collections::VecDeque;
+use std::path::PathBuf;
+
+use foton_film::ToneMap;
+use foton_session::Change;
+use foton_session::engine::{Command, Configuration, Event, Frame, Picture, Shown, Source};
+
+use crate::files::FileDialog;
+use crate::preferences::Preferences;
+
+/// Points that a plot keeps; older ones are thinned.
+const PLOT_POINTS: usize = 512;
+
+/// How long a message stays, in seconds; errors stay until they are closed.
+pub(crate) const MESSAGE_SECONDS: f64 = 6.0;
+
+/// How a message is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Tone {
+    Notice,
+    Error,
+}
+
+/// Something to tell.
+#[derive(Clone, Debug)]
+pub(crate) struct Message {
+    pub(crate) tone: Tone,
+    pub(crate) text: String,
+    /// When it was first drawn, in seconds of the window's clock.
+    pub(crate) since: Option<f64>,
+    /// Whether the frame log has it.
+    pub(crate) is_logged: bool,
+}
+
+/// A picture kept to compare with.
+#[derive(Clone, Debug)]
+pub(crate) struct Pinned {
+    pub(crate) picture: Picture,
+    pub(crate) label: String,
+}
+
+/// How the image lies in the window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Placement {
+    /// Points of the window per pixel of the image; `None`: as large as fits.
+    pub(crate) zoom: Option<f32>,
+    /// The middle of the view, as shares of the image.
+    pub(crate) centre: [f32; 2],
+}
+
+impl Placement {
+    pub(crate) const FIT: Self = Self { zoom: None, centre: [0.5, 0.5] };
+}
+
+/// What a file dialog is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum DialogPurpose {
+    OpenScene,
+    SaveScene,
+}
+
+/// What the pointer does with the scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Grip {
+    #[default]
+    None,
+    /// Turning the camera.
+    Orbit,
+    /// Moving the camera across.
+    Pan,
+    /// Moving the image in the window.
+    Image,
+    /// Moving what is chosen.
+    Object,
+    /// Moving the line of the wipe.
+    Wipe,
+}
+
+/// A value over time.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Trace {
+    pub(crate) points: VecDeque<[f64; 2]>,
+}
+
+impl Trace {
+    pub(crate) fn push(&mut self, seconds: f64, value: f64) {
+        if !value.is_finite() {
+            return;
+        }
+        self.points.push_back([seconds, value]);
+        if self.points.len() > PLOT_POINTS {
+            // The shape stays, at half the detail.
+            let mut keep = false;
+            self.points.retain(|_| {
+                keep = !keep;
+                keep
+            });
+        }
+    }
+}
+
+/// All of it.
+pub(crate) struct State {
+    pub(crate) frame: Option<Frame>,
+    /// What is asked of the engine, in order.
+    pub(crate) outbox: Vec<Command>,
+    pub(crate) messages: Vec<Message>,
+    pub(crate) preferences: Preferences,
+    pub(crate) placement: Placement,
+    pub(crate) exposure_stops: f32,
+    pub(crate) tone_map: ToneMap,
+    pub(crate) shown: Shown,
+    pub(crate) show_photons: bool,
+    pub(crate) auto_snapshots: bool,
+    pub(crate) pinned: Option<Pinned>,
+    /// Where the wipe's line is, as a share of the view's width.
+    pub(crate) wipe: f32,
+    pub(crate) show_help: bool,
+    pub(crate) dialog: Option<(DialogPurpose, FileDialog)>,
+    pub(crate) grip: Grip,
+    /// When the camera last moved by wheel or key: a while after, the whole picture is due.
+    pub(crate) moved_at: Option<f64>,
+    /// The pixel under the pointer, as last told to the engine.
+    pub(crate) probed: Option<[u32; 2]>,
+    pub(crate) rate: Trace,
+    pub(crate) radius: Trace,
+    /// Which render and pass the traces ended at.
+    pub(crate) traced: (u64, u64),
+    /// The scene's file changed on the disk.
+    pub(crate) changed_on_disk: bool,
+    pub(crate) built_in: Vec<String>,
+    /// Where controls are, in points, by name: for scripts that drive the window.
+    pub(crate) places: Vec<(&'static str, egui::Rect)>,
+    /// What there is to say of the adapter.
+    pub(crate) adapter: String,
+    /// A configuration that is being edited and was not sent yet.
+    pub(crate) draft: Option<Configuration>,
+}
+
+impl State {
+    pub(crate) fn new(preferences: Preferences, built_in: Vec<String>) -> Self {
+        Self {
+            frame: None,
+            outbox: Vec::new(),
+            messages: Vec::new(),
+            preferences,
+            placement: Placement::FIT,
+            exposure_stops: 0.0,
+            tone_map: ToneMap::default(),
+            shown: Shown::Radiance,
+            show_photons: false,
+            auto_snapshots: false,
+            pinned: None,
+            wipe: 0.5,
+            show_help: false,
+            dialog: None,
+            grip: Grip::None,
+            moved_at: None,
+            probed: None,
+            rate: Trace::default(),
+            radius: Trace::default(),
+            traced: (0, 0),
+            changed_on_disk: false,
+            built_in,
+            places: Vec::new(),
+            adapter: String::new(),
+            draft: None,
+        }
+    }
+
+    /// Takes the newest frame.
+    pub(crate) fn show(&mut self, frame: Frame) {
+        let now = (frame.render, frame.numbers.passes);
+        if frame.render != self.traced.0 {
+            self.rate = Trace::default();
+            self.radius = Trace::default();
+        }
+        if now != self.traced && frame.numbers.passes > 1 {
+            let seconds = frame.numbers.elapsed.as_secs_f64();
+            self.rate.push(seconds, frame.numbers.photons_per_s / 1e6);
+            self.radius.push(seconds, frame.numbers.radii.median);
+        }
+        self.traced = now;
+        self.frame = Some(frame);
+    }
+
+    /// Takes an event.
+    pub(crate) fn hear(&mut self, event: Event) {
+        match event {
+            Event::Opened { name, warnings } => {
+                self.placement = Placement::FIT;
+                self.pinned = None;
+                self.draft = None;
+                self.changed_on_disk = false;
+                self.notice(format!("Opened {name}"));
+                for warning in warnings {
+                    self.notice(warning);
+                }
+            }
+            Event::Saved(paths) => {
+                for path in paths {
+                    self.notice(format!("Saved {}", path.display()));
+                }
+            }
+            Event::Notice(text) => self.notice(text),
+            Event::Failed(text) => self.error(text),
+        }
+    }
+
+    pub(crate) fn notice(&mut self, text: impl Into<String>) {
+        self.messages.push(Message { tone: Tone::Notice, text: text.into(), since: None, is_logged: false });
+    }
+
+    pub(crate) fn error(&mut self, text: impl Into<String>) {
+        self.messages.push(Message { tone: Tone::Error, text: text.into(), since: None, is_logged: false });
+    }
+
+    pub(crate) fn ask(&mut self, command: Command) {
+        self.outbox.push(command);
+    }
+
+    pub(crate) fn steer(&mut self, change: Change) {
+        self.ask(Command::Steer(change));
+    }
+
+    pub(crate) fn open(&mut self, path: PathBuf) {
+        self.ask(Command::Open(Source::File(path)));
+    }
+
+    /// Remembers where a control is.
+    pub(crate) fn place(&mut self, name: &'static str, response: &egui::Response) {
+        self.places.push((name, response.rect));
+    }
+
+    /// What frames should carry, told to the engine.
+    pub(crate) fn choose_shown(&mut self, shown: Shown) {
+        if self.shown != shown {
+            self.shown = shown;
+            self.ask(Command::Show(shown));
+        }
+    }
+
+    pub(crate) fn snapshot_folder(&self) -> PathBuf {
+        self.preferences.snapshot_folder.clone()
+    }
+}

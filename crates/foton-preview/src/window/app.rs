@@ -1,0 +1,247 @@
+//! When to draw: at once on input, on new frames as often as drawing is cheap, never when nothing changed or nobody looks.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant, SystemTime};
+
+use foton_session::Engine;
+use winit::application::ApplicationHandler;
+use winit::event::WindowEvent;
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
+use winit::window::WindowId;
+
+use super::frame_log::FrameLog;
+use super::live::Live;
+use super::{UserEvent, WindowError};
+use crate::state::{State, Tone};
+
+/// Between frames that only new passes ask for, where drawing takes the cores that render.
+const SOFTWARE_GAP: Duration = Duration::from_millis(330);
+
+/// The same where a graphics card draws.
+const HARDWARE_GAP: Duration = Duration::from_millis(33);
+
+/// For so long after an input a person is taken to be waiting for the picture.
+const ATTENTION: Duration = Duration::from_millis(500);
+
+/// Between looks at whether the scene's file has changed.
+const WATCH: Duration = Duration::from_secs(1);
+
+pub(super) struct App {
+    engine: Engine,
+    proxy: EventLoopProxy<UserEvent>,
+    state: State,
+    log: Option<FrameLog>,
+    live: Option<Live>,
+    error: Option<WindowError>,
+    /// When the next frame is due.
+    due: Option<Instant>,
+    drawn: Instant,
+    /// The first input that no frame has answered, and the last one.
+    unanswered: Option<Instant>,
+    last_input: Option<Instant>,
+    occluded: bool,
+    watched: Option<(PathBuf, Option<SystemTime>)>,
+    looked: Instant,
+}
+
+impl App {
+    pub(super) fn new(
+        engine: Engine,
+        proxy: EventLoopProxy<UserEvent>,
+        state: State,
+        log: Option<FrameLog>,
+    ) -> Self {
+        Self {
+            engine,
+            proxy,
+            state,
+            log,
+            live: None,
+            error: None,
+            due: None,
+            drawn: Instant::now(),
+            unanswered: None,
+            last_input: None,
+            occluded: false,
+            watched: None,
+            looked: Instant::now(),
+        }
+    }
+
+    pub(super) const fn take_error(&mut self) -> Option<WindowError> {
+        self.error.take()
+    }
+
+    /// What is being written is finished; a pass under way is not.
+    pub(super) fn finish(&mut self) {
+        self.state.preferences.save();
+        self.engine.finish_writing();
+    }
+
+    fn draw_at(&mut self, when: Instant) {
+        self.due = Some(self.due.map_or(when, |due| due.min(when)));
+    }
+
+    /// Takes what the engine has, and says when to show it.
+    fn listen(&mut self) {
+        let mut is_news = false;
+        if let Some(frame) = self.engine.frame() {
+            // Where a render begins or ends, the picture is due at once.
+            let before = self.state.frame.as_ref();
+            is_news = before.is_none_or(|old| old.activity != frame.activity || old.render != frame.render);
+            self.state.show(frame);
+        }
+        while let Some(event) = self.engine.event() {
+            self.state.hear(event);
+            is_news = true;
+        }
+        let attentive = self.last_input.is_some_and(|at| at.elapsed() < ATTENTION);
+        let is_software = self.live.as_ref().is_some_and(|l| l.is_software);
+        let gap = if is_software && !is_news && !attentive { SOFTWARE_GAP } else { HARDWARE_GAP };
+        self.draw_at(self.drawn + gap);
+    }
+
+    fn draw(&mut self) {
+        self.due = None;
+        self.watch();
+        let Some(live) = self.live.as_mut().filter(|l| l.is_visible() && !self.occluded) else { return };
+        let begin = Instant::now();
+        live.draw(&mut self.state);
+        let commands: Vec<_> = self.state.outbox.drain(..).collect();
+        for command in commands {
+            if !self.engine.send(command) {
+                self.state.error("The engine does not answer");
+            }
+        }
+        self.drawn = Instant::now();
+        let since_input = self.unanswered.take().map(|at| self.drawn - at);
+        if let Some(log) = &mut self.log {
+            log.drawn(&self.state, self.drawn - begin, since_input);
+            for message in self.state.messages.iter_mut().filter(|m| !m.is_logged) {
+                log.message(message.tone == Tone::Error, &message.text);
+                message.is_logged = true;
+            }
+        }
+    }
+
+    /// Looks whether the scene's file has changed since it was opened.
+    fn watch(&mut self) {
+        if self.looked.elapsed() < WATCH {
+            return;
+        }
+        self.looked = Instant::now();
+        let Some(file) = self.state.frame.as_ref().and_then(|f| f.scene.file.clone()) else { return };
+        let changed = std::fs::metadata(&file).and_then(|m| m.modified()).ok();
+        if let Some((path, before)) = &self.watched
+            && *path == file
+        {
+            self.state.changed_on_disk |= changed.is_some() && changed != *before;
+        }
+        self.watched = Some((file, changed));
+    }
+
+    fn open_window(&mut self, event_loop: &ActiveEventLoop) {
+        let opened = match self.live.take() {
+            None => Live::open(event_loop, &self.proxy, &self.state),
+            Some(live) => {
+                let window = Arc::clone(&live.window);
+                drop(live);
+                Live::draw_into(window, event_loop, &self.proxy)
+            }
+        };
+        match opened {
+            Ok(live) => {
+                if let Some(log) = &mut self.log {
+                    log.adapter(&live.adapter, live.is_software);
+                }
+                self.state.adapter.clone_from(&live.adapter);
+                live.window.request_redraw();
+                self.live = Some(live);
+            }
+            Err(error) => {
+                self.error = Some(error);
+                event_loop.exit();
+            }
+        }
+    }
+}
+
+impl ApplicationHandler<UserEvent> for App {
+    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
+        if self.live.is_none() {
+            self.open_window(event_loop);
+        }
+    }
+
+    fn user_event(&mut self, event_loop: &ActiveEventLoop, event: UserEvent) {
+        match event {
+            UserEvent::Wake => self.listen(),
+            UserEvent::Repaint(delay) => {
+                if let Some(when) = Instant::now().checked_add(delay) {
+                    self.draw_at(when);
+                }
+            }
+            UserEvent::DeviceLost => {
+                self.state.notice("The graphics adapter was lost and is back; the render went on");
+                self.open_window(event_loop);
+            }
+            UserEvent::AccessKit(event) => {
+                if let (Some(live), egui_winit::accesskit_winit::WindowEvent::ActionRequested(request)) =
+                    (&mut self.live, event.window_event)
+                {
+                    live.egui.on_accesskit_action_request(request);
+                    live.window.request_redraw();
+                }
+            }
+        }
+    }
+
+    fn window_event(&mut self, event_loop: &ActiveEventLoop, _id: WindowId, event: WindowEvent) {
+        let Some(live) = &mut self.live else { return };
+        let response = live.egui.on_window_event(&live.window, &event);
+        match event {
+            WindowEvent::CloseRequested => {
+                if let Some(log) = &mut self.log {
+                    log.closing();
+                }
+                event_loop.exit();
+                return;
+            }
+            WindowEvent::RedrawRequested => return self.draw(),
+            WindowEvent::Resized(size) => {
+                live.resize(size.width, size.height);
+                let size = size.to_logical(live.window.scale_factor());
+                self.state.preferences.window = [size.width, size.height];
+            }
+            WindowEvent::Occluded(occluded) => self.occluded = occluded,
+            WindowEvent::DroppedFile(path) => self.state.open(path),
+            WindowEvent::KeyboardInput { .. }
+            | WindowEvent::MouseInput { .. }
+            | WindowEvent::MouseWheel { .. }
+            | WindowEvent::CursorMoved { .. } => {
+                let now = Instant::now();
+                self.unanswered.get_or_insert(now);
+                self.last_input = Some(now);
+            }
+            _ => {}
+        }
+        if response.repaint {
+            self.draw_at(Instant::now());
+        }
+    }
+
+    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        let Some(due) = self.due else {
+            event_loop.set_control_flow(ControlFlow::Wait);
+            return;
+        };
+        if due > Instant::now() {
+            event_loop.set_control_flow(ControlFlow::WaitUntil(due));
+        } else if let Some(live) = &self.live {
+            self.due = None;
+            live.window.request_redraw();
+            event_loop.set_control_flow(ControlFlow::Wait);
+        }
+    }
+}

@@ -1,0 +1,339 @@
+//! The scene that is shown: its description with edits, the camera, what is chosen, and the scene built from them.
+
+use std::any::Any;
+use std::sync::Arc;
+
+use foton_math::glam::DVec2;
+use foton_scene::Scene;
+use foton_scene::description::{SceneDescription, SensorDescription};
+
+use super::command::{Gesture, Source};
+use super::frame::{SceneFacts, Selection, SensorFacts};
+use super::loader::Ready;
+use crate::edit::{
+    Camera, DragMode, DragPlane, Edit, FieldId, History, Outline, Segment, Target, UpAxis, Value, camera_xml,
+    focus_distance, inspect, markers, pick_any,
+};
+use crate::metadata::SceneIdentity;
+
+/// A step of an arrow key, in pixels at the distance of what is chosen.
+const NUDGE: f64 = 4.0;
+
+/// What a change asks of the render.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Effect {
+    /// Nothing.
+    None,
+    /// Another scene is there: start anew.
+    Anew,
+}
+
+/// What is chosen, and how it is being dragged.
+struct Chosen {
+    target: Target,
+    outline: Outline,
+    /// Where it was picked, in world units.
+    picked: [f64; 3],
+    drag: Option<(DragPlane, [f64; 2])>,
+}
+
+/// A scene under edit.
+pub(super) struct Stage {
+    source: Source,
+    /// What the loader wants back when the scene is saved.
+    pub(super) origin: Arc<dyn Any + Send + Sync>,
+    identity: SceneIdentity,
+    history: History,
+    /// Cameras are no steps of the history: undoing a move does not turn the head.
+    sensors: Vec<SensorDescription>,
+    original: Vec<SensorDescription>,
+    /// The camera of a sensor, once it was moved.
+    camera: Option<(usize, Camera)>,
+    chosen: Option<Chosen>,
+    /// The history's description with the sensors as they are.
+    description: Arc<SceneDescription>,
+    scene: Arc<Scene>,
+    facts: Arc<SceneFacts>,
+}
+
+impl Stage {
+    pub(super) fn new(ready: Ready) -> Self {
+        let Ready { source, loaded, scene } = ready;
+        let description = Arc::new(loaded.description);
+        let sensors = description.sensors.clone();
+        let mut stage = Self {
+            source,
+            identity: loaded.identity,
+            origin: loaded.origin,
+            history: History::new(Arc::clone(&description)),
+            original: sensors.clone(),
+            sensors,
+            camera: None,
+            chosen: None,
+            description,
+            scene,
+            facts: Arc::default(),
+        };
+        stage.refresh_facts();
+        stage
+    }
+
+    pub(super) const fn scene(&self) -> &Arc<Scene> {
+        &self.scene
+    }
+
+    pub(super) const fn facts(&self) -> &Arc<SceneFacts> {
+        &self.facts
+    }
+
+    pub(super) fn sensors(&self) -> &[SensorDescription] {
+        &self.sensors
+    }
+
+    pub(super) const fn description(&self) -> &Arc<SceneDescription> {
+        &self.description
+    }
+
+    /// The scene's name and hash; the name says if it is not as in its file.
+    pub(super) fn identity(&self) -> SceneIdentity {
+        let mut identity = self.identity.clone();
+        if self.is_edited() {
+            identity.name.push_str(" (edited)");
+        }
+        identity
+    }
+
+    fn is_edited(&self) -> bool {
+        self.history.is_changed() || self.camera_is_moved()
+    }
+
+    fn camera_is_moved(&self) -> bool {
+        let place = |s: &SensorDescription| (s.to_world, s.fov_degrees);
+        self.sensors.iter().map(place).ne(self.original.iter().map(place))
+    }
+
+    /// What was saved counts as unedited from here on.
+    pub(super) fn saved(&mut self) {
+        self.history.mark_saved();
+        self.original.clone_from(&self.sensors);
+        self.refresh_facts();
+    }
+
+    /// Moves the camera of a sensor.
+    pub(super) fn gesture(&mut self, sensor: usize, gesture: Gesture) -> Result<Effect, String> {
+        let camera = match self.camera.take() {
+            Some((of, camera)) if of == sensor => camera,
+            _ => Camera::new(&self.sensors[sensor], focus_distance(&self.scene, sensor)),
+        };
+        let mut moved = camera.clone();
+        match gesture {
+            Gesture::Orbit { yaw, pitch } => moved.orbit(yaw, pitch),
+            Gesture::Turn { yaw, pitch } => moved.look(yaw, pitch),
+            Gesture::Pan { right, down } => moved.pan(&self.sensors[sensor], right, down),
+            Gesture::Zoom(factor) => moved.zoom(factor),
+            Gesture::Fly { forward, right, up } => {
+                let step = moved.distance;
+                moved.fly(forward * step, right * step, up * step);
+            }
+            Gesture::FieldOfView(degrees) => moved.set_fov(degrees),
+        }
+        let before = self.sensors[sensor].clone();
+        self.sensors[sensor] = moved.applied_to(&before);
+        let result = self.see_anew();
+        if result.is_err() {
+            self.sensors[sensor] = before;
+        }
+        self.camera = Some((sensor, if result.is_err() { camera } else { moved }));
+        result
+    }
+
+    /// Puts the camera back where the file has it.
+    pub(super) fn reset_camera(&mut self, sensor: usize) -> Result<Effect, String> {
+        self.camera = None;
+        self.sensors[sensor].clone_from(&self.original[sensor]);
+        self.see_anew()
+    }
+
+    /// The scene under other sensors.
+    fn see_anew(&mut self) -> Result<Effect, String> {
+        let scene = self.scene.with_sensors(&self.sensors).map_err(|cause| cause.to_string())?;
+        self.scene = Arc::new(scene);
+        self.refresh();
+        Ok(Effect::Anew)
+    }
+
+    /// Chooses what is seen at a film position; nothing where nothing is.
+    pub(super) fn choose(&mut self, sensor: usize, film: Option<[f64; 2]>) {
+        let picked = film.and_then(|film| pick_any(&self.scene, &self.description, sensor, film));
+        self.chosen = picked.map(|picked| Chosen {
+            target: picked.target,
+            outline: Outline::new(&self.description, picked.target),
+            picked: picked.position,
+            drag: None,
+        });
+    }
+
+    /// Takes hold of what is chosen, at a film position.
+    pub(super) fn begin_drag(&mut self, sensor: usize, film: [f64; 2], mode: DragMode) {
+        let up = UpAxis::guess(&self.sensors[sensor]);
+        let Some(chosen) = &mut self.chosen else { return };
+        let plane = DragPlane::new(&self.sensors[sensor], up, chosen.picked, mode);
+        chosen.drag = Some((plane, film));
+        let name = Edit::Move { target: chosen.target, by: [0.0; 3] }.name(&self.description);
+        self.history.begin(name);
+    }
+
+    /// Moves what is held to a film position.
+    pub(super) fn drag_to(&mut self, film: [f64; 2]) -> Result<Effect, String> {
+        let Some(chosen) = &self.chosen else { return Ok(Effect::None) };
+        let Some((plane, from)) = &chosen.drag else { return Ok(Effect::None) };
+        let edit = Edit::Move { target: chosen.target, by: plane.translation(*from, film) };
+        let next = edit.apply(self.history.base()).map_err(|cause| cause.to_string())?;
+        self.take(next)
+    }
+
+    /// Lets go; what is chosen was picked where it now is.
+    pub(super) fn end_drag(&mut self, film: [f64; 2]) {
+        self.history.commit();
+        if let Some(chosen) = &mut self.chosen
+            && let Some((plane, from)) = chosen.drag.take()
+        {
+            let by = plane.translation(from, film);
+            chosen.picked.iter_mut().zip(by).for_each(|(p, by)| *p += by);
+        }
+        self.refresh_facts();
+    }
+
+    /// Puts what is held back.
+    pub(super) fn cancel_drag(&mut self) -> Result<Effect, String> {
+        if let Some(chosen) = &mut self.chosen {
+            chosen.drag = None;
+        }
+        self.history.cancel();
+        self.rebuild()
+    }
+
+    /// Moves what is chosen by steps of a few pixels, in the plane that `mode` says.
+    pub(super) fn nudge(&mut self, sensor: usize, steps: [f64; 2], mode: DragMode) -> Result<Effect, String> {
+        let Some(chosen) = &self.chosen else { return Ok(Effect::None) };
+        let s = &self.sensors[sensor];
+        let middle = DVec2::new(f64::from(s.width), f64::from(s.height)) * 0.5;
+        let film = self.scene.sensors()[sensor]
+            .project(self.scene.normalisation().point(chosen.picked.into()))
+            .map_or(middle, |(film, _)| film.as_dvec2());
+        let plane = DragPlane::new(s, UpAxis::guess(s), chosen.picked, mode);
+        let by = plane.translation(film.to_array(), (film + DVec2::from(steps) * NUDGE).to_array());
+        let edit = Edit::Move { target: chosen.target, by };
+        let effect = self.edit(&edit)?;
+        if let Some(chosen) = &mut self.chosen {
+            chosen.picked.iter_mut().zip(by).for_each(|(p, by)| *p += by);
+        }
+        Ok(effect)
+    }
+
+    /// Sets a field of what is chosen. A control that is still being dragged is not `done`: all of it is one step.
+    pub(super) fn set_field(&mut self, field: FieldId, value: Value, done: bool) -> Result<Effect, String> {
+        let Some(chosen) = &self.chosen else { return Ok(Effect::None) };
+        let edit = Edit::SetField { target: chosen.target, field, value };
+        let name = edit.name(self.history.base());
+        if self.history.undo_name() != Some(&name) || !self.history.is_open() {
+            self.history.begin(name);
+        }
+        let next = edit.apply(self.history.base()).map_err(|cause| cause.to_string());
+        let effect = next.and_then(|next| self.take(next));
+        if done || effect.is_err() {
+            self.history.commit();
+        }
+        effect
+    }
+
+    /// Gives what is chosen a material of its own.
+    pub(super) fn own_material(&mut self) -> Result<Effect, String> {
+        match &self.chosen {
+            Some(Chosen { target: Target::Shape(shape), .. }) => self.edit(&Edit::OwnMaterial { shape: *shape }),
+            _ => Ok(Effect::None),
+        }
+    }
+
+    fn edit(&mut self, edit: &Edit) -> Result<Effect, String> {
+        let next = edit.apply(self.history.current()).map_err(|cause| cause.to_string())?;
+        self.history.begin(edit.name(&self.description));
+        let effect = self.take(next);
+        self.history.commit();
+        self.refresh_facts();
+        effect
+    }
+
+    pub(super) fn undo(&mut self) -> Result<Effect, String> {
+        if self.history.undo().is_none() {
+            return Ok(Effect::None);
+        }
+        self.rebuild()
+    }
+
+    pub(super) fn redo(&mut self) -> Result<Effect, String> {
+        if self.history.redo().is_none() {
+            return Ok(Effect::None);
+        }
+        self.rebuild()
+    }
+
+    /// Makes `next` the description under edit, unless no scene can be made of it.
+    fn take(&mut self, next: SceneDescription) -> Result<Effect, String> {
+        let whole = SceneDescription { sensors: self.sensors.clone(), ..next.clone() };
+        self.scene = Arc::new(Scene::build(&whole).map_err(|cause| cause.to_string())?);
+        self.history.proceed(next);
+        self.refresh();
+        Ok(Effect::Anew)
+    }
+
+    /// The scene of the history's description.
+    fn rebuild(&mut self) -> Result<Effect, String> {
+        self.refresh();
+        self.scene = Arc::new(Scene::build(&self.description).map_err(|cause| cause.to_string())?);
+        if let Some(chosen) = &mut self.chosen {
+            chosen.outline = Outline::new(&self.description, chosen.target);
+        }
+        self.refresh_facts();
+        Ok(Effect::Anew)
+    }
+
+    fn refresh(&mut self) {
+        let current = SceneDescription::clone(self.history.current());
+        self.description = Arc::new(SceneDescription { sensors: self.sensors.clone(), ..current });
+        self.refresh_facts();
+    }
+
+    fn refresh_facts(&mut self) {
+        let sensor = |s: &SensorDescription| SensorFacts {
+            name: s.name.clone(),
+            fov_degrees: s.fov_degrees,
+            size: [s.width, s.height],
+            xml: camera_xml(s),
+        };
+        self.facts = Arc::new(SceneFacts {
+            name: self.identity.name.clone(),
+            file: self.source.file().cloned(),
+            sensors: self.sensors.iter().map(sensor).collect(),
+            shapes: self.description.shapes.len(),
+            is_edited: self.is_edited(),
+            undo: self.history.undo_name().map(str::to_owned),
+            redo: self.history.redo_name().map(str::to_owned),
+        });
+    }
+
+    /// What is chosen, as the window shows it.
+    pub(super) fn selection(&self, sensor: usize) -> Option<Selection> {
+        let chosen = self.chosen.as_ref()?;
+        Some(Selection {
+            target: chosen.target,
+            inspection: inspect(&self.description, chosen.target)?,
+            outline: chosen.outline.segments(&self.description, sensor),
+        })
+    }
+
+    /// Where lights without a surface are.
+    pub(super) fn light_markers(&self, sensor: usize) -> Vec<Segment> {
+        markers(&self.description, sensor).into_iter().flat_map(|(_, marker)| marker).collect()
+    }
+}

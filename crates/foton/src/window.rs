@@ -1,0 +1,77 @@
+//! `foton [SCENE]` with a window: what the window needs of scene files is handed in from here.
+
+use std::any::Any;
+use std::num::NonZeroU32;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use foton_format::{Opened, Options, Saved, Suggested, save_edited};
+use foton_integrator::{Alpha, Settings};
+use foton_preview::WindowError;
+use foton_scene::description::SceneDescription;
+use foton_session::SceneIdentity;
+use foton_session::engine::{Loaded, Loader, Source};
+
+use crate::embedded::{self, Embedded};
+use crate::memory;
+
+/// Opens the window on `scene`, or the first of the embedded ones, and stays until it is closed.
+pub(crate) fn show(scene: Option<&Path>, frame_log: Option<&Path>) -> Result<(), WindowError> {
+    let first = || Source::BuiltIn(embedded::ALL[0].name.to_owned());
+    foton_preview::run(foton_preview::Options {
+        scene: scene.map_or_else(first, |path| Source::File(path.to_owned())),
+        loader: Arc::new(Files),
+        built_in: embedded::ALL.iter().map(|scene| scene.name.to_owned()).collect(),
+        memory_limit: memory::limit(None),
+        frame_log: frame_log.map(PathBuf::from),
+    })
+}
+
+/// Scene files for the window.
+struct Files;
+
+impl Loader for Files {
+    fn open(&self, source: &Source) -> Result<Loaded, String> {
+        let options = Options::default();
+        let (opened, name) = match source {
+            Source::File(path) => {
+                (foton_format::open(path, &options), path.file_name().unwrap_or_default().to_string_lossy().into_owned())
+            }
+            Source::BuiltIn(name) => {
+                let scene = Embedded::named(name).ok_or_else(|| format!("no scene \"{name}\" ships with foton"))?;
+                (scene.open(&options), name.clone())
+            }
+        };
+        let opened = opened.map_err(|e| {
+            let lines: Vec<String> = e.diagnostics.iter().map(ToString::to_string).collect();
+            lines.join("\n")
+        })?;
+        Ok(Loaded {
+            description: opened.description.clone(),
+            identity: SceneIdentity { name, hash: opened.source_hash },
+            settings: settings(&opened.suggested),
+            warnings: opened.warnings.iter().map(ToString::to_string).collect(),
+            origin: Arc::new(opened),
+        })
+    }
+
+    fn save(&self, origin: &(dyn Any + Send + Sync), edited: &SceneDescription, path: &Path) -> Result<String, String> {
+        let opened = origin.downcast_ref::<Opened>().ok_or("the scene was opened by another loader")?;
+        match save_edited(opened, edited, path).map_err(|cause| cause.to_string())? {
+            Saved::Changed => Ok(String::new()),
+            Saved::Anew { why } => Ok(format!("The whole scene was written anew, with its meshes beside it: {why}")),
+        }
+    }
+}
+
+/// The settings of `foton render`, with what a file asks for.
+fn settings(suggested: &Suggested) -> Settings {
+    let defaults = Settings::default();
+    let photons = suggested.photons_per_pass.and_then(NonZeroU32::new);
+    Settings {
+        alpha: suggested.alpha.and_then(Alpha::new).unwrap_or(defaults.alpha),
+        photons_per_pass: photons.unwrap_or(defaults.photons_per_pass),
+        radius: suggested.radius,
+        ..defaults
+    }
+}
