@@ -34,7 +34,8 @@ struct View {
     high: f32,
     mode: u32,
     tone_map: u32,
-    /// Where the first image ends and the second begins, as a part of the width of the view; 2 where there is no second.
+    /// Where the first image ends and the second begins, as a part of the width of the view; far beyond it
+    /// where there is no second.
     wipe: f32,
 }
 

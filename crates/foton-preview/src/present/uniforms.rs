@@ -29,7 +29,8 @@ pub(super) fn pack(view: &View, extents: [Option<[f32; 2]>; 2]) -> [u32; WORDS] 
         ToneMap::PbrNeutral => 1,
         ToneMap::AgX => 2,
     };
-    let wipe = view.wipe.filter(|_| extents[1].is_some()).unwrap_or(2.0);
+    // Without a second picture the line is far outside of the narrowest view.
+    let wipe = view.wipe.filter(|_| extents[1].is_some()).unwrap_or(1e6);
     let min = view.image_rect.min;
     let exposure = view.exposure_stops.clamp(-60.0, 60.0).exp2();
     let floats = |values: [f32; 4]| values.map(f32::to_bits);
