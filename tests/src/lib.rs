@@ -31,6 +31,7 @@ impl Sketch {
             fov_axis: FovAxis::X,
             width: pixels,
             height: pixels,
+            crop: None,
             filter: Filter::Box { radius: 0.5 },
             near_clip: None,
             far_clip: None,

@@ -347,6 +347,7 @@ impl Model {
             fov_axis: FovAxis::Smaller,
             width,
             height,
+            crop: None,
             filter: Filter::Gaussian { stddev: 0.5 },
             near_clip: None,
             far_clip: None,

@@ -1,7 +1,7 @@
 //! `<sensor>`, `<film>` and `<rfilter>`: a perspective camera, its image size and filter.
 
 use foton_math::glam::{DAffine3, DMat3};
-use foton_scene::description::{Filter, FovAxis, SensorDescription};
+use foton_scene::description::{Crop, Filter, FovAxis, SensorDescription};
 
 use crate::diagnostic::Place;
 use crate::document::NodeId;
@@ -18,6 +18,7 @@ const HALF_DIAGONAL: f64 = 21.633_307_652_783_937;
 struct Film {
     width: u32,
     height: u32,
+    crop: Option<Crop>,
     filter: Filter,
 }
 
@@ -52,6 +53,7 @@ impl Reader<'_> {
             fov_axis,
             width: film.width,
             height: film.height,
+            crop: film.crop,
             filter: film.filter,
             near_clip,
             far_clip,
@@ -131,7 +133,7 @@ impl Reader<'_> {
             self.report.error(second.place, "a sensor has only one film");
         }
         let film = films.first().and_then(|film| self.film(film.node));
-        film.unwrap_or(Film { width: 768, height: 576, filter: DEFAULT_FILTER })
+        film.unwrap_or(Film { width: 768, height: 576, crop: None, filter: DEFAULT_FILTER })
     }
 
     fn film(&mut self, node: NodeId) -> Option<Film> {
@@ -140,14 +142,10 @@ impl Reader<'_> {
         let mut p = self.properties(node, plugin);
         let width = self.pixels(&mut p, "width", 768);
         let height = self.pixels(&mut p, "height", 576);
-        for (name, whole) in
-            [("crop_offset_x", 0), ("crop_offset_y", 0), ("crop_width", width), ("crop_height", height)]
-        {
-            let crop = p.integer(name, &mut self.report);
-            if let Some(crop) = crop.filter(|c| c.value != i64::from(whole)) {
-                self.report.error(crop.place, "a crop of the image is not supported yet");
-            }
-        }
+        let (x, columns) = self.span(&mut p, ["crop_offset_x", "crop_width"], width);
+        let (y, rows) = self.span(&mut p, ["crop_offset_y", "crop_height"], height);
+        let whole = (x, y, columns, rows) == (0, 0, width, height);
+        let crop = (!whole).then_some(Crop { x, y, width: columns, height: rows });
         p.ignore(&[
             "file_format",
             "pixel_format",
@@ -164,7 +162,22 @@ impl Reader<'_> {
         }
         let filter = filters.first().and_then(|filter| self.filter(filter.node));
         p.finish(&mut self.report);
-        Some(Film { width, height, filter: filter.unwrap_or(DEFAULT_FILTER) })
+        Some(Film { width, height, crop, filter: filter.unwrap_or(DEFAULT_FILTER) })
+    }
+
+    /// Where a crop begins along a side of the image, and its length; all of the side by default.
+    fn span(&mut self, p: &mut Properties<'_>, names: [&'static str; 2], side: u32) -> (u32, u32) {
+        let [first, length] = names.map(|name| p.integer(name, &mut self.report));
+        let begin = first.as_ref().map_or(0, |f| f.value);
+        let count = length.as_ref().map_or(i64::from(side), |l| l.value);
+        let inside = begin >= 0 && count > 0 && begin.saturating_add(count) <= i64::from(side);
+        if let Some(wrong) = length.or(first).filter(|_| !inside) {
+            let message =
+                format!("the crop reaches from {begin} over {count} pixels, but the image has {side}");
+            self.report.error(wrong.place, message);
+        }
+        let within = |n: i64| u32::try_from(n).ok().filter(|_| inside);
+        (within(begin).unwrap_or(0), within(count).unwrap_or(side))
     }
 
     fn pixels(&mut self, p: &mut Properties<'_>, name: &'static str, default: u32) -> u32 {

@@ -8,7 +8,7 @@ use foton_format::{Options, open, write_scene};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
-    Bitmap, Bsdf, Colour, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh,
+    Bitmap, Bsdf, Colour, Crop, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh,
     MicrofacetDistribution, Microfacets, SceneDescription, SensorDescription, ShapeDescription, Texture,
     TextureKind, Wrap,
 };
@@ -226,6 +226,7 @@ fn everything() -> SceneDescription {
         fov_axis,
         width: 320,
         height: 200,
+        crop: None,
         filter,
         near_clip,
         far_clip: near_clip.map(|near| near + 100.0),
@@ -247,6 +248,10 @@ fn everything() -> SceneDescription {
     SceneDescription {
         sensors: vec![
             sensor(FovAxis::Larger, Filter::Box { radius: 0.5 }, Some(odd(1))),
+            SensorDescription {
+                crop: Some(Crop { x: 10, y: 20, width: 100, height: 80 }),
+                ..sensor(FovAxis::X, Filter::Box { radius: 0.5 }, None)
+            },
             sensor(FovAxis::Diagonal, Filter::Tent { radius: 1.1 }, None),
             sensor(FovAxis::Y, Filter::Gaussian { stddev: 0.3 }, None),
         ],

@@ -75,6 +75,15 @@ pub fn features(scene: &Scene, settings: &Settings) -> Vec<Feature> {
             0,
         ),
         feature(
+            "rough coats",
+            census.rough_coats,
+            "clear coats with facets",
+            "no coat is rough",
+            "an integral a material before the first pass, a series of eight terms a value",
+            0,
+            0,
+        ),
+        feature(
             "shading normals' correction",
             census.shading_normals,
             "interpolated normals on surfaces that spread light",

@@ -170,7 +170,7 @@ impl Visit<'_> {
                 let Some(gloss) = &gloss[l] else { continue };
                 let geometric = wi.dot(Vec3::from_array(self.packet.normal.map(|row| row[l]))).abs() * 127.0;
                 let shading = wi.dot(gloss.frame.normal).abs();
-                let weighed = photon.power * gloss.eval(wi) * (shading / geometric.max(SMALLEST_COSINE));
+                let weighed = photon.power * gloss.eval(wi) * cosine_ratio(shading, geometric);
                 for (channel, term) in layer.iter_mut().zip(weighed.to_array()) {
                     channel[l] += term;
                 }
@@ -217,11 +217,20 @@ fn shading_factor(packet: &Packet, shading_normals: &[[f32; LANES]; 3], photon: 
     let [nx, ny, nz] = &packet.normal;
     let [sx, sy, sz] = shading_normals;
     for l in 0..LANES {
-        let geometric = (w.x * nx[l] + w.y * ny[l] + w.z * nz[l]).abs() * 127.0;
+        let geometric = w.x * nx[l] + w.y * ny[l] + w.z * nz[l];
         let shading = w.x * sx[l] + w.y * sy[l] + w.z * sz[l];
-        factor[l] = shading.max(0.0) / geometric.max(SMALLEST_COSINE);
+        factor[l] = cosine_ratio(shading, geometric);
     }
     factor
+}
+
+/// The quotient of two cosines: zero where their signs differ, never above what a floor of |ω·n_g| allows, and exactly 1 where
+/// they are the same.
+#[inline]
+fn cosine_ratio(shading: f32, geometric: f32) -> f32 {
+    let ratio = shading / geometric;
+    // Not a number where both are zero.
+    if ratio > 0.0 { ratio.min(1.0 / SMALLEST_COSINE) } else { 0.0 }
 }
 
 /// Turns a packet's sums into irradiance, refines its hit points, and writes the radii of the next pass.

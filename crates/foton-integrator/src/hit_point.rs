@@ -67,7 +67,7 @@ pub(crate) struct HitPoints {
     pub(crate) first_glossy: usize,
     /// [`LANES`] entries a packet from `first_glossy` on.
     pub(crate) gloss_slots: Vec<Option<Gloss>>,
-    /// Shading normals by packet, as three rows of lanes; empty when the scene has none that matter.
+    /// Shading normals over 127, as the packets' own are, by packet, as three rows of lanes; empty when the scene has none that matter.
     pub(crate) shading_normals: Vec<[[f32; LANES]; 3]>,
     /// Empty unless direct light comes by shadow rays.
     pub(crate) shadow_slots: Vec<ShadowOrigin>,
@@ -106,7 +106,7 @@ impl HitPoints {
             let members = || group.iter().map(|&i| &found[i as usize]);
             packets.push(Packet::new(members()));
             if shading_normals {
-                normals.push(packet::rows(members().map(|h| h.shading_normal)));
+                normals.push(packet::rows(members().map(|h| h.shading_normal / 127.0)));
             }
             for (lane, &i) in group.iter().enumerate() {
                 let slot = p * LANES + lane;

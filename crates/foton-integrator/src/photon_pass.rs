@@ -9,6 +9,7 @@ use crate::cancel::{Cancel, Cancelled};
 use crate::eye_pass::{leaves_wrongly, shading_normal_towards};
 use crate::grid::Grid;
 use crate::ledger::{Ledger, energy, lost};
+use crate::light_use::LightUse;
 use crate::photon::{PathClass, Photon};
 use crate::settings::DirectLight;
 
@@ -41,6 +42,8 @@ pub(crate) struct Chunk {
     pub(crate) cells: Vec<u32>,
     pub(crate) ledger: Ledger,
     pub(crate) rays: u64,
+    /// By emitter.
+    pub(crate) lights: Vec<LightUse>,
 }
 
 /// A photon on its way.
@@ -64,16 +67,20 @@ impl PhotonPass<'_> {
             chunk.cells.clear();
             chunk.ledger = Ledger::default();
             chunk.rays = 0;
+            chunk.lights.clear();
+            chunk.lights.resize(self.scene.emitters().len(), LightUse::default());
             for index in first..self.photons.min(first + CHUNK) {
-                self.follow(index, chunk);
+                let stream = Stream::new(self.seed, Purpose::Photon, self.pass, index);
+                let Some((emitter, flight)) = self.emit(index, stream.clone()) else { continue };
+                let stored = chunk.photons.len();
+                self.follow(flight, &stream, chunk);
+                chunk.lights[emitter].count(chunk.photons.len() > stored);
             }
             Ok(())
         })
     }
 
-    fn follow(&self, index: u64, chunk: &mut Chunk) {
-        let stream = Stream::new(self.seed, Purpose::Photon, self.pass, index);
-        let Some(mut flight) = self.emit(index, stream.clone()) else { return };
+    fn follow(&self, mut flight: Flight, stream: &Stream, chunk: &mut Chunk) {
         chunk.ledger.emitted += energy(flight.power);
         loop {
             if !flight.power.is_finite() {
@@ -93,18 +100,20 @@ impl PhotonPass<'_> {
         }
     }
 
-    fn emit(&self, index: u64, mut numbers: Stream) -> Option<Flight> {
+    /// The index of the emitter, and the photon as it leaves it.
+    fn emit(&self, index: u64, mut numbers: Stream) -> Option<(usize, Flight)> {
         // Stratified over the pass: each emitter gets its share of photons up to one.
         let u = (index as f64 + f64::from(numbers.next_1d())) / self.photons as f64;
-        let (emitter, probability) = self.scene.choose_emitter(u)?;
-        let emitter = &self.scene.emitters()[emitter];
+        let (index, probability) = self.scene.choose_emitter(u)?;
+        let emitter = &self.scene.emitters()[index];
         let start = emitter.emit(numbers.next_1d(), numbers.next_2d(), numbers.next_2d());
-        Some(Flight {
+        let flight = Flight {
             ray: Ray::new(start.origin, start.direction),
             power: start.power / probability as f32,
             class: PathClass::Direct,
             edges: 1,
-        })
+        };
+        Some((index, flight))
     }
 
     /// Stores the photon where light spreads, and sends it on.

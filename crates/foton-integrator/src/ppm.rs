@@ -14,6 +14,7 @@ use crate::hit_point::HitPoints;
 use crate::layers::LayerKind;
 use crate::ledger::Ledger;
 use crate::light::Light;
+use crate::light_use::LightUse;
 use crate::photon::{PathClass, Photon};
 use crate::photon_map::PhotonMap;
 use crate::photon_pass::{Chunk, PhotonPass};
@@ -117,6 +118,7 @@ pub struct Ppm {
     chunks: Vec<Chunk>,
     map: PhotonMap,
     ledger: Ledger,
+    lights: Vec<LightUse>,
     passes: u64,
     photons_emitted: u64,
     last_photons: u64,
@@ -147,6 +149,7 @@ impl Ppm {
         drop((eye.hit_points, eye.gloss));
         let grid = Grid::new(&hit_points.packets);
         let light = Light::new(eye.emission, &hit_points, &settings);
+        let lights = vec![LightUse::default(); scene.emitters().len()];
         cancel.check()?;
         Ok(Self {
             scene,
@@ -159,6 +162,7 @@ impl Ppm {
             chunks: Vec::new(),
             map: PhotonMap::default(),
             ledger: Ledger::default(),
+            lights,
             passes: 0,
             photons_emitted: 0,
             last_photons: 0,
@@ -202,6 +206,7 @@ impl Ppm {
         self.mark_cells(&tally);
         for chunk in &self.chunks {
             self.ledger += chunk.ledger;
+            self.lights.iter_mut().zip(&chunk.lights).for_each(|(sum, &light)| *sum += light);
         }
         self.photons_emitted += photons;
         self.last_photons = photons;
@@ -299,6 +304,12 @@ impl Ppm {
     #[must_use]
     pub const fn ledger(&self) -> &Ledger {
         &self.ledger
+    }
+
+    /// What the photons of each emitter were good for, in the order of the scene's emitters.
+    #[must_use]
+    pub fn light_use(&self) -> &[LightUse] {
+        &self.lights
     }
 
     /// Image size in pixels.

@@ -135,7 +135,8 @@ mod tests {
     #[test]
     fn passes_double_up_to_the_photons_asked_for() {
         let number = |n| NonZeroU32::new(n).expect("above zero");
-        let settings = Settings { photons_per_pass: number(100), first_pass: number(15), ..Settings::default() };
+        let settings =
+            Settings { photons_per_pass: number(100), first_pass: number(15), ..Settings::default() };
         let photons: Vec<u32> = (0..5).map(|pass| settings.photons_after(pass).get()).collect();
         assert_eq!(photons, [15, 30, 60, 100, 100]);
         assert_eq!(settings.photons_after(1 << 40).get(), 100);

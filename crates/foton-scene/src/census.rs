@@ -23,6 +23,8 @@ pub struct Census {
     pub narrow_gloss: bool,
     /// Whether hit points keep any lobe that is not Lambertian: photons are weighed one by one there.
     pub kept_gloss: bool,
+    /// Whether any coat is rough: what gets through it is integrated beforehand.
+    pub rough_coats: bool,
     /// Whether any colour comes from a texture.
     pub textures: bool,
     /// Whether any roughness differs along u and v: frames follow texture coordinates.

@@ -40,12 +40,45 @@ pub struct SensorDescription {
     pub width: u32,
     /// Image height in pixels, at least 1.
     pub height: u32,
+    /// The part of the image that is rendered; `None`: all of it.
+    pub crop: Option<Crop>,
     /// How eye samples spread around a pixel's centre.
     pub filter: Filter,
     /// Nothing nearer than this depth along the camera's z is seen, in world units. `None`: no bound.
     pub near_clip: Option<f64>,
     /// Nothing farther than this depth along the camera's z is seen, in world units. `None`: no bound.
     pub far_clip: Option<f64>,
+}
+
+impl SensorDescription {
+    /// The same view at another size in pixels, a crop in proportion.
+    pub fn resize(&mut self, width: u32, height: u32) {
+        if let Some(crop) = &mut self.crop {
+            // Rounded outwards, which keeps it inside and not empty.
+            let scaled = |first: &mut u32, count: &mut u32, old: u32, new: u32| {
+                let (old, new) = (u64::from(old.max(1)), u64::from(new));
+                let end = (u64::from(*first) + u64::from(*count)) * new;
+                let begin = u64::from(*first) * new / old;
+                (*first, *count) = (begin as u32, (end.div_ceil(old) - begin) as u32);
+            };
+            scaled(&mut crop.x, &mut crop.width, self.width, width);
+            scaled(&mut crop.y, &mut crop.height, self.height, height);
+        }
+        (self.width, self.height) = (width, height);
+    }
+}
+
+/// A window of an image, in pixels from its top left. It must lie inside and hold a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Crop {
+    /// First column.
+    pub x: u32,
+    /// First row.
+    pub y: u32,
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
 }
 
 /// The image axis that a field of view spans.
@@ -228,7 +261,8 @@ pub struct Material {
     pub front: Bsdf,
     /// On the other side. `None`: a reflector is black there.
     pub back: Option<Bsdf>,
-    /// Share of light that meets the surface at all, by its mean channel; the rest passes straight through. `None`: all.
+    /// Share of light that meets the surface at all; the rest passes straight through. `None`: all. Of a colour the mean channel
+    /// counts, of a bitmap's the luminance, as in Mitsuba 3.
     pub opacity: Option<Colour>,
 }
 

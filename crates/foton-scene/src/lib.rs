@@ -20,7 +20,7 @@ mod sensor;
 mod surface;
 mod texture;
 
-pub use bsdf::{BsdfSample, FollowedLobe, Lobe, Scattering, Transport};
+pub use bsdf::{BsdfSample, Coat, FollowedLobe, Lobe, Scattering, Transport};
 pub use build::BuildError;
 pub use census::Census;
 pub use description::SceneDescription;

@@ -6,7 +6,7 @@ use foton_math::glam::{Mat3, Vec2, Vec3};
 use foton_math::{Aabb, Frame, Ray, Rgb};
 
 use crate::accel::{Accel, Hit};
-use crate::bsdf::Scattering;
+use crate::bsdf::{Coat, Scattering};
 use crate::census::Census;
 use crate::description::{Colour, Material};
 use crate::discrete::Discrete;
@@ -43,6 +43,8 @@ pub struct Scene {
     pub(crate) textures: Arc<[Sampler]>,
     pub(crate) shapes: Vec<Shape>,
     pub(crate) materials: Vec<Material>,
+    /// Front and back of each material; empty when no coat is rough.
+    pub(crate) coats: Vec<[Option<Coat>; 2]>,
     pub(crate) emitters: Arc<[Emitter]>,
     pub(crate) emitter_choice: Discrete,
     pub(crate) sensors: Vec<Sensor>,
@@ -95,22 +97,26 @@ impl Scene {
     #[must_use]
     pub fn scattering(&self, surface: &Surface, outward: bool) -> Option<Scattering> {
         let material = self.material(surface.shape);
-        let bsdf =
-            if outward || material.front.transmits() { &material.front } else { material.back.as_ref()? };
+        let front = outward || material.front.transmits();
+        let bsdf = if front { &material.front } else { material.back.as_ref()? };
+        let coats = self.coats.get(self.shapes[surface.shape as usize].material as usize);
+        let coat = coats.and_then(|c| c[usize::from(!front)]);
         if !self.census.textures {
             let constant = |c: Colour| if let Colour::Constant(c) = c { c } else { Rgb::BLACK };
             let opacity = material.opacity.map_or(1.0, |c| constant(c).mean());
-            return Some(Scattering { bsdf: bsdf.map(constant), opacity });
+            return Some(Scattering { bsdf: bsdf.map(constant), opacity, coat });
         }
-        let mut uv = None;
-        let mut colour = |c: Colour| match c {
+        let mut known = None;
+        let mut uv = || *known.get_or_insert_with(|| self.texture_coordinate(surface));
+        let opacity = material.opacity.map_or(1.0, |c| match c {
+            Colour::Constant(c) => c.mean(),
+            Colour::Texture(t) => self.textures[t].scalar(uv()),
+        });
+        let colour = |c: Colour| match c {
             Colour::Constant(c) => c,
-            Colour::Texture(t) => {
-                self.textures[t].colour(*uv.get_or_insert_with(|| self.texture_coordinate(surface)))
-            }
+            Colour::Texture(t) => self.textures[t].colour(uv()),
         };
-        let opacity = material.opacity.map_or(1.0, |c| colour(c).mean().clamp(0.0, 1.0));
-        Some(Scattering { bsdf: bsdf.map(colour), opacity })
+        Some(Scattering { bsdf: bsdf.map(colour), opacity: opacity.clamp(0.0, 1.0), coat })
     }
 
     /// The frame in which the surface's BSDF is stated, around `normal`: along texture coordinates where roughness differs
@@ -118,7 +124,7 @@ impl Scene {
     #[must_use]
     pub fn shading_frame(&self, surface: &Surface, normal: Vec3) -> Frame {
         let frame = Frame::from_normal(normal);
-        if !self.census.anisotropy {
+        if !self.census.anisotropy || !self.material(surface.shape).is_anisotropic() {
             return frame;
         }
         let along_u = self.direction_of_u(surface);

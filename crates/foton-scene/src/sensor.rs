@@ -3,7 +3,7 @@
 use foton_math::Ray;
 use foton_math::glam::{DVec3, Vec2, Vec3};
 
-use crate::description::{FovAxis, SensorDescription};
+use crate::description::{Crop, FovAxis, SensorDescription};
 use crate::filter::FilterSampler;
 use crate::normalise::Normalisation;
 
@@ -12,10 +12,13 @@ use crate::normalise::Normalisation;
 pub struct Sensor {
     /// The name in the scene file.
     pub name: String,
-    /// Image width in pixels.
+    /// Width in pixels of what is rendered.
     pub width: u32,
-    /// Image height in pixels.
+    /// Height in pixels of what is rendered.
     pub height: u32,
+    /// Size in pixels of the whole image, and where in it the rendered part begins.
+    film: Vec2,
+    corner: Vec2,
     /// How eye samples spread around a pixel's centre.
     pub filter: FilterSampler,
     origin: Vec3,
@@ -31,6 +34,8 @@ pub struct Sensor {
 impl Sensor {
     pub(crate) fn new(description: &SensorDescription, normalisation: &Normalisation) -> Self {
         let (width, height) = (f64::from(description.width), f64::from(description.height));
+        let whole = Crop { x: 0, y: 0, width: description.width, height: description.height };
+        let crop = description.crop.unwrap_or(whole);
         let half = (description.fov_degrees.to_radians() * 0.5).tan();
         // Tangent of half the horizontal field of view.
         let tan_x = match description.fov_axis {
@@ -47,8 +52,10 @@ impl Sensor {
         let depth = |d: Option<f64>, default: f32| d.map_or(default, |d| normalisation.length(d));
         Self {
             name: description.name.clone(),
-            width: description.width,
-            height: description.height,
+            width: crop.width,
+            height: crop.height,
+            film: Vec2::new(width as f32, height as f32),
+            corner: Vec2::new(crop.x as f32, crop.y as f32),
             filter: FilterSampler::new(description.filter),
             origin: normalisation.point(description.to_world.translation),
             right: (-left * tan_x).as_vec3(),
@@ -59,11 +66,11 @@ impl Sensor {
         }
     }
 
-    /// The ray through a film position in pixels, (0, 0) being the image's top left corner.
+    /// The ray through a film position in pixels, (0, 0) being the top left corner of what is rendered.
     #[must_use]
     pub fn ray(&self, film: Vec2) -> Ray {
-        let x = 2.0 * film.x / self.width as f32 - 1.0;
-        let y = 1.0 - 2.0 * film.y / self.height as f32;
+        let place = (film + self.corner) / self.film;
+        let (x, y) = (2.0 * place.x - 1.0, 1.0 - 2.0 * place.y);
         let v = self.forward + self.right * x + self.up * y;
         let length = v.length();
         Ray {
@@ -81,7 +88,7 @@ impl Sensor {
         let depth = v.dot(self.forward);
         let along = |axis: Vec3| v.dot(axis) / (depth * axis.length_squared());
         let (x, y) = (along(self.right), along(self.up));
-        let film = Vec2::new((x + 1.0) * self.width as f32, (1.0 - y) * self.height as f32) * 0.5;
+        let film = Vec2::new(x + 1.0, 1.0 - y) * self.film * 0.5 - self.corner;
         (depth > 0.0 && film.is_finite()).then_some((film, depth))
     }
 
@@ -94,7 +101,7 @@ impl Sensor {
     /// Area of a pixel per square distance, perpendicular to a ray of unit `direction` (steradians).
     #[must_use]
     pub fn pixel_solid_angle(&self, direction: Vec3) -> f32 {
-        let pixel = 4.0 * self.right.cross(self.up).length() / (self.width as f32 * self.height as f32);
+        let pixel = 4.0 * self.right.cross(self.up).length() / (self.film.x * self.film.y);
         // A pixel at depth 1 is 1/cos θ away and seen under the angle θ.
         pixel * direction.dot(self.forward).powi(3)
     }
@@ -107,20 +114,49 @@ mod tests {
     use foton_math::glam::DAffine3;
 
     fn sensor(axis: FovAxis) -> Sensor {
+        Sensor::new(&description(axis), &Normalisation::IDENTITY)
+    }
+
+    fn description(axis: FovAxis) -> SensorDescription {
         // Looks along world −z from (0, 0, 5): camera x to world −x, camera z to world −z.
         let to_world = DAffine3::from_cols(-DVec3::X, DVec3::Y, -DVec3::Z, DVec3::new(0.0, 0.0, 5.0));
-        let description = SensorDescription {
+        SensorDescription {
             name: "camera".into(),
             to_world,
             fov_degrees: 90.0,
             fov_axis: axis,
             width: 200,
             height: 100,
+            crop: None,
             filter: Filter::Box { radius: 0.5 },
             near_clip: None,
             far_clip: None,
-        };
-        Sensor::new(&description, &Normalisation::IDENTITY)
+        }
+    }
+
+    #[test]
+    fn a_crop_sees_what_its_window_of_the_whole_image_sees() {
+        let whole = sensor(FovAxis::X);
+        let crop = Some(Crop { x: 30, y: 20, width: 64, height: 50 });
+        let part =
+            Sensor::new(&SensorDescription { crop, ..description(FovAxis::X) }, &Normalisation::IDENTITY);
+        assert_eq!((part.width, part.height), (64, 50));
+        let (a, b) = (part.ray(Vec2::new(3.5, 7.25)), whole.ray(Vec2::new(33.5, 27.25)));
+        assert_eq!(a.direction, b.direction);
+        assert_eq!(part.pixel_solid_angle(a.direction), whole.pixel_solid_angle(b.direction));
+    }
+
+    #[test]
+    fn a_crop_keeps_its_place_and_stays_inside_at_another_size() {
+        let crop = Some(Crop { x: 30, y: 20, width: 170, height: 50 });
+        for (size, expected) in
+            [((400, 200), (60, 40, 340, 100)), ((20, 10), (3, 2, 17, 5)), ((3, 1), (0, 0, 3, 1))]
+        {
+            let mut resized = SensorDescription { crop, ..description(FovAxis::X) };
+            resized.resize(size.0, size.1);
+            let c = resized.crop.expect("still a crop");
+            assert_eq!((c.x, c.y, c.width, c.height), expected, "{size:?}");
+        }
     }
 
     #[test]

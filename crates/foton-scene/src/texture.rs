@@ -60,6 +60,14 @@ impl Sampler {
     }
 }
 
+impl Sampler {
+    /// One number at a texture coordinate: luminance of a bitmap, the mean channel of other colours, as in Mitsuba 3.
+    pub(crate) fn scalar(&self, uv: Vec2) -> f32 {
+        let colour = self.colour(uv);
+        if matches!(self.kind, Kind::Bitmap { .. }) { colour.luminance() } else { colour.mean() }
+    }
+}
+
 /// The pixel that a coordinate beyond the picture shows.
 fn wrapped(i: i64, size: u32, wrap: Wrap) -> usize {
     let n = i64::from(size);

@@ -9,7 +9,6 @@ use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use foton_integrator::{Alpha, DirectLight, LayerKind, Settings};
 use foton_session::snapshot::Format;
 
-
 /// Progressive photon mapping that a person can watch, steer and trust.
 #[derive(Debug, Parser)]
 #[command(version, args_conflicts_with_subcommands = true)]
@@ -116,7 +115,7 @@ pub(crate) struct Render {
     /// Threads [as many as the machine has]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
-    /// Image size [as the scene says]
+    /// Size of the whole image; a crop of it shrinks or grows along [as the scene says]
     #[arg(long, value_name = "WxH")]
     pub(crate) size: Option<Size>,
     /// Eye samples a pixel

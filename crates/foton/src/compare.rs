@@ -6,8 +6,8 @@ use foton_film::{
     Image, Layer, LayerData, Metadata, ReadError, ToneMap, WriteError, read_exr, read_png, write_exr,
     write_png,
 };
-use foton_session::snapshot::Format;
 use foton_measure::{Channels, Flip, Pair, heat, scale_top};
+use foton_session::snapshot::Format;
 use serde_json::{Value, json};
 
 use crate::args::Compare;

@@ -46,8 +46,13 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
     };
     let mut rule = StopRule { passes: args.passes, time: args.time };
     if rule == StopRule::default() {
-        rule.time = Some(DEFAULT_TIME);
-        talk.line("no --passes or --time: rendering for 60 s");
+        if let Some(passes) = suggested.passes {
+            rule.passes = Some(passes.into());
+            talk.line(&format!("no --passes or --time: {passes} passes, as the scene file says"));
+        } else {
+            rule.time = Some(DEFAULT_TIME);
+            talk.line("no --passes or --time: rendering for 60 s");
+        }
     }
     refuse_beyond_memory(&scene, &settings, args.memory)?;
     let interrupt = interrupt_on_signals(talk);
@@ -81,7 +86,7 @@ pub(crate) fn build(
     let mut description = opened.description;
     if let Some(Size { width, height }) = size {
         for sensor in &mut description.sensors {
-            (sensor.width, sensor.height) = (width, height);
+            sensor.resize(width, height);
         }
     }
     let scene =
@@ -152,6 +157,7 @@ pub(crate) fn finish(
         outputs.push(path.display().to_string());
     }
     talk.check_ledger(session.ppm().ledger());
+    talk.check_lights(session.ppm());
     talk.done(session, &outputs);
     Ok(())
 }

@@ -5,7 +5,7 @@ use std::io::Write;
 
 use foton_film::{ReadError, WriteError};
 use foton_format::{Diagnostic, OpenError};
-use foton_integrator::Ledger;
+use foton_integrator::{DirectLight, Ledger, Ppm};
 use foton_measure::CompareError;
 use foton_scene::BuildError;
 use foton_session::{Progress, Session, StartError, StopRule};
@@ -196,6 +196,7 @@ impl Talk {
             "hit_points": ppm.start_report().hit_points,
             "eye_rays": ppm.start_report().eye_rays,
             "stages": stages,
+            "lights": lights_json(ppm),
         }));
         if self.json {
             return;
@@ -218,6 +219,26 @@ impl Talk {
         }
     }
 
+    /// Warns of emitters that most photons leave in vain.
+    pub(crate) fn check_lights(&self, ppm: &Ppm) {
+        // With shadow rays the photons of a light need not reach anything that it lights directly.
+        if ppm.settings().direct_light == DirectLight::ShadowRays {
+            return;
+        }
+        let photons = ppm.photons_emitted();
+        for (emitter, light) in ppm.scene().emitters().iter().zip(ppm.light_use()) {
+            if light.is_starved(photons) {
+                self.warning(&format!(
+                    "\"{}\" takes {:.0} % of the photons, and {:.2} % of those come near anything that is seen: what it lights \
+                     converges slowly",
+                    emitter.name,
+                    100.0 * light.emitted as f64 / photons as f64,
+                    100.0 * light.hit_rate()
+                ));
+            }
+        }
+    }
+
     /// Warns of light that went missing.
     pub(crate) fn check_ledger(&self, ledger: &Ledger) {
         let share = ledger.truncated / ledger.emitted.max(f64::MIN_POSITIVE);
@@ -235,6 +256,19 @@ impl Talk {
 
 fn located(event: &str, d: &Diagnostic) -> Value {
     json!({ "event": event, "message": d.message, "file": d.file, "line": d.line, "column": d.column })
+}
+
+/// What each emitter's photons were good for.
+fn lights_json(ppm: &Ppm) -> Value {
+    let lights = ppm.scene().emitters().iter().zip(ppm.light_use());
+    lights
+        .map(|(emitter, light)| {
+            json!({
+                "name": emitter.name, "photons": light.emitted, "reached": light.reached,
+                "hit_rate": light.hit_rate(),
+            })
+        })
+        .collect()
 }
 
 /// The ledger in watts: per photon, and back from scene units, in which areas carry the squared scale.

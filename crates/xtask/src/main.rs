@@ -1,4 +1,4 @@
-//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `assets`, `pictures`.
+//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `bench`, `assets`, `pictures`.
 //!
 //! Nothing here is part of the program; what a task does is in the module of its name.
 #![allow(clippy::print_stdout, reason = "these tasks talk to the person who started them")]
@@ -19,6 +19,7 @@ cargo xtask test [--install]        all tests, and a small comparison with Mitsu
                                     --install fetches missing system packages with sudo
 cargo xtask ci                      formatting, lints, documentation, then the tests
 cargo xtask conformance [--quick]   the whole comparison with Mitsuba 3 (20 minutes and more), or the small one
+cargo xtask bench census            what leaving out parts of the renderer saves, as a table
 cargo xtask assets                  writes the generated meshes in assets/ again
 cargo xtask pictures                renders every scene in assets/ to docs/pictures (some minutes)";
 
@@ -31,6 +32,14 @@ fn main() -> ExitCode {
         ["ci"] => ci::all(),
         ["conformance"] => conformance::full(),
         ["conformance", "--quick"] => conformance::quick(),
+        ["bench", "census"] => tools::run(&mut tools::cargo(&[
+            "run",
+            "--release",
+            "--package",
+            "foton-tests",
+            "--example",
+            "census",
+        ])),
         ["assets"] => assets::write_all(&tools::root().join("assets"))
             .map_err(|cause| Trouble::Failed(cause.to_string())),
         ["pictures"] => pictures::render_all(),

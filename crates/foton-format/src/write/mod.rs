@@ -184,6 +184,12 @@ impl<'a> Writer<'a> {
         xml.open("film", &[("type", "hdrfilm")]);
         xml.value("integer", "width", &sensor.width.to_string());
         xml.value("integer", "height", &sensor.height.to_string());
+        if let Some(crop) = sensor.crop {
+            xml.value("integer", "crop_offset_x", &crop.x.to_string());
+            xml.value("integer", "crop_offset_y", &crop.y.to_string());
+            xml.value("integer", "crop_width", &crop.width.to_string());
+            xml.value("integer", "crop_height", &crop.height.to_string());
+        }
         match sensor.filter {
             Filter::Box { .. } => xml.leaf("rfilter", &[("type", "box")]),
             Filter::Tent { radius } => xml.plugin("rfilter", "tent", &[("float", "radius", &number(radius))]),

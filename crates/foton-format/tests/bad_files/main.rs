@@ -175,11 +175,11 @@ fn values_out_of_range_are_errors() {
         ),
         (
             "<sensor type='perspective'><film type='hdrfilm'><integer name='crop_width' value='9'/></film></sensor>",
-            &["s.xml:2:83: a crop of the image is not supported yet"],
+            &[],
         ),
         (
-            "<sensor type='perspective'><film type='hdrfilm'><integer name='width' value='9'/><integer name='crop_width' value='9'/></film></sensor>",
-            &[],
+            "<sensor type='perspective'><film type='hdrfilm'><integer name='width' value='9'/><integer name='crop_width' value='9'/><integer name='crop_offset_x' value='1'/></film></sensor>",
+            &["s.xml:2:116: the crop reaches from 1 over 9 pixels, but the image has 9"],
         ),
         (
             "<integrator type='path'><integer name='max_depth' value='-2'/></integrator>",

@@ -7,6 +7,7 @@
 //! photons in a sliver of directions only. All others are *kept*: hit points weigh photons with them. Light refracted by
 //! rough glass is always followed, since photons would have to be looked for on both sides.
 
+mod coat;
 mod fresnel;
 mod glass;
 mod microfacet;
@@ -18,6 +19,7 @@ use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Rgb, warp};
 
 use crate::description::{Bsdf, Microfacets};
+pub use coat::Coat;
 use glass::{glass_lobes, rough_glass, rough_glass_pdf};
 
 /// Lobes of at most this roughness α are followed by eye paths. Below it a lobe is narrower than about 6° and a hit point
@@ -74,6 +76,8 @@ pub struct Scattering {
     pub bsdf: Bsdf<Rgb>,
     /// Share of light that meets the surface; the rest passes straight through.
     pub opacity: f32,
+    /// What gets through its coat, where that is rough.
+    pub coat: Option<Coat>,
 }
 
 impl Microfacets {

@@ -20,17 +20,15 @@ impl Scattering {
         r.reflect(wo, wi, fresnel) * specular_reflectance
     }
 
-    /// Light that enters a coat, is spread by the base and leaves again, reflections inside the coat summed up. The coat's
-    /// boundary is taken as smooth here.
+    /// Light that enters a coat, is spread by the base and leaves again, reflections inside the coat summed up.
     pub(super) fn base(&self, wo: Vec3, wi: Vec3) -> Rgb {
         let Bsdf::Plastic { int_ior, ext_ior, diffuse_reflectance, nonlinear, .. } = self.bsdf else {
             return Rgb::BLACK;
         };
-        let enters = |w: Vec3| 1.0 - fresnel_at(w.z, int_ior, ext_ior);
         let eta = ext_ior / int_ior;
-        let inside = fresnel::diffuse_reflectance(eta);
+        let inside = self.coat.map_or_else(|| fresnel::diffuse_reflectance(eta), |c| c.inside);
         let again = if nonlinear { diffuse_reflectance * inside } else { Rgb::splat(inside) };
-        let scale = enters(wo) * enters(wi) * eta * eta * FRAC_1_PI;
+        let scale = self.enters(wo.z) * self.enters(wi.z) * eta * eta * FRAC_1_PI;
         Rgb::new(
             diffuse_reflectance.r / (1.0 - again.r),
             diffuse_reflectance.g / (1.0 - again.g),
@@ -38,14 +36,21 @@ impl Scattering {
         ) * scale
     }
 
+    /// Share of light at a cosine of incidence that gets through the coat.
+    fn enters(&self, cos: f32) -> f32 {
+        match (&self.coat, self.bsdf) {
+            (Some(coat), _) => coat.transmittance(cos),
+            (None, Bsdf::Plastic { int_ior, ext_ior, .. }) => 1.0 - fresnel_at(cos, int_ior, ext_ior),
+            (None, _) => 0.0,
+        }
+    }
+
     /// The chance with which a photon from `wo` takes the coat rather than the base.
     pub(super) fn coat_chance(&self, wo: Vec3) -> f32 {
-        let Bsdf::Plastic { int_ior, ext_ior, diffuse_reflectance, specular_reflectance, .. } = self.bsdf
-        else {
-            return 0.0;
-        };
-        let f = fresnel_at(wo.z.abs(), int_ior, ext_ior);
-        let (coat, base) = (specular_reflectance.mean() * f, diffuse_reflectance.mean() * (1.0 - f));
+        let Bsdf::Plastic { diffuse_reflectance, specular_reflectance, .. } = self.bsdf else { return 0.0 };
+        let enters = self.enters(wo.z.abs());
+        let coat = specular_reflectance.mean() * (1.0 - enters);
+        let base = diffuse_reflectance.mean() * enters;
         if coat + base > 0.0 { coat / (coat + base) } else { 0.0 }
     }
 

@@ -6,7 +6,7 @@ use crate::description::MicrofacetDistribution::{self, Beckmann, Ggx};
 use foton_math::{Purpose, Stream};
 
 fn at(bsdf: Bsdf<Rgb>) -> Scattering {
-    Scattering { bsdf, opacity: 1.0 }
+    Scattering { bsdf, opacity: 1.0, coat: Coat::of(&bsdf) }
 }
 
 fn glass(roughness: Option<Microfacets>) -> Bsdf<Rgb> {

@@ -68,6 +68,7 @@ fn describe(shapes: Vec<ShapeDescription>) -> SceneDescription {
         fov_axis: FovAxis::X,
         width: 8,
         height: 8,
+        crop: None,
         filter: Filter::Box { radius: 0.5 },
         near_clip: None,
         far_clip: None,

@@ -19,6 +19,7 @@ fn sensor(forward: DVec3, up: DVec3, mirrored: bool) -> SensorDescription {
         fov_axis: FovAxis::Smaller,
         width: 400,
         height: 300,
+        crop: None,
         filter: Filter::Box { radius: 0.5 },
         near_clip: None,
         far_clip: None,

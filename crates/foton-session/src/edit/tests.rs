@@ -27,6 +27,7 @@ fn sensor(to_world: DAffine3) -> SensorDescription {
         fov_axis: FovAxis::X,
         width: 300,
         height: 200,
+        crop: None,
         filter: Filter::Box { radius: 0.5 },
         near_clip: None,
         far_clip: None,

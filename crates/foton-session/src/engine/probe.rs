@@ -63,8 +63,7 @@ pub(super) fn probe(ppm: &Ppm, pixel: [u32; 2]) -> Option<Probe> {
     Some(Probe {
         pixel,
         radiance: ppm.radiance(index),
-        radius: (!discs.is_empty())
-            .then(|| discs.iter().map(|d| d.radius).sum::<f64>() / discs.len() as f64),
+        radius: (!discs.is_empty()).then(|| discs.iter().map(|d| d.radius).sum::<f64>() / discs.len() as f64),
         photons_found: discs.iter().map(|d| d.photons_found).sum(),
         hit_points: discs.len(),
         distance: first.map(|d| d.position.distance(eye)),

@@ -60,7 +60,7 @@ impl Render {
             let pixels = f64::from(sensor.width) * f64::from(sensor.height);
             let factor = (f64::from(SMALL_PIXELS) / pixels).sqrt().min(1.0);
             let shrink = |n: u32| ((f64::from(n) * factor).round() as u32).max(1);
-            (sensor.width, sensor.height) = (shrink(sensor.width), shrink(sensor.height));
+            sensor.resize(shrink(sensor.width), shrink(sensor.height));
         }
         let settings = Settings {
             samples_per_pixel: NonZeroU32::MIN,
@@ -163,9 +163,13 @@ impl Render {
         };
         match shown {
             Shown::Radiance => Picture::Colour(Arc::new(ppm.image())),
-            Shown::Classes { reflected, emission } => Picture::Colour(Arc::new(classes(ppm, reflected, emission))),
+            Shown::Classes { reflected, emission } => {
+                Picture::Colour(Arc::new(classes(ppm, reflected, emission)))
+            }
             Shown::Radius => measure("radius (world units)", ppm.mean_radii()),
-            Shown::PhotonCount => measure("photons found", ppm.photons_found().into_iter().map(|n| n as f32).collect()),
+            Shown::PhotonCount => {
+                measure("photons found", ppm.photons_found().into_iter().map(|n| n as f32).collect())
+            }
             Shown::Luminance => {
                 measure("luminance (W/m²/sr)", ppm.image().pixels.iter().map(|c| c.luminance()).collect())
             }

@@ -25,7 +25,6 @@ impl<T> NewestSender<T> {
             value = back;
         }
     }
-
 }
 
 #[cfg(test)]

@@ -1,0 +1,144 @@
+//! What gets through a rough coat, integrated once when a scene is built and kept as a short series.
+//!
+//! Light that a facet refracts counts if it leaves the surface on the other side and is not hidden there; light that is lost
+//! between facets stays lost, as in Mitsuba 3, whose rough plastic this follows.
+
+use foton_math::Frame;
+use foton_math::glam::{Vec2, Vec3};
+
+use super::fresnel;
+use crate::description::{Bsdf, Microfacets};
+
+/// Terms of the series. With eight the error is below 4·10⁻³ at a roughness of 0.05, below 2·10⁻³ from 0.1 on.
+const TERMS: usize = 8;
+/// Points at which the series is fitted.
+const NODES: usize = 24;
+/// Points of the integral over what comes from below: more, since total reflection begins at an angle.
+const BELOW: usize = 96;
+/// Points per axis of the square over which facets are sampled.
+const FACETS: usize = 32;
+
+/// A rough boundary of two dielectrics as the diffuse base below it sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coat {
+    /// Chebyshev coefficients of the share that enters, over 2√cos − 1.
+    series: [f32; TERMS],
+    /// Share of diffuse light from below that the boundary sends back.
+    pub(super) inside: f32,
+}
+
+impl Coat {
+    /// Integrates the coat of a rough plastic; `None` for anything else.
+    #[must_use]
+    pub fn of<C: Copy>(bsdf: &Bsdf<C>) -> Option<Self> {
+        let Bsdf::Plastic { int_ior, ext_ior, roughness: Some(r), .. } = bsdf else { return None };
+        // The rest is kept by the boundary: 4 ∫ R(s²) s³ ds, with cos = s².
+        let inside: f64 = (0..BELOW)
+            .map(|i| (i as f64 + 0.5) / BELOW as f64)
+            .map(|s| 4.0 * s.powi(3) * passage(r, s * s, *ext_ior, *int_ior).reflected / BELOW as f64)
+            .sum();
+        Some(Self {
+            series: fit(|cos| passage(r, cos, *int_ior, *ext_ior).transmitted),
+            inside: inside as f32,
+        })
+    }
+
+    /// Share of light at the cosine `cos` of incidence that enters, or of light from below that leaves there.
+    pub(super) fn transmittance(&self, cos: f32) -> f32 {
+        let x = 2.0 * cos.clamp(0.0, 1.0).sqrt() - 1.0;
+        // Clenshaw's recurrence.
+        let (mut b1, mut b2) = (0.0, 0.0);
+        for c in self.series.iter().skip(1).rev() {
+            (b1, b2) = (2.0 * x * b1 - b2 + c, b1);
+        }
+        (x * b1 - b2 + self.series[0]).clamp(0.0, 1.0)
+    }
+}
+
+/// Shares of light that a rough boundary passes on.
+#[derive(Default)]
+struct Passage {
+    reflected: f64,
+    transmitted: f64,
+}
+
+/// Integrates over the facets that are seen at a cosine, `beyond` being the index on the other side.
+fn passage(r: &Microfacets, cos: f64, beyond: f32, here: f32) -> Passage {
+    let cos = cos.max(1e-6);
+    let wo = Vec3::new((1.0 - cos * cos).sqrt() as f32, 0.0, cos as f32);
+    let mut sum = Passage::default();
+    let place = |i: usize| (i as f32 + 0.5) / FACETS as f32;
+    for i in 0..FACETS * FACETS {
+        let h = r.sample(wo, Vec2::new(place(i / FACETS), place(i % FACETS)));
+        let frame = Frame::from_normal(h);
+        let boundary = fresnel::dielectric(frame.to_local(wo), beyond, here);
+        let f = f64::from(boundary.reflectance);
+        let mirrored = h * (2.0 * wo.dot(h)) - wo;
+        if mirrored.z > 0.0 {
+            sum.reflected += f * f64::from(r.visible(mirrored, h));
+        }
+        let refracted = boundary.refracted.map(|w| frame.to_outer(w)).filter(|w| w.z < 0.0);
+        sum.transmitted += refracted.map_or(0.0, |w| (1.0 - f) * f64::from(r.visible(w, h)));
+    }
+    let count = (FACETS * FACETS) as f64;
+    Passage { reflected: sum.reflected / count, transmitted: sum.transmitted / count }
+}
+
+/// The coefficients of f(cos) over 2√cos − 1.
+fn fit(f: impl Fn(f64) -> f64) -> [f32; TERMS] {
+    use std::f64::consts::PI;
+    let mut series = [0.0f64; TERMS];
+    for node in 0..NODES {
+        let angle = PI * (node as f64 + 0.5) / NODES as f64;
+        let value = f((0.5 + 0.5 * angle.cos()).powi(2));
+        for (k, c) in series.iter_mut().enumerate() {
+            let norm = if k == 0 { 1.0 } else { 2.0 };
+            *c += norm * value * (k as f64 * angle).cos() / NODES as f64;
+        }
+    }
+    series.map(|c| c as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::description::MicrofacetDistribution::{Beckmann, Ggx};
+    use foton_math::Rgb;
+
+    fn plastic(facets: Microfacets) -> Coat {
+        let coat = Coat::of(&Bsdf::Plastic {
+            int_ior: 1.5,
+            ext_ior: 1.0,
+            diffuse_reflectance: Rgb::WHITE,
+            specular_reflectance: Rgb::WHITE,
+            nonlinear: false,
+            roughness: Some(facets),
+        });
+        coat.expect("it is rough")
+    }
+
+    #[test]
+    fn the_series_is_the_integral() {
+        for facets in [(Ggx, 0.1), (Ggx, 0.4), (Beckmann, 0.2), (Beckmann, 0.8)] {
+            let facets = Microfacets::isotropic(facets.0, facets.1);
+            let coat = plastic(facets);
+            for i in 0..=100 {
+                let cos = f64::from(i) / 100.0;
+                let exact = passage(&facets, cos, 1.5, 1.0).transmitted;
+                let got = f64::from(coat.transmittance(cos as f32));
+                assert!((got - exact).abs() < 3e-3, "{facets:?} at {cos}: {got} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_coat_becomes_smooth_as_its_roughness_vanishes() {
+        let coat = plastic(Microfacets::isotropic(Ggx, 1e-3));
+        for cos in [0.05f32, 0.2, 0.5, 1.0] {
+            let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
+            let smooth = 1.0 - fresnel::dielectric(wo, 1.5, 1.0).reflectance;
+            assert!((coat.transmittance(cos) - smooth).abs() < 3e-3, "{cos}");
+        }
+        assert!((coat.inside - fresnel::diffuse_reflectance(1.0 / 1.5)).abs() < 6e-3, "{}", coat.inside);
+    }
+}

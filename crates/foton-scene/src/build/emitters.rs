@@ -1,0 +1,82 @@
+//! Emitters of a description in scene units, and how photons are shared among them.
+
+use foton_math::glam::DVec3;
+use foton_math::{Aabb, Frame, Rgb};
+
+use super::orientation;
+use crate::description::{EmitterDescription, EmitterKind};
+use crate::discrete::Discrete;
+use crate::emitter::{Area, Ball, Emitter, Kind, Reach, Spot};
+use crate::environment::Environment;
+use crate::normalise::Normalisation;
+use crate::primitive::Primitive;
+
+/// Share of photons spread evenly over emitters, whatever their power (δ of theory's many lights).
+const DEFENSIVE_SHARE: f64 = 0.1;
+
+/// Balls for light from infinity; casters apart only where that saves most of the photons.
+pub(super) fn reach(scene: &Aabb, casters: &Aabb) -> Reach {
+    // A margin keeps the start of every path off the outermost surface.
+    let ball = |b: &Aabb| Ball { centre: b.centre(), radius: b.radius() * 1.01 };
+    let scene_ball = ball(scene);
+    let casters = (!casters.is_empty()).then(|| ball(casters)).filter(|c| c.radius < 0.5 * scene_ball.radius);
+    Reach { scene: scene_ball, casters }
+}
+
+pub(super) fn area_emitter(shape: u32, radiance: Rgb, primitives: &[Primitive]) -> Area {
+    let areas = || primitives.iter().map(Primitive::area);
+    Area {
+        radiance,
+        primitives: primitives.to_vec(),
+        by_area: Discrete::new(areas().map(f64::from)),
+        area: areas().sum(),
+        shape,
+    }
+}
+
+pub(super) fn unattached_emitter(
+    description: &EmitterDescription,
+    to_scene: &Normalisation,
+    reach: Reach,
+) -> Emitter {
+    // Irradiance is intensity over squared distance, so intensity grows with the square of the scale.
+    let scale2 = (to_scene.scale() * to_scene.scale()) as f32;
+    let kind = match &description.kind {
+        EmitterKind::Point { position, intensity } => {
+            Kind::Point { position: to_scene.point(*position), intensity: *intensity * scale2 }
+        }
+        EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees } => {
+            let axis = to_world.matrix3.z_axis.normalize().as_vec3();
+            Kind::Spot(Spot {
+                position: to_scene.point(to_world.translation),
+                frame: Frame::from_normal(axis),
+                intensity: *intensity * scale2,
+                cutoff: cutoff_degrees.to_radians() as f32,
+                beam: beam_degrees.min(*cutoff_degrees).to_radians() as f32,
+            })
+        }
+        EmitterKind::Constant { radiance } => Kind::Constant { radiance: *radiance, reach },
+        EmitterKind::Directional { direction, irradiance } => Kind::Directional {
+            direction: direction.normalize_or(DVec3::NEG_Z).as_vec3(),
+            irradiance: *irradiance,
+            reach,
+        },
+        EmitterKind::Environment { to_world, bitmap, scale } => {
+            let to_world = orientation(to_world).transpose();
+            Kind::Environment { map: Box::new(Environment::new(bitmap.clone(), *scale, to_world)), reach }
+        }
+    };
+    Emitter { name: description.name.clone(), kind }
+}
+
+/// p = (1 − δ) Φ/ΣΦ + δ/n over those that emit at all.
+pub(super) fn emitter_choice(emitters: &[Emitter]) -> Discrete {
+    let power = |e: &Emitter| f64::from(e.power().mean());
+    let total: f64 = emitters.iter().map(power).sum();
+    let count = emitters.iter().filter(|e| power(e) > 0.0).count() as f64;
+    Discrete::new(
+        emitters.iter().map(power).map(|p| {
+            if p > 0.0 { (1.0 - DEFENSIVE_SHARE) * p / total + DEFENSIVE_SHARE / count } else { 0.0 }
+        }),
+    )
+}

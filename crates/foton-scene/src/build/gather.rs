@@ -1,0 +1,194 @@
+//! Shapes to one list of primitives in scene units.
+
+use std::sync::Arc;
+
+use foton_math::Aabb;
+use foton_math::glam::{DAffine3, DMat3, Vec2, Vec3};
+
+use super::BuildError;
+use crate::accel::Accel;
+use crate::census::Census;
+use crate::description::{Geometry, Mesh, ShapeDescription};
+use crate::discrete::Discrete;
+use crate::normalise::Normalisation;
+use crate::primitive::{Primitive, triangle_normal};
+use crate::scene::Scene;
+
+/// How far a transform's axes may be from equal length and right angles and still keep a sphere round.
+const ROUNDNESS: f64 = 1e-4;
+
+/// Vertex normals this close to a triangle's own (within 0.03°) say that it is flat.
+const FLAT_COSINE: f32 = 1.0 - 1e-7;
+
+/// Primitives of a scene as they are gathered, before the tree orders them.
+#[derive(Default)]
+pub(super) struct Gathered {
+    pub(super) primitives: Vec<Primitive>,
+    shape_of: Vec<u32>,
+    pub(super) vertex_normals: Vec<[Vec3; 3]>,
+    vertex_uvs: Vec<[Vec2; 3]>,
+    pub(super) census: Census,
+}
+
+impl Gathered {
+    /// Nothing yet, but what `census` says is to be modelled.
+    pub(super) fn new(census: Census) -> Self {
+        Self { census, ..Self::default() }
+    }
+
+    pub(super) fn add(
+        &mut self,
+        index: u32,
+        shape: &ShapeDescription,
+        to_scene: &Normalisation,
+    ) -> Result<(), BuildError> {
+        match &shape.geometry {
+            Geometry::Mesh(mesh) => self.add_mesh(index, shape, mesh, to_scene),
+            Geometry::Sphere { centre, radius } => {
+                let scale = even_scale(&shape.to_world, &[0, 1, 2], &shape.name)?;
+                let centre = to_scene.point(shape.to_world.transform_point3(*centre));
+                let radius = to_scene.length(radius * scale);
+                if radius > 0.0 {
+                    self.census.spheres += 1;
+                    self.push(index, Primitive::Sphere { centre, radius, inward: shape.flip_normals }, None);
+                }
+                Ok(())
+            }
+            Geometry::Disc => {
+                let scale = even_scale(&shape.to_world, &[0, 1], &shape.name)?;
+                let m = shape.to_world.matrix3;
+                // The inverse transpose takes +z to the cross product of the other axes, whatever the handedness.
+                let side = if (m.determinant() < 0.0) == shape.flip_normals { 1.0 } else { -1.0 };
+                let normal = (m.x_axis.cross(m.y_axis) * side).normalize().as_vec3();
+                let centre = to_scene.point(shape.to_world.translation);
+                let radius = to_scene.length(scale);
+                if radius > 0.0 && normal.is_finite() {
+                    self.census.discs += 1;
+                    self.push(index, Primitive::Disc { centre, normal, radius }, None);
+                }
+                Ok(())
+            }
+            Geometry::Cylinder { from, to, radius } => {
+                let scale = even_scale(&shape.to_world, &[0, 1, 2], &shape.name)?;
+                let [from, to] = [from, to].map(|&p| to_scene.point(shape.to_world.transform_point3(p)));
+                let radius = to_scene.length(radius * scale);
+                if radius > 0.0 && from != to {
+                    self.census.tubes += 1;
+                    let radius = if shape.flip_normals { -radius } else { radius };
+                    self.push(index, Primitive::Tube { from, axis: to - from, radius }, None);
+                }
+                Ok(())
+            }
+        }
+    }
+
+    fn add_mesh(
+        &mut self,
+        index: u32,
+        shape: &ShapeDescription,
+        mesh: &Mesh,
+        to_scene: &Normalisation,
+    ) -> Result<(), BuildError> {
+        let smooth = !mesh.normals.is_empty();
+        let textured = self.census.textures || self.census.anisotropy;
+        let has_uvs = !mesh.texture_coordinates.is_empty();
+        let fits = |n: usize, there: bool| !there || n == mesh.positions.len();
+        if !fits(mesh.normals.len(), smooth) || !fits(mesh.texture_coordinates.len(), has_uvs) {
+            return Err(BuildError::BadMesh(shape.name.clone()));
+        }
+        let mirrored = shape.to_world.matrix3.determinant() < 0.0;
+        let positions: Vec<Vec3> =
+            mesh.positions.iter().map(|&p| to_scene.point(shape.to_world.transform_point3(p))).collect();
+        let normals = smooth.then(|| world_normals(shape, mesh)).transpose()?;
+        for triangle in &mesh.triangles {
+            if triangle.iter().any(|&i| i as usize >= positions.len()) {
+                return Err(BuildError::BadMesh(shape.name.clone()));
+            }
+            let [a, mut b, mut c] = *triangle;
+            // A mirroring transform turns the winding around; so does flipping.
+            if mirrored != shape.flip_normals {
+                (b, c) = (c, b);
+            }
+            let corners = |[a, b, c]: [u32; 3]| [a, b, c].map(|i| positions[i as usize]);
+            let Some(flat) = triangle_normal(corners([a, b, c])) else {
+                self.census.degenerate_triangles += 1;
+                continue;
+            };
+            let mut at_vertices = None;
+            if let Some(normals) = &normals {
+                let [na, nb, nc] = [a, b, c].map(|i| normals[i as usize]);
+                if (na + nb + nc).dot(flat) < 0.0 {
+                    (b, c) = (c, b);
+                }
+                let usable = [na, nb, nc].iter().all(|n| *n != Vec3::ZERO);
+                let flat = [na, nb, nc].iter().all(|n| n.dot(flat).abs() > FLAT_COSINE);
+                at_vertices = (usable && !flat).then(|| [a, b, c].map(|i| normals[i as usize]));
+            }
+            self.census.triangles += 1;
+            self.push(index, Primitive::Triangle(corners([a, b, c])), at_vertices);
+            if let Some(uvs) = self.vertex_uvs.last_mut().filter(|_| textured && has_uvs) {
+                *uvs = [a, b, c].map(|i| mesh.texture_coordinates[i as usize].as_vec2());
+            }
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, shape: u32, primitive: Primitive, normals: Option<[Vec3; 3]>) {
+        self.primitives.push(primitive);
+        self.shape_of.push(shape);
+        self.vertex_normals.push(normals.unwrap_or_default());
+        self.vertex_uvs.extend((self.census.textures || self.census.anisotropy).then_some([Vec2::ZERO; 3]));
+    }
+
+    pub(super) fn into_scene(self, normalisation: Normalisation, bounds: Aabb) -> Scene {
+        let (accel, order) = Accel::build(&self.primitives);
+        let smooth = self.vertex_normals.iter().any(|n| n[0] != Vec3::ZERO);
+        let ordered = order.iter().map(|&i| i as usize);
+        Scene {
+            shape_of: ordered.clone().map(|i| self.shape_of[i]).collect(),
+            vertex_uvs: ordered.clone().filter_map(|i| self.vertex_uvs.get(i).copied()).collect(),
+            textures: Arc::default(),
+            vertex_normals: if smooth {
+                ordered.map(|i| self.vertex_normals[i]).collect()
+            } else {
+                Arc::default()
+            },
+            accel: Arc::new(accel),
+            shapes: Vec::new(),
+            materials: Vec::new(),
+            coats: Vec::new(),
+            emitters: Arc::default(),
+            emitter_choice: Discrete::default(),
+            sensors: Vec::new(),
+            normalisation,
+            bounds,
+            max_depth: None,
+            census: self.census,
+        }
+    }
+}
+
+/// Unit vertex normals in world space; zero where a normal has no direction.
+fn world_normals(shape: &ShapeDescription, mesh: &Mesh) -> Result<Vec<Vec3>, BuildError> {
+    let inverse = shape.to_world.matrix3.inverse();
+    if !inverse.is_finite() {
+        return Err(BuildError::Singular(shape.name.clone()));
+    }
+    let m: DMat3 = inverse.transpose() * if shape.flip_normals { -1.0 } else { 1.0 };
+    Ok(mesh.normals.iter().map(|&n| (m * n).normalize_or_zero().as_vec3()).collect())
+}
+
+/// The factor by which the transform scales the given axes, if it keeps them of one length and perpendicular.
+fn even_scale(to_world: &DAffine3, axes: &[usize], name: &str) -> Result<f64, BuildError> {
+    let scale = to_world.matrix3.x_axis.length();
+    for (n, &i) in axes.iter().enumerate() {
+        let v = to_world.matrix3.col(i);
+        let even = (v.length() / scale - 1.0).abs() < ROUNDNESS;
+        let square =
+            axes[..n].iter().all(|&j| v.dot(to_world.matrix3.col(j)).abs() < ROUNDNESS * scale * scale);
+        if !(even && square) {
+            return Err(BuildError::NotRound(name.to_owned()));
+        }
+    }
+    Ok(scale)
+}

@@ -1,0 +1,117 @@
+//! What leaving things out saves: one scene that needs nothing special, rendered with each part of the renderer forced on.
+//!
+//! `cargo xtask bench census` runs it and prints the table that docs/census.md keeps. One thread; the time of the least of
+//! several renders, on the processor where the system tells (Linux), else on the wall.
+#![allow(clippy::print_stdout, reason = "a program that prints a table")]
+
+use std::num::NonZeroU32;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+use foton_format::Options;
+use foton_integrator::{Cancel, DirectLight, Ppm, Settings};
+use foton_scene::description::SceneDescription;
+use foton_scene::{Census, Scene};
+
+const PASSES: u32 = 6;
+const RENDERS: u32 = 5;
+
+struct Cost {
+    eye_seconds: f64,
+    pass_seconds: f64,
+    bytes: usize,
+}
+
+fn main() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the repository");
+    let path = root.join("assets/cornell-diffuse/scene.xml");
+    let opened = foton_format::open(&path, &Options::default()).expect("an asset");
+    let mut description = opened.description;
+    for sensor in &mut description.sensors {
+        (sensor.width, sensor.height) = (256, 256);
+    }
+    let none = Census::default();
+    let plain =
+        Settings { photons_per_pass: NonZeroU32::new(1 << 17).expect("above 0"), ..Settings::default() };
+    let plain = settings();
+    let shadow_rays = Settings { direct_light: DirectLight::ShadowRays, ..settings() };
+    let layers = Settings { layers: true, ..settings() };
+    let rows = [
+        ("nothing", none, &plain),
+        ("shading normals' correction", Census { shading_normals: true, ..none }, &plain),
+        ("textures", Census { textures: true, ..none }, &plain),
+        ("anisotropic frames", Census { anisotropy: true, ..none }, &plain),
+        ("environment", Census { environment: true, ..none }, &plain),
+        ("rough coats", Census { rough_coats: true, ..none }, &plain),
+        ("shadow rays", none, &shadow_rays),
+        ("light by path class", none, &layers),
+    ];
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let mut best: Vec<Option<Cost>> = rows.iter().map(|_| None).collect();
+    // In turns, so that a slow minute of the machine falls on all alike.
+    for _ in 0..RENDERS {
+        for ((_, forced, settings), best) in rows.iter().zip(&mut best) {
+            let cost = pool.install(|| render(&description, *forced, settings));
+            *best = Some(match best.take() {
+                None => cost,
+                Some(b) => Cost {
+                    eye_seconds: b.eye_seconds.min(cost.eye_seconds),
+                    pass_seconds: b.pass_seconds.min(cost.pass_seconds),
+                    bytes: cost.bytes,
+                },
+            });
+        }
+    }
+    println!("| forced on | eye pass, s | {PASSES} passes, s | passes | memory, MB |");
+    println!("|---|---|---|---|---|");
+    let base = best[0].as_ref().map_or(1.0, |c| c.pass_seconds);
+    for ((name, ..), cost) in rows.iter().zip(&best) {
+        let Some(c) = cost else { continue };
+        println!(
+            "| {name} | {:.3} | {:.3} | {:+.1} % | {:.1} |",
+            c.eye_seconds,
+            c.pass_seconds,
+            100.0 * (c.pass_seconds / base - 1.0),
+            c.bytes as f64 / 1e6
+        );
+    }
+}
+
+fn render(description: &SceneDescription, forced: Census, settings: &Settings) -> Cost {
+    let scene = Arc::new(Scene::build_as_if(description, forced).expect("an asset"));
+    let cancel = Cancel::default();
+    let clock = Clock::new();
+    let mut ppm = Ppm::start(scene, settings.clone(), &mut |_| {}, &cancel).expect("not cancelled");
+    let eye_seconds = clock.seconds();
+    let clock = Clock::new();
+    for _ in 0..PASSES {
+        ppm.advance(&mut |_| {}, &cancel).expect("not cancelled");
+    }
+    Cost { eye_seconds, pass_seconds: clock.seconds(), bytes: ppm.bytes() }
+}
+
+/// Time of this thread.
+struct Clock {
+    begin: Instant,
+    on_processor: Option<u64>,
+}
+
+impl Clock {
+    fn new() -> Self {
+        Self { begin: Instant::now(), on_processor: on_processor() }
+    }
+
+    fn seconds(&self) -> f64 {
+        match (self.on_processor, on_processor()) {
+            (Some(begin), Some(end)) => (end - begin) as f64 * 1e-9,
+            _ => self.begin.elapsed().as_secs_f64(),
+        }
+    }
+}
+
+/// Nanoseconds that this thread has spent on a processor, where Linux tells.
+fn on_processor() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    text.split_whitespace().next()?.parse().ok()
+}
