@@ -12,6 +12,7 @@ from pathlib import Path
 import box_spheres
 import depths
 import diffuse_box
+import shared_scenes
 from foton import Foton
 from mitsuba_side import Mitsuba
 from report import Report
@@ -42,6 +43,7 @@ def main():
             diffuse_box.check(report, foton, mitsuba, scene, options.out, diffuse_box.FULL)
         box_spheres.check(report, foton, mitsuba, benchmark, options.out)
         depths.check(report, foton, mitsuba, [*diffuse, benchmark])
+        shared_scenes.check(report, foton, mitsuba, shared_scenes.find_shared(options.repository), options.out)
     report.print_table()
     print(f"{time.monotonic() - started:.0f} s; pictures in {options.out}")
     return 1 if report.failed() else 0
