@@ -80,7 +80,8 @@ impl Preferences {
         if let Some(folder) = path.parent() {
             let _ = std::fs::create_dir_all(folder);
         }
-        let _ = foton_film::atomic_write(&path, |file| std::io::Write::write_all(file, self.text().as_bytes()));
+        let _ =
+            foton_film::atomic_write(&path, |file| std::io::Write::write_all(file, self.text().as_bytes()));
     }
 }
 
@@ -92,7 +93,9 @@ mod tests {
     fn what_is_written_reads_back_and_nonsense_is_the_default() {
         let preferences = Preferences { window: [900.0, 700.0], dark: false, ..Preferences::default() };
         assert_eq!(Preferences::parse(&preferences.text()), preferences);
-        for bad in ["", "[]", "{\"window\":[1e9,\"x\"],\"dark\":3}", "{\"snapshot_folder\":\"/nowhere/at/all\"}"] {
+        for bad in
+            ["", "[]", "{\"window\":[1e9,\"x\"],\"dark\":3}", "{\"snapshot_folder\":\"/nowhere/at/all\"}"]
+        {
             assert_eq!(Preferences::parse(bad), Preferences::default(), "{bad}");
         }
     }

@@ -136,6 +136,8 @@ pub(crate) struct State {
     pub(crate) places: Vec<(&'static str, egui::Rect)>,
     /// What there is to say of the adapter.
     pub(crate) adapter: String,
+    /// Texels along the side of the adapter's largest texture.
+    pub(crate) largest_texture: u32,
     /// A configuration that is being edited and was not sent yet.
     pub(crate) draft: Option<Configuration>,
 }
@@ -167,6 +169,7 @@ impl State {
             built_in,
             places: Vec::new(),
             adapter: String::new(),
+            largest_texture: 8192,
             draft: None,
         }
     }

@@ -26,7 +26,9 @@ fn live(args: &Args, talk: &mut Talk) -> Result<(), Failure> {
     #[cfg(feature = "window")]
     match window::show(args.scene.as_deref(), args.frame_log.as_deref()) {
         Ok(()) => return Ok(()),
-        Err(error @ foton_preview::WindowError::Log { .. }) => return Err(Failure::Window(error.to_string())),
+        Err(error @ foton_preview::WindowError::Log { .. }) => {
+            return Err(Failure::Window(error.to_string()));
+        }
         Err(error) => talk.line(&error.to_string()),
     }
     quick::render(args.scene.as_deref(), talk)

@@ -16,15 +16,28 @@ use serde_json::{Value, json};
 #[derive(Debug)]
 pub(crate) enum Failure {
     Open(OpenError),
-    Build { scene: String, cause: BuildError },
-    Memory { estimate: String, limit: f64 },
-    Sensor { asked: String, known: Vec<String> },
+    Build {
+        scene: String,
+        cause: BuildError,
+    },
+    Memory {
+        estimate: String,
+        limit: f64,
+    },
+    Sensor {
+        asked: String,
+        known: Vec<String>,
+    },
     Start(StartError),
     Write(WriteError),
     Read(ReadError),
     #[cfg(feature = "window")]
     Window(String),
-    Compare { a: String, b: String, cause: CompareError },
+    Compare {
+        a: String,
+        b: String,
+        cause: CompareError,
+    },
 }
 
 impl fmt::Display for Failure {

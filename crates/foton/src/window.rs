@@ -34,11 +34,13 @@ impl Loader for Files {
     fn open(&self, source: &Source) -> Result<Loaded, String> {
         let options = Options::default();
         let (opened, name) = match source {
-            Source::File(path) => {
-                (foton_format::open(path, &options), path.file_name().unwrap_or_default().to_string_lossy().into_owned())
-            }
+            Source::File(path) => (
+                foton_format::open(path, &options),
+                path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+            ),
             Source::BuiltIn(name) => {
-                let scene = Embedded::named(name).ok_or_else(|| format!("no scene \"{name}\" ships with foton"))?;
+                let scene =
+                    Embedded::named(name).ok_or_else(|| format!("no scene \"{name}\" ships with foton"))?;
                 (scene.open(&options), name.clone())
             }
         };
@@ -55,11 +57,18 @@ impl Loader for Files {
         })
     }
 
-    fn save(&self, origin: &(dyn Any + Send + Sync), edited: &SceneDescription, path: &Path) -> Result<String, String> {
+    fn save(
+        &self,
+        origin: &(dyn Any + Send + Sync),
+        edited: &SceneDescription,
+        path: &Path,
+    ) -> Result<String, String> {
         let opened = origin.downcast_ref::<Opened>().ok_or("the scene was opened by another loader")?;
         match save_edited(opened, edited, path).map_err(|cause| cause.to_string())? {
             Saved::Changed => Ok(String::new()),
-            Saved::Anew { why } => Ok(format!("The whole scene was written anew, with its meshes beside it: {why}")),
+            Saved::Anew { why } => {
+                Ok(format!("The whole scene was written anew, with its meshes beside it: {why}"))
+            }
         }
     }
 }

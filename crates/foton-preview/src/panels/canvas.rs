@@ -37,6 +37,21 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
     paint(ui, state, rect, image, picture, mode);
     let painter = ui.painter_at(rect);
     overlay::draw(&painter, state, &frame, Film { rect, image, size });
+    let reduction = present::reduction(frame.size, state.largest_texture);
+    if reduction > 1 {
+        let text = format!(
+            "shown at 1/{reduction}: the adapter's textures hold {} pixels a side",
+            state.largest_texture
+        );
+        let font = egui::FontId::proportional(13.0);
+        painter.text(
+            rect.left_top() + Vec2::splat(8.0),
+            egui::Align2::LEFT_TOP,
+            text,
+            font,
+            egui::Color32::WHITE,
+        );
+    }
     if let Some(scale) = scale {
         legend::draw(&painter, rect, &scale);
     }
@@ -44,7 +59,13 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
 
 fn hint(ui: &egui::Ui, rect: Rect, text: &str) {
     let colour = ui.visuals().weak_text_color();
-    ui.painter_at(rect).text(rect.center(), egui::Align2::CENTER_CENTER, text, egui::FontId::proportional(16.0), colour);
+    ui.painter_at(rect).text(
+        rect.center(),
+        egui::Align2::CENTER_CENTER,
+        text,
+        egui::FontId::proportional(16.0),
+        colour,
+    );
 }
 
 /// Where the image is in the window, in points, and how large it is in pixels.
@@ -194,11 +215,10 @@ fn begin(state: &mut State, response: &egui::Response, film: Film, at: Pos2, mod
         .as_ref()
         .and_then(|f| f.selection.as_ref())
         .is_some_and(|s| overlay::holds(&s.outline, film.to_film(at)));
-    let on_handle = state
-        .frame
-        .as_ref()
-        .and_then(|f| f.selection.as_ref())
-        .is_some_and(|s| overlay::handle(&s.outline).is_some_and(|h| film.to_points(h).distance(at) < 12.0));
+    let on_handle =
+        state.frame.as_ref().and_then(|f| f.selection.as_ref()).is_some_and(|s| {
+            overlay::handle(&s.outline).is_some_and(|h| film.to_points(h).distance(at) < 12.0)
+        });
     state.grip = if state.pinned.is_some() && (at.x - wipe).abs() < WIPE_REACH {
         Grip::Wipe
     } else if modifiers.command || response.dragged_by(egui::PointerButton::Middle) {
@@ -273,7 +293,10 @@ mod tests {
         zoom_image(&mut state, film, at, 7.0);
         let film = Film { image: place(view, size, state.placement), ..film };
         let after = film.to_film(at);
-        assert!((before[0] - after[0]).abs() < 1e-3 && (before[1] - after[1]).abs() < 1e-3, "{before:?} {after:?}");
+        assert!(
+            (before[0] - after[0]).abs() < 1e-3 && (before[1] - after[1]).abs() < 1e-3,
+            "{before:?} {after:?}"
+        );
         assert!((film.scale() / (600.0 / 400.0) - 7.0).abs() < 1e-4);
     }
 }

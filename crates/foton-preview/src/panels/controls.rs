@@ -39,9 +39,8 @@ fn steer(ui: &mut egui::Ui, state: &mut State, settings: &Settings) {
         state.steer(Change::Alpha(alpha));
     }
     let mut photons = settings.photons_per_pass.get();
-    let slider = ui.add(
-        egui::Slider::new(&mut photons, 1 << 10..=1 << 24).logarithmic(true).text("photons a pass"),
-    );
+    let slider =
+        ui.add(egui::Slider::new(&mut photons, 1 << 10..=1 << 24).logarithmic(true).text("photons a pass"));
     state.place("photons per pass", &slider);
     let slider = slider.on_hover_text(
         "Photons traced in each pass, 1 024 to 16 777 216. Fewer: the picture answers sooner. More: less overhead for each photon, \
@@ -60,7 +59,8 @@ fn stop_rule(ui: &mut egui::Ui, state: &mut State, rule: StopRule) {
         let mut on = rule.passes.is_some();
         ui.checkbox(&mut on, "after");
         let mut passes = rule.passes.unwrap_or(64);
-        let value = ui.add_enabled(on, egui::DragValue::new(&mut passes).range(1..=1_000_000_000u64).suffix(" passes"));
+        let value = ui
+            .add_enabled(on, egui::DragValue::new(&mut passes).range(1..=1_000_000_000u64).suffix(" passes"));
         value.on_hover_text("Pauses after so many passes; Resume with a higher number goes on");
         new.passes = on.then_some(passes);
     });
@@ -88,20 +88,29 @@ fn anew(ui: &mut egui::Ui, state: &mut State, settings: &Settings, threads: Opti
     let mut hold = |response: &egui::Response| held |= response.dragged() || response.has_focus();
     ui.horizontal(|ui| {
         ui.label("Direct light");
-        ui.selectable_value(&mut draft.direct_light, DirectLight::Photons, "photons")
-            .on_hover_text("Direct light by photons, like all other light: no extra time, soft shadow edges at first");
-        ui.selectable_value(&mut draft.direct_light, DirectLight::ShadowRays, "shadow rays")
-            .on_hover_text("A shadow ray from each hit point in each pass: sharp shadows at once, slower passes");
+        ui.selectable_value(&mut draft.direct_light, DirectLight::Photons, "photons").on_hover_text(
+            "Direct light by photons, like all other light: no extra time, soft shadow edges at first",
+        );
+        ui.selectable_value(&mut draft.direct_light, DirectLight::ShadowRays, "shadow rays").on_hover_text(
+            "A shadow ray from each hit point in each pass: sharp shadows at once, slower passes",
+        );
     });
     let mut samples = draft.samples_per_pixel.get();
-    let value = ui.add(egui::Slider::new(&mut samples, 1..=64).text("hit points a pixel").clamping(egui::SliderClamping::Edits));
+    let value = ui.add(
+        egui::Slider::new(&mut samples, 1..=64)
+            .text("hit points a pixel")
+            .clamping(egui::SliderClamping::Edits),
+    );
     hold(&value);
-    value.on_hover_text("Eye samples a pixel, 1 to 64. More: smoother edges and gloss. Memory and gathering grow with it.");
+    value.on_hover_text(
+        "Eye samples a pixel, 1 to 64. More: smoother edges and gloss. Memory and gathering grow with it.",
+    );
     draft.samples_per_pixel = NonZeroU32::new(samples).unwrap_or(NonZeroU32::MIN);
     ui.horizontal(|ui| {
         let mut own = draft.radius.is_some();
-        ui.checkbox(&mut own, "first radius")
-            .on_hover_text("Off: from each pixel's footprint. Large: smooth and blurred at first; small: sharp and noisy");
+        ui.checkbox(&mut own, "first radius").on_hover_text(
+            "Off: from each pixel's footprint. Large: smooth and blurred at first; small: sharp and noisy",
+        );
         let start = state.frame.as_ref().map_or(1.0, |f| f.numbers.radii.median).max(1e-9);
         let mut radius = draft.radius.unwrap_or(start);
         let speed = radius * 0.01;
@@ -151,11 +160,13 @@ fn sensors(ui: &mut egui::Ui, state: &State, draft: &mut Configuration) {
 }
 
 fn camera(ui: &mut egui::Ui, state: &mut State, sensor: usize) {
-    let Some(fov) = state.frame.as_ref().and_then(|f| f.scene.sensors.get(sensor)).map(|s| s.fov_degrees) else {
+    let Some(fov) = state.frame.as_ref().and_then(|f| f.scene.sensors.get(sensor)).map(|s| s.fov_degrees)
+    else {
         return;
     };
     let mut degrees = fov;
-    let slider = ui.add(egui::Slider::new(&mut degrees, 1.0..=170.0).text("field of view").suffix("°").max_decimals(1));
+    let slider = ui
+        .add(egui::Slider::new(&mut degrees, 1.0..=170.0).text("field of view").suffix("°").max_decimals(1));
     if slider.changed() {
         state.ask(Command::Camera { gesture: Gesture::FieldOfView(degrees), moving: slider.dragged() });
     }
@@ -168,15 +179,15 @@ fn camera(ui: &mut egui::Ui, state: &mut State, sensor: usize) {
     heading(ui, "Snapshots");
     ui.horizontal(|ui| {
         ui.label("Folder");
-        let text = state.preferences.snapshot_folder.display().to_string();
-        let mut edited = text.clone();
+        let mut edited = state.preferences.snapshot_folder.display().to_string();
         let field = ui.add(egui::TextEdit::singleline(&mut edited).desired_width(180.0));
         if field.changed() {
             state.preferences.snapshot_folder = edited.into();
         }
     });
     let auto = ui.checkbox(&mut state.auto_snapshots, "at passes 1, 2, 4, 8, …");
-    if auto.on_hover_text("Writes a picture at powers of two: frames of a film of the convergence").changed() {
+    if auto.on_hover_text("Writes a picture at powers of two: frames of a film of the convergence").changed()
+    {
         let folder = state.auto_snapshots.then(|| state.snapshot_folder());
         state.ask(Command::AutoSnapshots(folder));
     }

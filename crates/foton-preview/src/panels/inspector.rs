@@ -45,7 +45,10 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
 fn history(ui: &mut egui::Ui, state: &mut State) {
     let Some(scene) = state.frame.as_ref().map(|f| f.scene.clone()) else { return };
     ui.horizontal(|ui| {
-        let steps = [("Undo", &scene.undo, Change::Undo, "Ctrl+Z"), ("Redo", &scene.redo, Change::Redo, "Ctrl+Shift+Z")];
+        let steps = [
+            ("Undo", &scene.undo, Change::Undo, "Ctrl+Z"),
+            ("Redo", &scene.redo, Change::Redo, "Ctrl+Shift+Z"),
+        ];
         for (label, step, change, keys) in steps {
             let button = ui.add_enabled(step.is_some(), egui::Button::new(label));
             let button = button.on_hover_text(format!("{} ({keys})", step.as_deref().unwrap_or("Nothing")));
@@ -57,7 +60,9 @@ fn history(ui: &mut egui::Ui, state: &mut State) {
 }
 
 fn show_field(ui: &mut egui::Ui, state: &mut State, field: &Field) {
-    let mut set = |value: Value, done: bool| state.ask(Command::Edit(Change::SetField { field: field.id, value, done }));
+    let mut set = |value: Value, done: bool| {
+        state.ask(Command::Edit(Change::SetField { field: field.id, value, done }))
+    };
     match (&field.control, field.value) {
         (Control::Number { min, max, logarithmic }, Value::Number(value)) => {
             let mut number = value;
@@ -87,7 +92,8 @@ fn show_field(ui: &mut egui::Ui, state: &mut State, field: &Field) {
             ui.horizontal(|ui| {
                 let mut linear = colour;
                 let label = ui.label(field.label);
-                let response = ui.color_edit_button_rgb(&mut linear).labelled_by(label.id).on_hover_text(field.help);
+                let response =
+                    ui.color_edit_button_rgb(&mut linear).labelled_by(label.id).on_hover_text(field.help);
                 if response.changed() {
                     set(Value::Colour(linear.map(|c| c.clamp(0.0, 1.0))), true);
                 }

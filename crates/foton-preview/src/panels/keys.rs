@@ -7,6 +7,9 @@ use foton_session::engine::{Activity, Change, Command, Gesture};
 use super::toolbar::{PICTURES, open_dialog, save_dialog};
 use crate::state::{Grip, Pinned, Placement, State};
 
+/// What a key does.
+type Act = fn(&mut State);
+
 /// How far a key flies, as a share of the distance to what the camera looks at.
 const STEP: f64 = 0.03;
 
@@ -18,7 +21,7 @@ pub(super) fn obey(ui: &egui::Ui, state: &mut State) {
     if pressed(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z) || pressed(Modifiers::COMMAND, Key::Y) {
         state.ask(Command::Edit(Change::Redo));
     }
-    let with_command: [(Key, fn(&mut State)); 4] = [
+    let with_command: [(Key, Act); 4] = [
         (Key::Z, |s| s.ask(Command::Edit(Change::Undo))),
         (Key::R, |s| s.ask(Command::Restart)),
         (Key::O, open_dialog),
@@ -32,7 +35,7 @@ pub(super) fn obey(ui: &egui::Ui, state: &mut State) {
     if ui.input(|i| i.events.iter().any(|e| matches!(e, egui::Event::Text(t) if t == "?"))) {
         state.show_help = !state.show_help;
     }
-    let plain: [(Key, fn(&mut State)); 8] = [
+    let plain: [(Key, Act); 8] = [
         (Key::Space, toggle_pause),
         (Key::Period, |s| s.ask(Command::Step)),
         (Key::F, |s| s.placement = Placement::FIT),
@@ -53,7 +56,8 @@ pub(super) fn obey(ui: &egui::Ui, state: &mut State) {
             act(state);
         }
     }
-    for (key, (_, shown)) in [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5].into_iter().zip(PICTURES) {
+    for (key, (_, shown)) in [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5].into_iter().zip(PICTURES)
+    {
         if pressed(Modifiers::NONE, key) {
             state.choose_shown(shown);
         }

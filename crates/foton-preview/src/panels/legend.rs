@@ -36,7 +36,11 @@ impl Scale {
 
     /// The value at a share of the scale.
     fn value(&self, t: f32) -> f32 {
-        if self.logarithmic { self.low * (self.high / self.low).powf(t) } else { self.low + (self.high - self.low) * t }
+        if self.logarithmic {
+            self.low * (self.high / self.low).powf(t)
+        } else {
+            self.low + (self.high - self.low) * t
+        }
     }
 }
 
@@ -53,7 +57,10 @@ pub(super) fn draw(painter: &egui::Painter, view: Rect, scale: &Scale) {
         let t = i as f32 / (STEPS - 1) as f32;
         let [r, g, b] = colour_map::at(t);
         let top = bar.bottom() - bar.height() * (i + 1) as f32 / STEPS as f32;
-        let part = Rect::from_min_size(Pos2::new(bar.left(), top), Vec2::new(bar.width(), bar.height() / STEPS as f32 + 0.5));
+        let part = Rect::from_min_size(
+            Pos2::new(bar.left(), top),
+            Vec2::new(bar.width(), bar.height() / STEPS as f32 + 0.5),
+        );
         painter.rect_filled(part, 0.0, Color32::from_rgb(r, g, b));
     }
     let font = FontId::proportional(12.0);
@@ -65,7 +72,11 @@ pub(super) fn draw(painter: &egui::Painter, view: Rect, scale: &Scale) {
     let at = Pos2::new(back.right(), back.top() - 4.0);
     let text = painter.layout_no_wrap(scale.label.clone(), font, Color32::WHITE);
     let corner = at - Vec2::new(text.size().x + 4.0, text.size().y + 2.0);
-    painter.rect_filled(Rect::from_min_size(corner, text.size()).expand(3.0), 3.0, Color32::from_black_alpha(170));
+    painter.rect_filled(
+        Rect::from_min_size(corner, text.size()).expand(3.0),
+        3.0,
+        Color32::from_black_alpha(170),
+    );
     painter.galley(corner, text, Color32::WHITE);
 }
 

@@ -14,21 +14,24 @@ pub(super) fn show(ctx: &egui::Context, state: &mut State) {
     }
     ctx.request_repaint_after(std::time::Duration::from_secs_f64(0.5));
     let mut closed = None;
-    egui::Area::new(egui::Id::unique("messages")).anchor(egui::Align2::RIGHT_BOTTOM, [-12.0, -40.0]).show(ctx, |ui| {
-        ui.set_max_width(460.0);
-        for (i, message) in state.messages.iter().enumerate().rev().take(5) {
-            egui::Frame::popup(ui.style()).show(ui, |ui| {
-                ui.horizontal_wrapped(|ui| {
-                    let text = egui::RichText::new(&message.text);
-                    let colour = ui.visuals().error_fg_color;
-                    ui.label(if message.tone == Tone::Error { text.color(colour) } else { text });
-                    if message.tone == Tone::Error && ui.small_button("Dismiss").clicked() {
-                        closed = Some(i);
-                    }
+    egui::Area::new(egui::Id::unique("messages")).anchor(egui::Align2::RIGHT_BOTTOM, [-12.0, -40.0]).show(
+        ctx,
+        |ui| {
+            ui.set_max_width(460.0);
+            for (i, message) in state.messages.iter().enumerate().rev().take(5) {
+                egui::Frame::popup(ui.style()).show(ui, |ui| {
+                    ui.horizontal_wrapped(|ui| {
+                        let text = egui::RichText::new(&message.text);
+                        let colour = ui.visuals().error_fg_color;
+                        ui.label(if message.tone == Tone::Error { text.color(colour) } else { text });
+                        if message.tone == Tone::Error && ui.small_button("Dismiss").clicked() {
+                            closed = Some(i);
+                        }
+                    });
                 });
-            });
-        }
-    });
+            }
+        },
+    );
     if let Some(i) = closed {
         state.messages.remove(i);
     }

@@ -11,9 +11,6 @@ mod numbers;
 mod overlay;
 mod toolbar;
 
-#[cfg(test)]
-mod tests;
-
 use foton_session::engine::Command;
 
 use crate::files::Outcome;

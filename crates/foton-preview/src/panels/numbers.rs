@@ -73,8 +73,16 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
         row("without photon", format!("{:.2} %", n.no_photon_share * 100.0), "Unknown, not dark");
         let r = &n.radii;
         row("radius", short(r.median), "Median over all hit points, in world units");
-        row("from, to", format!("{}, {}", short(r.smallest), short(r.largest)), "Smallest and largest radius");
-        row("memory", format!("{:.0} MiB", n.bytes as f64 / f64::from(1 << 20)), "Scene, hit points and photons");
+        row(
+            "from, to",
+            format!("{}, {}", short(r.smallest), short(r.largest)),
+            "Smallest and largest radius",
+        );
+        row(
+            "memory",
+            format!("{:.0} MiB", n.bytes as f64 / f64::from(1 << 20)),
+            "Scene, hit points and photons",
+        );
         row("image", format!("{} × {}", frame.size[0], frame.size[1]), "In pixels");
     });
     let all: f64 = n.stages.iter().map(|(_, t)| t.as_secs_f64()).sum();
@@ -83,7 +91,9 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
             .stages
             .iter()
             .filter(|(_, t)| t.as_secs_f64() > 0.005 * all)
-            .map(|(stage, t)| format!("{} {:.0} %", stage.name().replace('_', " "), 100.0 * t.as_secs_f64() / all))
+            .map(|(stage, t)| {
+                format!("{} {:.0} %", stage.name().replace('_', " "), 100.0 * t.as_secs_f64() / all)
+            })
             .collect();
         ui.weak(parts.join(" · ")).on_hover_text("Where the time went, in all");
     }

@@ -55,7 +55,8 @@ fn line(painter: &egui::Painter, segment: &Segment, film: Film, stroke: Stroke) 
 }
 
 fn dots(painter: &egui::Painter, dots: &[Dot], film: Film, radius: f32) {
-    let inside = dots.iter().map(|d| (film.to_points(d.film), d.class)).filter(|(at, _)| film.rect.contains(*at));
+    let inside =
+        dots.iter().map(|d| (film.to_points(d.film), d.class)).filter(|(at, _)| film.rect.contains(*at));
     let mut mesh = egui::Mesh::default();
     for (at, class) in inside {
         let colour = match class {

@@ -37,7 +37,8 @@ fn scene_menu(ui: &mut egui::Ui, state: &mut State) {
         if ui.button("Save edited scene…").clicked() {
             save_dialog(state);
         }
-        let xml = state.frame.as_ref().and_then(|f| f.scene.sensors.get(f.settings.sensor)).map(|s| s.xml.clone());
+        let xml =
+            state.frame.as_ref().and_then(|f| f.scene.sensors.get(f.settings.sensor)).map(|s| s.xml.clone());
         let copy = ui.add_enabled(xml.is_some(), egui::Button::new("Copy camera as XML"));
         if let Some(xml) = xml.filter(|_| copy.clicked()) {
             ui.ctx().copy_text(xml);
@@ -46,7 +47,9 @@ fn scene_menu(ui: &mut egui::Ui, state: &mut State) {
         ui.separator();
         ui.checkbox(&mut state.preferences.dark, "Dark colours");
     });
-    if state.changed_on_disk && ui.button("Reload").on_hover_text("The scene's file has changed on the disk").clicked() {
+    if state.changed_on_disk
+        && ui.button("Reload").on_hover_text("The scene's file has changed on the disk").clicked()
+    {
         state.changed_on_disk = false;
         if let Some(file) = state.frame.as_ref().and_then(|f| f.scene.file.clone()) {
             state.open(file);
@@ -63,7 +66,8 @@ fn scene_menu(ui: &mut egui::Ui, state: &mut State) {
 }
 
 pub(super) fn open_dialog(state: &mut State) {
-    state.dialog = Some((DialogPurpose::OpenScene, FileDialog::open(&state.preferences.scene_folder, SCENES)));
+    state.dialog =
+        Some((DialogPurpose::OpenScene, FileDialog::open(&state.preferences.scene_folder, SCENES)));
 }
 
 pub(super) fn save_dialog(state: &mut State) {
@@ -78,7 +82,8 @@ fn run(ui: &mut egui::Ui, state: &mut State) {
     let waits = matches!(activity, Activity::Paused | Activity::Done);
     let (label, command) = if waits { ("Resume", Command::Resume) } else { ("Pause", Command::Pause) };
     let there = activity != Activity::Empty;
-    let pause = ui.add_enabled(there, egui::Button::new(label)).on_hover_text("After the pass under way (space)");
+    let pause =
+        ui.add_enabled(there, egui::Button::new(label)).on_hover_text("After the pass under way (space)");
     state.place("pause", &pause);
     if pause.clicked() {
         state.ask(command);
@@ -87,13 +92,14 @@ fn run(ui: &mut egui::Ui, state: &mut State) {
     if step.clicked() {
         state.ask(Command::Step);
     }
-    let restart = ui.add_enabled(there, egui::Button::new("Restart")).on_hover_text("From the first pass on (Ctrl+R)");
+    let restart =
+        ui.add_enabled(there, egui::Button::new("Restart")).on_hover_text("From the first pass on (Ctrl+R)");
     if restart.clicked() {
         state.ask(Command::Restart);
     }
-    let snapshot = ui.add_enabled(there, egui::Button::new("Snapshot")).on_hover_text(
-        "Saves this pass as EXR and PNG, as `foton render` would write them (P)",
-    );
+    let snapshot = ui
+        .add_enabled(there, egui::Button::new("Snapshot"))
+        .on_hover_text("Saves this pass as EXR and PNG, as `foton render` would write them (P)");
     state.place("snapshot", &snapshot);
     if snapshot.clicked() {
         let folder = state.snapshot_folder();
@@ -111,7 +117,8 @@ pub(super) const PICTURES: [(&str, Shown); 5] = [
 ];
 
 fn view(ui: &mut egui::Ui, state: &mut State) {
-    let now = PICTURES.iter().find(|(_, shown)| *shown == state.shown).map_or("Light by kind", |(name, _)| name);
+    let now =
+        PICTURES.iter().find(|(_, shown)| *shown == state.shown).map_or("Light by kind", |(name, _)| name);
     let label = ui.label("Show");
     let list = egui::ComboBox::from_id_salt("picture").selected_text(now).show_ui(ui, |ui| {
         for (name, shown) in PICTURES {
@@ -131,17 +138,23 @@ fn view(ui: &mut egui::Ui, state: &mut State) {
         );
         exposure.on_hover_text("Each stop doubles the light on the screen; nothing is rendered anew");
         let label = ui.label("Tone");
-        let list = egui::ComboBox::from_id_salt("tone").selected_text(state.tone_map.name()).show_ui(ui, |ui| {
-            for map in ToneMap::ALL {
-                ui.selectable_value(&mut state.tone_map, map, map.name());
-            }
-        });
+        let list =
+            egui::ComboBox::from_id_salt("tone").selected_text(state.tone_map.name()).show_ui(ui, |ui| {
+                for map in ToneMap::ALL {
+                    ui.selectable_value(&mut state.tone_map, map, map.name());
+                }
+            });
         list.response.labelled_by(label.id);
-        ui.menu_button("Light", |ui| classes(ui, state)).response.on_hover_text("Which kinds of light are shown");
+        ui.menu_button("Light", |ui| classes(ui, state))
+            .response
+            .on_hover_text("Which kinds of light are shown");
     }
     let photons = ui.toggle_value(&mut state.show_photons, "Photons");
     state.place("photons", &photons);
-    if photons.on_hover_text("The last pass's photons as dots (O): direct yellow, caustic white, indirect blue").changed() {
+    if photons
+        .on_hover_text("The last pass's photons as dots (O): direct yellow, caustic white, indirect blue")
+        .changed()
+    {
         state.ask(Command::ShowPhotons(state.show_photons));
     }
     if ui.button("Fit").on_hover_text("The whole image (F)").clicked() {
@@ -184,7 +197,9 @@ fn compare(ui: &mut egui::Ui, state: &mut State) {
             state.pinned = None;
         }
     } else if let Some((picture, passes)) = picture {
-        let pin = ui.button("Pin").on_hover_text("Keeps this picture to the right of a line that can be dragged, to compare with (K)");
+        let pin = ui.button("Pin").on_hover_text(
+            "Keeps this picture to the right of a line that can be dragged, to compare with (K)",
+        );
         if pin.clicked() {
             state.pinned = Some(Pinned { picture, label: format!("pass {passes}") });
         }

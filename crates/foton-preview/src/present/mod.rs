@@ -17,8 +17,7 @@ use egui_wgpu::{CallbackResources, CallbackTrait, ScreenDescriptor};
 use foton_film::{Image, Plane, ToneMap};
 
 pub(crate) use pipeline::Presenter;
-#[cfg(test)]
-use texture::reduction;
+pub(crate) use texture::reduction;
 
 /// Pixels to be shown, shared with whoever made them.
 #[derive(Clone, Debug)]

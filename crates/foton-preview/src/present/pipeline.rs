@@ -81,11 +81,6 @@ impl Presenter {
         }
     }
 
-    /// How many pixels along each axis are shown as one, because the adapter's textures are too small; 1 if none are.
-    pub(crate) fn reduction(&self) -> u32 {
-        self.picture.as_ref().map_or(1, Shown::reduction)
-    }
-
     fn bind(&self, device: &wgpu::Device) -> Option<wgpu::BindGroup> {
         let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         let picture = self.picture.as_ref()?;

@@ -66,11 +66,6 @@ impl Shown {
     pub(super) fn texture(&self) -> &wgpu::Texture {
         &self.texture
     }
-
-    /// See [`reduction`].
-    pub(super) fn reduction(&self) -> u32 {
-        self.reduction
-    }
 }
 
 impl Picture {

@@ -156,6 +156,7 @@ impl App {
                     log.adapter(&live.adapter, live.is_software);
                 }
                 self.state.adapter.clone_from(&live.adapter);
+                self.state.largest_texture = live.largest_texture;
                 live.window.request_redraw();
                 self.live = Some(live);
             }

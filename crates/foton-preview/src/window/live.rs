@@ -23,6 +23,7 @@ pub(super) struct Live {
     /// Drawing costs the same cores that render.
     pub(super) is_software: bool,
     pub(super) adapter: String,
+    pub(super) largest_texture: u32,
 }
 
 impl Live {
@@ -69,6 +70,7 @@ impl Live {
                 let _ = lost.send_event(UserEvent::DeviceLost);
             }
         });
+        let largest_texture = render.device.limits().max_texture_dimension_2d;
         let info = render.adapter.get_info();
         let is_software = info.device_type == wgpu::DeviceType::Cpu;
         let mut egui = egui_winit::State::new(
@@ -85,11 +87,14 @@ impl Live {
             let _ = repaint.send_event(UserEvent::Repaint(info.delay));
         });
         let adapter = if is_software {
-            format!("Drawn in software ({}): fewer frames a second, to leave the cores to the render", info.name)
+            format!(
+                "Drawn in software ({}): fewer frames a second, to leave the cores to the render",
+                info.name
+            )
         } else {
             format!("Drawn by {}", info.name)
         };
-        Ok(Self { window, egui, context, painter, is_software, adapter })
+        Ok(Self { window, egui, context, painter, is_software, adapter, largest_texture })
     }
 
     pub(super) fn resize(&mut self, width: u32, height: u32) {

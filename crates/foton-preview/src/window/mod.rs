@@ -72,9 +72,8 @@ impl From<egui_winit::accesskit_winit::Event> for UserEvent {
 /// # Errors
 /// When there can be no window; see [`WindowError`]. Nothing was rendered then.
 pub fn run(options: Options) -> Result<(), WindowError> {
-    let create = |path: PathBuf| {
-        frame_log::FrameLog::create(&path).map_err(|cause| WindowError::Log { path, cause })
-    };
+    let create =
+        |path: PathBuf| frame_log::FrameLog::create(&path).map_err(|cause| WindowError::Log { path, cause });
     let log = options.frame_log.map(create).transpose()?;
     let events = EventLoop::<UserEvent>::with_user_event().build();
     let events = events.map_err(|cause| WindowError::NoDisplay(cause.to_string()))?;

@@ -250,7 +250,9 @@ impl Stage {
     /// Gives what is chosen a material of its own.
     pub(super) fn own_material(&mut self) -> Result<Effect, String> {
         match &self.chosen {
-            Some(Chosen { target: Target::Shape(shape), .. }) => self.edit(&Edit::OwnMaterial { shape: *shape }),
+            Some(Chosen { target: Target::Shape(shape), .. }) => {
+                self.edit(&Edit::OwnMaterial { shape: *shape })
+            }
             _ => Ok(Effect::None),
         }
     }

@@ -14,8 +14,8 @@ use super::Setup;
 use super::command::{Change, Command, Configuration, Event, Shown};
 use super::frame::{Activity, Frame, Numbers, Picture};
 use super::loader::{Opening, Ready};
-use super::render::Render;
 use super::probe;
+use super::render::Render;
 use super::slot::NewestSender;
 use super::stage::{Effect, Stage};
 use crate::session::{Session, StartError};
@@ -232,7 +232,9 @@ impl Worker {
     fn edit(&mut self, change: Change) {
         let sensor = self.settings.sensor;
         match change {
-            Change::BeginDrag { .. } | Change::DragTo(_) | Change::SetField { done: false, .. } => self.moving = true,
+            Change::BeginDrag { .. } | Change::DragTo(_) | Change::SetField { done: false, .. } => {
+                self.moving = true;
+            }
             _ => self.moving = false,
         }
         self.on_stage(|stage| match change {
@@ -301,9 +303,7 @@ impl Worker {
         let Some(stage) = &self.stage else { return };
         let (scene, cancel) = (Arc::clone(stage.scene()), self.cancel.clone());
         let started = match &mut self.render {
-            None => {
-                Some(Render::small(&scene, stage.sensors(), &self.settings, self.threads, &cancel))
-            }
+            None => Some(Render::small(&scene, stage.sensors(), &self.settings, self.threads, &cancel)),
             Some(render) if render.is_small() && !self.moving && render.ppm().passes() > 0 => {
                 self.publish(true);
                 if let Some(message) = self.beyond_memory(&scene) {
