@@ -61,7 +61,7 @@ fn history(ui: &mut egui::Ui, state: &mut State) {
 
 fn show_field(ui: &mut egui::Ui, state: &mut State, field: &Field) {
     let mut set = |value: Value, done: bool| {
-        state.ask(Command::Edit(Change::SetField { field: field.id, value, done }))
+        state.ask(Command::Edit(Change::SetField { field: field.id, value, done }));
     };
     match (&field.control, field.value) {
         (Control::Number { min, max, logarithmic }, Value::Number(value)) => {
