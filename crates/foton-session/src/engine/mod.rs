@@ -11,6 +11,7 @@ mod render;
 mod slot;
 mod stage;
 mod worker;
+mod writing;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -14,11 +14,53 @@ use super::command::Shown;
 use super::frame::{Numbers, Picture};
 use crate::session::{Session, StartError};
 
-/// Pixels of a small picture at most: its eye pass and first pass take some tens of milliseconds on two cores.
-const SMALL_PIXELS: u32 = 160 * 120;
+/// How much of the whole picture is rendered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Level {
+    /// Few pixels: eye pass and first pass take some tens of milliseconds on two cores.
+    Small,
+    /// Something to look at while the hit points of the whole are collected.
+    Middle,
+    /// All of it.
+    Whole,
+}
 
-/// Photons of a small picture's passes.
-const SMALL_PASS: NonZeroU32 = NonZeroU32::new(1 << 14).unwrap();
+impl Level {
+    /// Pixels at most.
+    const fn pixels(self) -> u32 {
+        match self {
+            Self::Small => 160 * 120,
+            Self::Middle => 480 * 360,
+            Self::Whole => u32::MAX,
+        }
+    }
+
+    /// Passes that are rendered before the next level, if nothing moves.
+    const fn passes(self) -> u64 {
+        match self {
+            Self::Small => 1,
+            Self::Middle => 4,
+            Self::Whole => u64::MAX,
+        }
+    }
+
+    /// Photons of a pass at most.
+    const fn photons(self) -> NonZeroU32 {
+        match self {
+            Self::Small => NonZeroU32::new(1 << 14).unwrap(),
+            Self::Middle => NonZeroU32::new(1 << 16).unwrap(),
+            Self::Whole => NonZeroU32::MAX,
+        }
+    }
+
+    /// The level after this one. Where the whole has few eye samples anyway, there is nothing in between.
+    fn next(self, eye_samples: u64) -> Self {
+        match self {
+            Self::Small if eye_samples > 2 * u64::from(Self::Middle.pixels()) => Self::Middle,
+            _ => Self::Whole,
+        }
+    }
+}
 
 /// Passes that a small picture gets while a person holds still in the middle of a move.
 const SMALL_PASSES: u64 = 8;
@@ -29,10 +71,10 @@ const RATE_SPAN: Duration = Duration::from_secs(2);
 /// Radii are sorted at most this often: with millions of hit points that takes a while.
 const RADII_EVERY: Duration = Duration::from_millis(500);
 
-/// A render, small or whole.
+/// A render at one level.
 pub(super) struct Render {
     session: Session,
-    small: bool,
+    level: Level,
     marks: Vec<Mark>,
     no_photon_share: f64,
     photons_in_pass: u64,
@@ -47,52 +89,52 @@ struct Mark {
 }
 
 impl Render {
-    /// A small picture of the scene as the sensor sees it.
-    pub(super) fn small(
-        scene: &Scene,
+    /// The scene as the sensor sees it.
+    pub(super) fn start(
+        level: Level,
+        scene: &Arc<Scene>,
         sensors: &[SensorDescription],
         settings: &Settings,
         threads: Option<usize>,
         cancel: &Cancel,
     ) -> Result<Self, StartError> {
+        if level == Level::Whole {
+            let session = Session::start(Arc::clone(scene), settings.clone(), threads, cancel)?;
+            return Ok(Self::over(session, level));
+        }
         let mut sensors = sensors.to_vec();
         for sensor in &mut sensors {
             let pixels = f64::from(sensor.width) * f64::from(sensor.height);
-            let factor = (f64::from(SMALL_PIXELS) / pixels).sqrt().min(1.0);
+            let factor = (f64::from(level.pixels()) / pixels).sqrt().min(1.0);
             let shrink = |n: u32| ((f64::from(n) * factor).round() as u32).max(1);
             sensor.resize(shrink(sensor.width), shrink(sensor.height));
         }
         let settings = Settings {
             samples_per_pixel: NonZeroU32::MIN,
-            photons_per_pass: settings.photons_per_pass.min(SMALL_PASS),
+            photons_per_pass: settings.photons_per_pass.min(level.photons()),
             ..settings.clone()
         };
         // Sensors that made a scene once make one at any size.
         let scene = Arc::new(scene.with_sensors(&sensors).map_err(|_| Cancelled)?);
-        Ok(Self::over(Session::start(scene, settings, threads, cancel)?, true))
+        Ok(Self::over(Session::start(scene, settings, threads, cancel)?, level))
     }
 
-    /// The whole picture.
-    pub(super) fn whole(
-        scene: &Arc<Scene>,
-        settings: &Settings,
-        threads: Option<usize>,
-        cancel: &Cancel,
-    ) -> Result<Self, StartError> {
-        Ok(Self::over(Session::start(Arc::clone(scene), settings.clone(), threads, cancel)?, false))
+    fn over(session: Session, level: Level) -> Self {
+        Self { session, level, marks: Vec::new(), no_photon_share: 1.0, photons_in_pass: 0, radii: None }
     }
 
-    fn over(session: Session, small: bool) -> Self {
-        Self { session, small, marks: Vec::new(), no_photon_share: 1.0, photons_in_pass: 0, radii: None }
+    pub(super) fn is_whole(&self) -> bool {
+        self.level == Level::Whole
     }
 
-    pub(super) const fn is_small(&self) -> bool {
-        self.small
+    /// The level that is due once this one is as good as it gets, where the whole has so many eye samples.
+    pub(super) fn next_level(&self, eye_samples: u64) -> Option<Level> {
+        (self.ppm().passes() >= self.level.passes()).then(|| self.level.next(eye_samples))
     }
 
-    /// Whether a small picture is as good as it gets.
-    pub(super) const fn is_good_enough_to_move(&self) -> bool {
-        self.small && self.ppm().passes() >= SMALL_PASSES
+    /// Whether there is nothing to do until a person goes on, or stops.
+    pub(super) fn waits_for_a_move(&self) -> bool {
+        self.level == Level::Small && self.ppm().passes() >= SMALL_PASSES
     }
 
     pub(super) const fn ppm(&self) -> &Ppm {

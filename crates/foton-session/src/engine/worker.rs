@@ -1,12 +1,11 @@
 //! The engine's own thread: commands, then work, then a frame; for ever.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, Sender, never, select};
-use foton_film::check_writable;
 use foton_integrator::{Cancel, Settings};
 use foton_scene::Scene;
 
@@ -15,11 +14,10 @@ use super::command::{Change, Command, Configuration, Event, Shown};
 use super::frame::{Activity, Frame, Numbers, Picture};
 use super::loader::{Opening, Ready};
 use super::probe;
-use super::render::Render;
+use super::render::{Level, Render};
 use super::slot::NewestSender;
 use super::stage::{Effect, Stage};
 use crate::session::{Session, StartError};
-use crate::snapshot::{self, Format};
 use crate::stop::StopRule;
 
 /// Frames are at least this far apart unless a person is waiting for one.
@@ -43,17 +41,17 @@ enum Flow {
 
 /// The thread's state.
 pub(super) struct Worker {
-    setup: Setup,
+    pub(super) setup: Setup,
     channels: Channels,
     cancel: Cancel,
     unwritten: Arc<AtomicUsize>,
-    stage: Option<Stage>,
+    pub(super) stage: Option<Stage>,
     opening: Option<Opening>,
     settings: Settings,
     threads: Option<usize>,
     stop: StopRule,
     flow: Flow,
-    render: Option<Render>,
+    pub(super) render: Option<Render>,
     /// The number of the render; it changes with each start.
     render_number: u64,
     /// Whether more camera moves are to follow.
@@ -145,7 +143,7 @@ impl Worker {
         Some(commands)
     }
 
-    fn event(&self, event: Event) {
+    pub(super) fn event(&self, event: Event) {
         // A window that does not read its events has other troubles.
         let _ = self.channels.events.try_send(event);
         (self.setup.wake)();
@@ -158,7 +156,7 @@ impl Worker {
             Command::CancelOpen => self.opening = None,
             Command::Steer(change) => {
                 self.settings.change(change);
-                if let Some(render) = self.render.as_mut().filter(|r| !r.is_small()) {
+                if let Some(render) = self.render.as_mut().filter(|r| r.is_whole()) {
                     render.session_mut().ppm_mut().change(change);
                 }
             }
@@ -286,8 +284,8 @@ impl Worker {
             return true;
         }
         let Some(render) = &self.render else { return false };
-        if render.is_small() {
-            return self.moving && render.is_good_enough_to_move();
+        if !render.is_whole() {
+            return self.moving && render.waits_for_a_move();
         }
         match self.flow {
             Flow::Steps(left) => left == 0,
@@ -302,35 +300,49 @@ impl Worker {
         }
         let Some(stage) = &self.stage else { return };
         let (scene, cancel) = (Arc::clone(stage.scene()), self.cancel.clone());
-        let started = match &mut self.render {
-            None => Some(Render::small(&scene, stage.sensors(), &self.settings, self.threads, &cancel)),
-            Some(render) if render.is_small() && !self.moving && render.ppm().passes() > 0 => {
-                self.publish(true);
-                if let Some(message) = self.beyond_memory(&scene) {
-                    self.refuse(message);
-                    return;
-                }
-                Some(Render::whole(&scene, &self.settings, self.threads, &cancel))
-            }
-            Some(_) => None,
+        let level = match &self.render {
+            None => Some(Level::Small),
+            Some(render) if self.moving || render.is_whole() => None,
+            Some(render) => render.next_level(self.eye_samples(stage)),
         };
+        let started = level.map(|level| {
+            self.publish(true);
+            if level == Level::Whole
+                && let Some(message) = self.beyond_memory(&scene)
+            {
+                return Err(message);
+            }
+            let Some(stage) = &self.stage else { return Ok(None) };
+            match Render::start(level, &scene, stage.sensors(), &self.settings, self.threads, &cancel) {
+                Ok(render) => Ok(Some(render)),
+                Err(StartError::Cancelled(_)) => Ok(None),
+                Err(error) => Err(error.to_string()),
+            }
+        });
         match started {
-            Some(Ok(render)) => {
+            Some(Ok(Some(render))) => {
                 self.render = Some(render);
                 self.unseen = true;
             }
-            Some(Err(StartError::Cancelled(_))) => return,
-            Some(Err(error)) => return self.refuse(error.to_string()),
+            Some(Ok(None)) => return,
+            Some(Err(message)) => return self.refuse(message),
             None => {}
         }
         self.advance(&cancel);
+    }
+
+    /// Eye samples of the whole picture.
+    fn eye_samples(&self, stage: &Stage) -> u64 {
+        let sensor = &stage.sensors()[self.settings.sensor];
+        let pixels = u64::from(sensor.width) * u64::from(sensor.height);
+        pixels * u64::from(self.settings.samples_per_pixel.get())
     }
 
     fn advance(&mut self, cancel: &Cancel) {
         let Some(render) = &mut self.render else { return };
         let Ok(took) = render.advance(cancel) else { return };
         self.unseen = true;
-        if render.is_small() {
+        if !render.is_whole() {
             return;
         }
         self.last_pass = took;
@@ -359,68 +371,13 @@ impl Worker {
         })
     }
 
-    /// The whole render, once it has a pass.
-    fn rendered(&self) -> Option<(&Render, &Stage)> {
-        let render = self.render.as_ref().filter(|r| !r.is_small() && r.ppm().passes() > 0)?;
-        Some((render, self.stage.as_ref()?))
-    }
-
-    fn snapshot(&self, folder: &Path) {
-        if self.rendered().is_none() {
-            return self.event(Event::Failed("there is no pass to save yet".to_owned()));
-        }
-        self.write(&snapshot::next_free(folder));
-    }
-
-    fn auto_snapshot(&self, folder: &Path) {
-        let Some((render, stage)) = self.rendered() else { return };
-        let stem = Path::new(&stage.facts().name).file_stem().unwrap_or_default().to_owned();
-        let path = snapshot::numbered(&folder.join(stem).with_extension("exr"), render.ppm().passes());
-        self.write(&path.with_extension(""));
-    }
-
-    /// Writes both pictures of a stem.
-    fn write(&self, stem: &Path) {
-        let Some((render, stage)) = self.rendered() else { return };
-        let identity = stage.identity();
-        let mut written = Vec::new();
-        for (extension, format) in [("exr", Format::Exr), ("png", Format::Png)] {
-            let path = stem.with_extension(extension);
-            let result = check_writable(&path)
-                .and_then(|()| snapshot::write(&path, format, render.ppm(), &[], &identity));
-            match result {
-                Ok(()) => written.push(path),
-                Err(error) => self.event(Event::Failed(error.to_string())),
-            }
-        }
-        if !written.is_empty() {
-            self.event(Event::Saved(written));
-        }
-    }
-
-    fn save_scene(&mut self, path: &Path) {
-        let Some(stage) = &mut self.stage else {
-            return self.event(Event::Failed("there is no scene to save".to_owned()));
-        };
-        match self.setup.loader.save(&*stage.origin, stage.description(), path) {
-            Ok(note) => {
-                stage.saved();
-                self.event(Event::Saved(vec![path.to_owned()]));
-                if !note.is_empty() {
-                    self.event(Event::Notice(note));
-                }
-            }
-            Err(message) => self.event(Event::Failed(message)),
-        }
-    }
-
     fn activity(&self) -> Activity {
         let Some(render) = &self.render else {
             return if self.stage.is_none() { Activity::Empty } else { Activity::Collecting };
         };
         match self.flow {
             _ if self.moving => Activity::Moving,
-            _ if render.is_small() => Activity::Collecting,
+            _ if !render.is_whole() => Activity::Collecting,
             Flow::Steps(0) => Activity::Paused,
             Flow::Run if self.is_idle() => Activity::Done,
             _ => Activity::Rendering,
@@ -438,8 +395,8 @@ impl Worker {
         let mut probed = None;
         if let Some(render) = self.render.as_mut().filter(|r| r.ppm().passes() > 0) {
             self.picture = Some(render.picture(self.shown));
-            numbers = render.numbers();
-            if !render.is_small() {
+            if render.is_whole() {
+                numbers = render.numbers();
                 if self.show_photons {
                     dots = Arc::new(probe::dots(render.ppm()));
                 }
