@@ -1,12 +1,14 @@
 //! Photons to hit points: which count, what light they bring, and the refinement that follows, fused.
 //!
 //! One photon at a time is tested against the sixteen hit points of a packet. Sums run in the order of the sorted photons,
-//! multiplication and addition apart, so the bits are the same for any number of threads.
+//! multiplication and addition apart, so the bits are the same for any number of threads and any instruction set.
+#![allow(clippy::needless_range_loop, reason = "rows of lanes advance together; indices are what vectorises")]
 
 use std::f32::consts::PI;
 
 use foton_math::Rgb;
 use foton_math::glam::Vec3;
+use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 use crate::grid::Grid;
@@ -65,6 +67,7 @@ pub(crate) fn all<const LAYERS: usize>(
 ) -> Tally {
     let shading = &hit_points.shading_normals;
     let (first_glossy, gloss_slots) = (hit_points.first_glossy, &hit_points.gloss_slots);
+    let arch = Arch::new();
     let tallies: Vec<Tally> = hit_points
         .packets
         .par_chunks_mut(BLOCK)
@@ -72,24 +75,9 @@ pub(crate) fn all<const LAYERS: usize>(
         .zip(irradiance_slots.par_chunks_mut(BLOCK * LANES))
         .enumerate()
         .map(|(block, ((packets, statistics), irradiance))| {
-            let mut tally = Tally::default();
-            let slots = statistics.chunks_mut(LANES).zip(irradiance.chunks_mut(LANES));
-            for (i, (packet, (statistics, irradiance))) in packets.iter_mut().zip(slots).enumerate() {
-                let index = block * BLOCK + i;
-                let mut found = Found::<LAYERS>::NONE;
-                let visit = Visit { packet, map, grid };
-                if let Some(glossy) = index.checked_sub(first_glossy) {
-                    let gloss = &gloss_slots[glossy * LANES..(glossy + 1) * LANES];
-                    visit.collect_gloss(gloss, &mut found, &mut tally);
-                } else {
-                    match shading.get(index) {
-                        None => visit.collect::<LAYERS, false>(&[[0.0; LANES]; 3], &mut found, &mut tally),
-                        Some(normals) => visit.collect::<LAYERS, true>(normals, &mut found, &mut tally),
-                    }
-                }
-                conclude(packet, &found, statistics, irradiance, rule, &mut tally);
-            }
-            tally
+            let first = block * BLOCK;
+            let block = Block { first, first_glossy, packets, statistics, irradiance, shading, gloss_slots };
+            arch.dispatch(Gather { block, map, grid, rule })
         })
         .collect();
     tallies.into_iter().fold(Tally::default(), |a, b| Tally {
@@ -101,94 +89,147 @@ pub(crate) fn all<const LAYERS: usize>(
     })
 }
 
+/// Packets that one task looks after, and all that belongs to them.
+struct Block<'a, const LAYERS: usize> {
+    /// Index of the first packet.
+    first: usize,
+    first_glossy: usize,
+    packets: &'a mut [Packet],
+    statistics: &'a mut [Statistics],
+    irradiance: &'a mut [Irradiance<LAYERS>],
+    shading: &'a [[[f32; LANES]; 3]],
+    gloss_slots: &'a [Option<Gloss>],
+}
+
+/// The work on a block, compiled for each instruction set; the best that the machine has is taken. Everything that this calls
+/// for each photon is inlined into it. No instruction set changes a result.
+struct Gather<'a, const LAYERS: usize> {
+    block: Block<'a, LAYERS>,
+    map: &'a PhotonMap,
+    grid: &'a Grid,
+    rule: Rule,
+}
+
+impl<const LAYERS: usize> WithSimd for Gather<'_, LAYERS> {
+    type Output = Tally;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Tally {
+        let Self { block, map, grid, rule } = self;
+        let mut tally = Tally::default();
+        let mut runs = Vec::new();
+        // On the heap: else the compiler takes the sums apart into registers of the wrong shapes.
+        let mut found = Box::new(Found::<LAYERS>::NONE);
+        let slots = block.statistics.chunks_mut(LANES).zip(block.irradiance.chunks_mut(LANES));
+        for (i, (packet, (statistics, irradiance))) in block.packets.iter_mut().zip(slots).enumerate() {
+            let index = block.first + i;
+            runs.clear();
+            grid.for_each_run(&packet.bounds(), |first, end| runs.push((first, end)));
+            *found = Found::NONE;
+            if let Some(glossy) = index.checked_sub(block.first_glossy) {
+                let gloss = &block.gloss_slots[glossy * LANES..(glossy + 1) * LANES];
+                for &(first, end) in &runs {
+                    collect_gloss(packet, gloss, map.run(first, end), &mut found, &mut tally);
+                }
+            } else if let Some(normals) = block.shading.get(index) {
+                for &(first, end) in &runs {
+                    collect::<LAYERS, true>(packet, normals, map.run(first, end), &mut found, &mut tally);
+                }
+            } else {
+                let normals = &[[0.0; LANES]; 3];
+                for &(first, end) in &runs {
+                    collect::<LAYERS, false>(packet, normals, map.run(first, end), &mut found, &mut tally);
+                }
+            }
+            conclude(packet, &found, statistics, irradiance, rule, &mut tally);
+        }
+        tally
+    }
+}
+
 impl<const LAYERS: usize> Found<LAYERS> {
     const NONE: Self = Self { flux: [[[0.0; LANES]; 3]; LAYERS], count: [0; LANES] };
 
+    #[inline(always)]
     const fn layer(photon: &Photon) -> usize {
         if LAYERS == 1 { 0 } else { photon.class_index() }
     }
 }
 
-/// A packet and where its photons are.
-struct Visit<'a> {
-    packet: &'a Packet,
-    map: &'a PhotonMap,
-    grid: &'a Grid,
+/// Sums the photons that count for Lambertian hit points. `SHADED` corrects for interpolated normals.
+#[inline(always)]
+fn collect<const LAYERS: usize, const SHADED: bool>(
+    packet: &Packet,
+    shading_normals: &[[f32; LANES]; 3],
+    photons: &[Photon],
+    found: &mut Found<LAYERS>,
+    tally: &mut Tally,
+) {
+    tally.candidates += photons.len() as u64;
+    for photon in photons {
+        let counts = counting_lanes(packet, photon);
+        if !any(&counts) {
+            continue;
+        }
+        let factor = if SHADED { shading_factor(packet, shading_normals, photon) } else { [1.0; LANES] };
+        let layer = &mut found.flux[Found::<LAYERS>::layer(photon)];
+        for (channel, power) in [photon.power.r, photon.power.g, photon.power.b].into_iter().enumerate() {
+            let sums = &mut layer[channel];
+            for l in 0..LANES {
+                let term = if SHADED { power * factor[l] } else { power };
+                sums[l] += f32::from_bits(term.to_bits() & counts[l]);
+            }
+        }
+        for l in 0..LANES {
+            found.count[l] += counts[l] & 1;
+        }
+    }
 }
 
-impl Visit<'_> {
-    /// Calls `f` with each photon that counts in any lane, and with the lanes in which it does.
-    #[inline]
-    fn for_each(&self, tally: &mut Tally, mut f: impl FnMut(&Photon, &[u32; LANES])) {
-        self.grid.for_each_run(&self.packet.bounds(), |first, end| {
-            let photons = self.map.run(first, end);
-            tally.candidates += photons.len() as u64;
-            for photon in photons {
-                let counts = counting_lanes(self.packet, photon);
-                if counts.iter().fold(0, |any, c| any | c) != 0 {
-                    f(photon, &counts);
-                }
-            }
-        });
+/// Sums the photons that count for hit points with a BSDF of their own, weighed by it one by one.
+#[inline(always)]
+fn collect_gloss<const LAYERS: usize>(
+    packet: &Packet,
+    gloss: &[Option<Gloss>],
+    photons: &[Photon],
+    found: &mut Found<LAYERS>,
+    tally: &mut Tally,
+) {
+    tally.candidates += photons.len() as u64;
+    for photon in photons {
+        let counts = counting_lanes(packet, photon);
+        if !any(&counts) {
+            continue;
+        }
+        let wi = photon.direction();
+        let layer = &mut found.flux[Found::<LAYERS>::layer(photon)];
+        for l in (0..LANES).filter(|&l| counts[l] != 0) {
+            found.count[l] += 1;
+            let Some(gloss) = &gloss[l] else { continue };
+            let normal = Vec3::new(packet.normal[0][l], packet.normal[1][l], packet.normal[2][l]);
+            let geometric = wi.dot(normal).abs() * 127.0;
+            let shading = wi.dot(gloss.frame.normal).abs();
+            let weighed = photon.power * gloss.eval(wi) * cosine_ratio(shading, geometric);
+            layer[0][l] += weighed.r;
+            layer[1][l] += weighed.g;
+            layer[2][l] += weighed.b;
+        }
     }
+}
 
-    /// Sums the photons that count for Lambertian hit points. `SHADED` corrects for interpolated normals.
-    fn collect<const LAYERS: usize, const SHADED: bool>(
-        &self,
-        shading_normals: &[[f32; LANES]; 3],
-        found: &mut Found<LAYERS>,
-        tally: &mut Tally,
-    ) {
-        self.for_each(tally, |photon, counts| {
-            let factor =
-                if SHADED { shading_factor(self.packet, shading_normals, photon) } else { [1.0; LANES] };
-            let layer = &mut found.flux[Found::<LAYERS>::layer(photon)];
-            for (channel, power) in layer.iter_mut().zip(photon.power.to_array()) {
-                for l in 0..LANES {
-                    let term = if SHADED { power * factor[l] } else { power };
-                    channel[l] += f32::from_bits(term.to_bits() & counts[l]);
-                }
-            }
-            for (count, counted) in found.count.iter_mut().zip(counts) {
-                *count += counted & 1;
-            }
-        });
-    }
-
-    /// Sums the photons that count for hit points with a BSDF of their own, weighed by it one by one.
-    fn collect_gloss<const LAYERS: usize>(
-        &self,
-        gloss: &[Option<Gloss>],
-        found: &mut Found<LAYERS>,
-        tally: &mut Tally,
-    ) {
-        self.for_each(tally, |photon, counts| {
-            let wi = photon.direction();
-            let layer = &mut found.flux[Found::<LAYERS>::layer(photon)];
-            for l in (0..LANES).filter(|&l| counts[l] != 0) {
-                found.count[l] += 1;
-                let Some(gloss) = &gloss[l] else { continue };
-                let geometric = wi.dot(Vec3::from_array(self.packet.normal.map(|row| row[l]))).abs() * 127.0;
-                let shading = wi.dot(gloss.frame.normal).abs();
-                let weighed = photon.power * gloss.eval(wi) * cosine_ratio(shading, geometric);
-                for (channel, term) in layer.iter_mut().zip(weighed.to_array()) {
-                    channel[l] += term;
-                }
-            }
-        });
-    }
+/// Whether the photon counts in any lane.
+#[inline(always)]
+fn any(counts: &[u32; LANES]) -> bool {
+    counts.iter().fold(0, |any, c| any | c) != 0
 }
 
 /// All ones for each lane for which the photon counts: disc, slab, normal and side (the normals of both are those of the
 /// eye's and the photon's side), and length of the joined path.
-#[inline]
-#[allow(
-    clippy::needless_range_loop,
-    reason = "eight rows of lanes advance together; indices are what vectorises"
-)]
+#[inline(always)]
 fn counting_lanes(packet: &Packet, photon: &Photon) -> [u32; LANES] {
     let p = photon.position;
-    let n = photon.normal.map(f32::from);
+    let [n0, n1, n2] = photon.normal;
+    let n = [f32::from(n0), f32::from(n1), f32::from(n2)];
     let edges = i32::from(photon.edges);
     let mut counts = [0; LANES];
     let [x, y, z] = &packet.position;
@@ -210,7 +251,7 @@ fn counting_lanes(packet: &Packet, photon: &Photon) -> [u32; LANES] {
 
 /// |ω·n_s|/|ω·n_g|: photons measure irradiance about the geometric normal, the BSDF wants it about the shading normal. Zero
 /// where the light comes from behind the shading normal.
-#[inline]
+#[inline(always)]
 fn shading_factor(packet: &Packet, shading_normals: &[[f32; LANES]; 3], photon: &Photon) -> [f32; LANES] {
     let w = photon.direction();
     let mut factor = [0.0; LANES];

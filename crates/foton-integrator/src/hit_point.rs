@@ -139,6 +139,11 @@ impl HitPoints {
         self.gloss_slots.get(slot.checked_sub(self.first_glossy * LANES)?)?.as_ref()
     }
 
+    /// Whether any weighs light by where it comes from.
+    pub(crate) const fn ask_for_directions(&self) -> bool {
+        !(self.gloss_slots.is_empty() && self.shading_normals.is_empty())
+    }
+
     /// How many there are.
     pub(crate) const fn len(&self) -> usize {
         self.slot_of.len()

@@ -63,8 +63,31 @@ impl Packet {
     }
 
     /// The box around all of them.
+    #[inline(always)]
+    #[allow(
+        clippy::needless_range_loop,
+        reason = "rows of lanes advance together; indices are what vectorises"
+    )]
     pub(crate) fn bounds(&self) -> Aabb {
-        self.disc_boxes().fold(Aabb::EMPTY, Aabb::union)
+        let mut bounds = Aabb::EMPTY;
+        for (axis, row) in self.position.iter().enumerate() {
+            let mut low = [f32::INFINITY; LANES];
+            let mut high = [f32::NEG_INFINITY; LANES];
+            for l in 0..LANES {
+                let there = self.radius2[l] >= 0.0;
+                let radius = self.radius2[l].max(0.0).sqrt();
+                low[l] = if there { row[l] - radius } else { f32::INFINITY };
+                high[l] = if there { row[l] + radius } else { f32::NEG_INFINITY };
+            }
+            for half in [8, 4, 2, 1] {
+                for l in 0..half {
+                    low[l] = if low[l + half] < low[l] { low[l + half] } else { low[l] };
+                    high[l] = if high[l + half] > high[l] { high[l + half] } else { high[l] };
+                }
+            }
+            (bounds.min[axis], bounds.max[axis]) = (low[0], high[0]);
+        }
+        bounds
     }
 }
 

@@ -51,25 +51,27 @@ impl Photon {
     pub(crate) const NONE: Self =
         Self { position: Vec3::ZERO, normal: [0; 3], edges: 0, power: Rgb::BLACK, code: 0 };
 
-    /// A photon of `power` that arrives from the unit direction `from` on the side of the unit `normal`.
+    /// A photon of `power` that arrives from the unit direction `from`, where anyone asks, on the side of the unit `normal`.
+    #[inline]
     pub(crate) fn new(
         position: Vec3,
         normal: Vec3,
-        from: Vec3,
+        from: Option<Vec3>,
         power: Rgb,
         class: PathClass,
         edges: u8,
     ) -> Self {
         Self {
             position,
-            normal: (normal * 127.0).round().to_array().map(|n| n as i8),
+            normal: [in_127ths(normal.x), in_127ths(normal.y), in_127ths(normal.z)],
             edges,
             power,
-            code: octahedral::encode::<DIRECTION_BITS>(from) | ((class as u32) << 30),
+            code: from.map_or(0, octahedral::encode::<DIRECTION_BITS>) | ((class as u32) << 30),
         }
     }
 
     /// Unit direction towards where it came from.
+    #[inline]
     pub(crate) fn direction(&self) -> Vec3 {
         octahedral::decode::<DIRECTION_BITS>(self.code & ((1 << 30) - 1))
     }
@@ -77,6 +79,12 @@ impl Photon {
     pub(crate) const fn class_index(&self) -> usize {
         (self.code >> 30) as usize
     }
+}
+
+/// The nearest multiple of 1/127.
+#[inline]
+fn in_127ths(n: f32) -> i8 {
+    (n * 127.0 + 0.5f32.copysign(n)) as i8
 }
 
 #[cfg(test)]
@@ -88,7 +96,7 @@ mod tests {
         assert_eq!(size_of::<Photon>(), 32);
         for class in PathClass::ALL {
             let from = Vec3::new(-0.6, 0.0, -0.8);
-            let p = Photon::new(Vec3::ONE, -Vec3::Z, from, Rgb::WHITE, class, 3);
+            let p = Photon::new(Vec3::ONE, -Vec3::Z, Some(from), Rgb::WHITE, class, 3);
             assert_eq!((p.class_index(), p.normal, p.edges), (class as usize, [0, 0, -127], 3));
             assert!(p.direction().distance(from) < 1e-4);
         }

@@ -1,8 +1,11 @@
 //! One pass of photons: from emitters, from surface to surface, stored wherever light spreads near a hit point.
 
+use std::ops::Range;
+
 use foton_math::glam::Vec3;
 use foton_math::{Purpose, Ray, Rgb, Stream};
 use foton_scene::{Lobe, Scene, Surface, Transport};
+use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 use crate::cancel::{Cancel, Cancelled};
@@ -27,6 +30,8 @@ pub(crate) struct PhotonPass<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) grid: &'a Grid,
     pub(crate) direct_light: DirectLight,
+    /// Whether any hit point asks where a photon came from.
+    pub(crate) directions: bool,
     /// Longest whole path in edges; a photon path is at least one shorter.
     pub(crate) max_depth: u32,
     pub(crate) seed: u64,
@@ -56,10 +61,35 @@ struct Flight {
     edges: u32,
 }
 
+/// The work on a chunk, compiled for each instruction set; the best that the machine has is taken. Everything that each photon
+/// runs through is inlined into it. No instruction set changes a result.
+struct Follow<'a, 'b> {
+    pass: &'a PhotonPass<'b>,
+    range: Range<u64>,
+    chunk: &'a mut Chunk,
+}
+
+impl WithSimd for Follow<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { pass, range, chunk } = self;
+        for index in range {
+            let stream = Stream::new(pass.seed, Purpose::Photon, pass.pass, index);
+            let Some((emitter, flight)) = pass.emit(index, stream.clone()) else { continue };
+            let stored = chunk.photons.len();
+            pass.follow(flight, &stream, chunk);
+            chunk.lights[emitter].count(chunk.photons.len() > stored);
+        }
+    }
+}
+
 impl PhotonPass<'_> {
     /// Emits and follows all photons of the pass into `chunks`, the same ones for any number of threads.
     pub(crate) fn shoot(&self, chunks: &mut Vec<Chunk>, cancel: &Cancel) -> Result<(), Cancelled> {
         chunks.resize_with(self.photons.div_ceil(CHUNK) as usize, Chunk::default);
+        let arch = Arch::new();
         chunks.par_iter_mut().enumerate().try_for_each(|(i, chunk)| {
             cancel.check()?;
             let first = i as u64 * CHUNK;
@@ -69,17 +99,13 @@ impl PhotonPass<'_> {
             chunk.rays = 0;
             chunk.lights.clear();
             chunk.lights.resize(self.scene.emitters().len(), LightUse::default());
-            for index in first..self.photons.min(first + CHUNK) {
-                let stream = Stream::new(self.seed, Purpose::Photon, self.pass, index);
-                let Some((emitter, flight)) = self.emit(index, stream.clone()) else { continue };
-                let stored = chunk.photons.len();
-                self.follow(flight, &stream, chunk);
-                chunk.lights[emitter].count(chunk.photons.len() > stored);
-            }
+            let range = first..self.photons.min(first + CHUNK);
+            arch.dispatch(Follow { pass: self, range, chunk });
             Ok(())
         })
     }
 
+    #[inline(always)]
     fn follow(&self, mut flight: Flight, stream: &Stream, chunk: &mut Chunk) {
         chunk.ledger.emitted += energy(flight.power);
         loop {
@@ -117,6 +143,7 @@ impl PhotonPass<'_> {
     }
 
     /// Stores the photon where light spreads, and sends it on.
+    #[inline(always)]
     fn scatter(
         &self,
         flight: Flight,
@@ -173,6 +200,7 @@ impl PhotonPass<'_> {
         })
     }
 
+    #[inline(always)]
     fn store(&self, flight: &Flight, surface: &Surface, wo: Vec3, chunk: &mut Chunk) {
         if flight.class == PathClass::Direct && self.direct_light == DirectLight::ShadowRays {
             return;
@@ -180,7 +208,15 @@ impl PhotonPass<'_> {
         if let Some(cell) = self.grid.number(surface.position) {
             let normal = surface.normal * 1f32.copysign(wo.dot(surface.normal));
             let edges = flight.edges.min(255) as u8;
-            chunk.photons.push(Photon::new(surface.position, normal, wo, flight.power, flight.class, edges));
+            let from = self.directions.then_some(wo);
+            chunk.photons.push(Photon::new(
+                surface.position,
+                normal,
+                from,
+                flight.power,
+                flight.class,
+                edges,
+            ));
             chunk.cells.push(cell);
         }
     }

@@ -219,6 +219,7 @@ impl Ppm {
             scene: &self.scene,
             grid: &self.grid,
             direct_light: self.settings.direct_light,
+            directions: self.hit_points.ask_for_directions(),
             max_depth: Self::max_depth(&self.scene, &self.settings),
             seed: self.settings.seed,
             pass: self.passes,

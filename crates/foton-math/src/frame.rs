@@ -16,6 +16,7 @@ pub struct Frame {
 impl Frame {
     /// The frame of Duff et al., "Building an Orthonormal Basis, Revisited" (2017): no branch, no cancellation. `[DBC17]`
     #[must_use]
+    #[inline]
     pub fn from_normal(normal: Vec3) -> Self {
         let sign = 1f32.copysign(normal.z);
         let a = -1.0 / (sign + normal.z);
@@ -29,12 +30,14 @@ impl Frame {
 
     /// Outer coordinates of a local vector.
     #[must_use]
+    #[inline]
     pub fn to_outer(&self, v: Vec3) -> Vec3 {
         self.tangent * v.x + self.bitangent * v.y + self.normal * v.z
     }
 
     /// Local coordinates of an outer vector.
     #[must_use]
+    #[inline]
     pub fn to_local(&self, v: Vec3) -> Vec3 {
         Vec3::new(v.dot(self.tangent), v.dot(self.bitangent), v.dot(self.normal))
     }

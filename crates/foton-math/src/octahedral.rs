@@ -4,12 +4,14 @@
 
 use glam::{Vec2, Vec3};
 
+#[inline]
 fn fold(v: Vec2) -> Vec2 {
     (Vec2::ONE - Vec2::new(v.y.abs(), v.x.abs())) * Vec2::new(1f32.copysign(v.x), 1f32.copysign(v.y))
 }
 
 /// A unit vector in the low `2 × BITS` bits; the error is at most 4.25 / 2^BITS radians (3√2, measured).
 #[must_use]
+#[inline]
 pub fn encode<const BITS: u32>(v: Vec3) -> u32 {
     let scale = ((1u32 << BITS) - 1) as f32;
     let p = Vec2::new(v.x, v.y) / (v.x.abs() + v.y.abs() + v.z.abs());
@@ -20,6 +22,7 @@ pub fn encode<const BITS: u32>(v: Vec3) -> u32 {
 
 /// The unit vector of [`encode`].
 #[must_use]
+#[inline]
 pub fn decode<const BITS: u32>(code: u32) -> Vec3 {
     let mask = (1u32 << BITS) - 1;
     let scale = mask as f32;

@@ -18,12 +18,14 @@ pub struct Ray {
 impl Ray {
     /// A ray without an end. Its origin is expected to be offset from the surface that it leaves.
     #[must_use]
+    #[inline]
     pub const fn new(origin: Vec3, direction: Vec3) -> Self {
         Self { origin, direction, t_min: 0.0, t_max: f32::INFINITY }
     }
 
     /// The point at distance `t`.
     #[must_use]
+    #[inline]
     pub fn at(&self, t: f32) -> Vec3 {
         self.origin + self.direction * t
     }

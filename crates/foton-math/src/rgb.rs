@@ -24,66 +24,77 @@ impl Rgb {
 
     /// The triple of the three channels.
     #[must_use]
+    #[inline]
     pub const fn new(r: f32, g: f32, b: f32) -> Self {
         Self { r, g, b }
     }
 
     /// The same value in each channel.
     #[must_use]
+    #[inline]
     pub const fn splat(v: f32) -> Self {
         Self::new(v, v, v)
     }
 
     /// Channels as an array, red first.
     #[must_use]
+    #[inline]
     pub const fn to_array(self) -> [f32; 3] {
         [self.r, self.g, self.b]
     }
 
     /// The triple of an array, red first.
     #[must_use]
+    #[inline]
     pub const fn from_array([r, g, b]: [f32; 3]) -> Self {
         Self::new(r, g, b)
     }
 
     /// The largest channel.
     #[must_use]
+    #[inline]
     pub fn max_component(self) -> f32 {
         self.r.max(self.g).max(self.b)
     }
 
     /// The mean of the channels: the measure by which the ledger and the choice of emitters count power.
     #[must_use]
+    #[inline]
     pub fn mean(self) -> f32 {
         (self.r + self.g + self.b) / 3.0
     }
 
     /// Relative luminance with the weights of ITU-R BT.709.
     #[must_use]
+    #[inline]
     pub fn luminance(self) -> f32 {
         0.2126 * self.r + 0.7152 * self.g + 0.0722 * self.b
     }
 
     /// Whether no channel is above zero.
     #[must_use]
+    #[inline]
     pub fn is_black(self) -> bool {
         self.max_component() <= 0.0
     }
 
     /// Whether every channel is finite.
     #[must_use]
+    #[inline]
     pub fn is_finite(self) -> bool {
         self.r.is_finite() && self.g.is_finite() && self.b.is_finite()
     }
 
     /// `f` applied to each channel.
     #[must_use]
+    #[inline]
     pub fn map(self, mut f: impl FnMut(f32) -> f32) -> Self {
         Self::new(f(self.r), f(self.g), f(self.b))
     }
 }
 
 impl From<Rgb> for Vec3 {
+    #[inline]
     fn from(c: Rgb) -> Self {
         Self::new(c.r, c.g, c.b)
     }
@@ -91,6 +102,7 @@ impl From<Rgb> for Vec3 {
 
 impl Add for Rgb {
     type Output = Self;
+    #[inline]
     fn add(self, o: Self) -> Self {
         Self::new(self.r + o.r, self.g + o.g, self.b + o.b)
     }
@@ -98,12 +110,14 @@ impl Add for Rgb {
 
 impl Sub for Rgb {
     type Output = Self;
+    #[inline]
     fn sub(self, o: Self) -> Self {
         Self::new(self.r - o.r, self.g - o.g, self.b - o.b)
     }
 }
 
 impl AddAssign for Rgb {
+    #[inline]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }
@@ -111,12 +125,14 @@ impl AddAssign for Rgb {
 
 impl Mul for Rgb {
     type Output = Self;
+    #[inline]
     fn mul(self, o: Self) -> Self {
         Self::new(self.r * o.r, self.g * o.g, self.b * o.b)
     }
 }
 
 impl MulAssign for Rgb {
+    #[inline]
     fn mul_assign(&mut self, o: Self) {
         *self = *self * o;
     }
@@ -124,12 +140,14 @@ impl MulAssign for Rgb {
 
 impl Mul<f32> for Rgb {
     type Output = Self;
+    #[inline]
     fn mul(self, s: f32) -> Self {
         self.map(|c| c * s)
     }
 }
 
 impl MulAssign<f32> for Rgb {
+    #[inline]
     fn mul_assign(&mut self, s: f32) {
         *self = *self * s;
     }
@@ -137,12 +155,14 @@ impl MulAssign<f32> for Rgb {
 
 impl Div<f32> for Rgb {
     type Output = Self;
+    #[inline]
     fn div(self, s: f32) -> Self {
         self.map(|c| c / s)
     }
 }
 
 impl Sum for Rgb {
+    #[inline]
     fn sum<I: Iterator<Item = Self>>(iter: I) -> Self {
         iter.fold(Self::BLACK, Add::add)
     }

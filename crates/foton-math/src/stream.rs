@@ -28,6 +28,7 @@ pub enum Purpose {
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// The finaliser of SplitMix64 (Stafford's variant 13 of MurmurHash3's): every bit of `z` reaches every bit out. `[SLF14]`
+#[inline]
 const fn mix(mut z: u64) -> u64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -43,6 +44,7 @@ pub struct Stream {
 impl Stream {
     /// The stream of one photon, eye sample or hit point (`index`) in one `pass`.
     #[must_use]
+    #[inline]
     pub const fn new(seed: u64, purpose: Purpose, pass: u64, index: u64) -> Self {
         let key = mix(seed.wrapping_add(GOLDEN)) ^ purpose as u64;
         let key = mix(key.wrapping_add(GOLDEN)) ^ pass;
@@ -52,16 +54,19 @@ impl Stream {
 
     /// The stream from its `dimension`-th number on, whatever was drawn before.
     #[must_use]
+    #[inline]
     pub const fn from_dimension(&self, dimension: u64) -> Self {
         Self { state: self.state.wrapping_add(dimension.wrapping_mul(GOLDEN)) }
     }
 
     /// Uniform in [0, 1).
+    #[inline]
     pub fn next_1d(&mut self) -> f32 {
         self.random()
     }
 
     /// Uniform in [0, 1)².
+    #[inline]
     pub fn next_2d(&mut self) -> Vec2 {
         Vec2::new(self.next_1d(), self.next_1d())
     }
@@ -70,15 +75,18 @@ impl Stream {
 impl TryRng for Stream {
     type Error = Infallible;
 
+    #[inline]
     fn try_next_u32(&mut self) -> Result<u32, Infallible> {
         Ok((self.try_next_u64()? >> 32) as u32)
     }
 
+    #[inline]
     fn try_next_u64(&mut self) -> Result<u64, Infallible> {
         self.state = self.state.wrapping_add(GOLDEN);
         Ok(mix(self.state))
     }
 
+    #[inline]
     fn try_fill_bytes(&mut self, out: &mut [u8]) -> Result<(), Infallible> {
         for chunk in out.chunks_mut(8) {
             chunk.copy_from_slice(&self.try_next_u64()?.to_le_bytes()[..chunk.len()]);

@@ -3,6 +3,8 @@
 use foton_math::glam::{DVec3, Vec2, Vec3};
 use foton_math::{Aabb, Ray};
 
+use crate::surface::Plane;
+
 /// A surface element in scene units. 40 bytes, kept in the order of the tree's leaves.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Primitive {
@@ -42,77 +44,98 @@ pub(crate) enum Primitive {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShearedRay {
     ray: Ray,
+    origin: DVec3,
+    direction: DVec3,
     axes: [usize; 3],
     shear: Vec3,
 }
 
-/// Where a primitive was hit.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct PrimitiveHit {
-    /// Distance in scene units.
-    pub(crate) t: f32,
-    /// Weights of a triangle's second and third vertex; zero for other primitives.
-    pub(crate) barycentric: Vec2,
-}
-
 impl ShearedRay {
     /// Prepares a ray. The winding of triangles is not looked at, so axes are not swapped to preserve it.
-    #[must_use]
+    #[inline(always)]
     pub(crate) fn new(ray: Ray) -> Self {
         let d = ray.direction.abs();
         let z = if d.x >= d.y && d.x >= d.z { 0 } else { usize::from(d.z > d.y) + 1 };
-        let (x, y) = ((z + 1) % 3, (z + 2) % 3);
+        let [x, y] = [[1, 2], [2, 0], [0, 1]][z];
         let inverse = 1.0 / ray.direction[z];
         Self {
             ray,
+            origin: ray.origin.as_dvec3(),
+            direction: ray.direction.as_dvec3(),
             axes: [x, y, z],
             shear: Vec3::new(ray.direction[x] * inverse, ray.direction[y] * inverse, inverse),
         }
     }
 
-    fn permuted(&self, v: Vec3) -> [f32; 3] {
-        self.axes.map(|axis| v[axis])
+    /// Where x, y and z come from.
+    #[inline(always)]
+    pub(crate) const fn axes(&self) -> [usize; 3] {
+        self.axes
     }
 
-    /// Watertight: of the triangles around an edge or a vertex at least one is hit by a ray through it.
-    fn hit_triangle(&self, vertices: &[Vec3; 3]) -> Option<PrimitiveHit> {
-        let [a, b, c] = vertices.map(|v| self.permuted(v - self.ray.origin));
-        let s = self.shear;
-        let [ax, bx, cx] = [a, b, c].map(|v| v[0] - s.x * v[2]);
-        let [ay, by, cy] = [a, b, c].map(|v| v[1] - s.y * v[2]);
-        // Products of single precision numbers are exact in double precision: signs are right, on edges too, and a sliver
-        // keeps the digits of its weights.
+    /// What of z is taken off x and off y.
+    #[inline(always)]
+    pub(crate) const fn shear(&self) -> Vec3 {
+        self.shear
+    }
+
+    #[inline(always)]
+    fn permuted(&self, v: Vec3) -> [f32; 3] {
+        [v[self.axes[0]], v[self.axes[1]], v[self.axes[2]]]
+    }
+
+    /// The origin, its axes permuted.
+    #[inline(always)]
+    pub(crate) fn permuted_origin(&self) -> [f32; 3] {
+        self.permuted(self.ray.origin)
+    }
+
+    /// The ray's position among a triangle's edges: twice the areas that it makes with each, seen along the ray.
+    ///
+    /// Products of single precision numbers are exact in double precision: signs are right, on edges too, and a sliver keeps
+    /// the digits of its weights.
+    fn edges(&self, vertices: &[Vec3; 3]) -> [f64; 3] {
+        let sheared = |vertex: Vec3| {
+            let v = self.permuted(vertex - self.ray.origin);
+            (v[0] - self.shear.x * v[2], v[1] - self.shear.y * v[2])
+        };
+        let ((ax, ay), (bx, by), (cx, cy)) =
+            (sheared(vertices[0]), sheared(vertices[1]), sheared(vertices[2]));
         let cross = |x0: f32, y0: f32, x1: f32, y1: f32| {
             f64::from(x0) * f64::from(y0) - f64::from(x1) * f64::from(y1)
         };
-        let u = cross(cx, by, cy, bx);
-        let v = cross(ax, cy, ay, cx);
-        let w = cross(bx, ay, by, ax);
-        if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
-            return None;
-        }
-        let determinant = u + v + w;
-        if determinant == 0.0 {
-            return None;
-        }
-        let inverse = 1.0 / determinant;
-        let t = self.plane_distance(vertices) as f32;
-        let barycentric = Vec2::new((v * inverse) as f32, (w * inverse) as f32);
-        // Along the plane t may be infinite.
-        (self.accepts(t) && t.is_finite()).then_some(PrimitiveHit { t, barycentric })
+        [cross(cx, by, cy, bx), cross(ax, cy, ay, cx), cross(bx, ay, by, ax)]
     }
 
-    /// Where the ray meets a triangle's plane, in double precision: the sign is right for an origin just off a plane whose
-    /// corners are far away, where depths interpolated from the corners' are noise.
-    fn plane_distance(&self, vertices: &[Vec3; 3]) -> f64 {
-        let [a, b, c] = vertices.map(Vec3::as_dvec3);
-        let normal = (b - a).cross(c - a);
-        normal.dot(a - self.ray.origin.as_dvec3()) / normal.dot(self.ray.direction.as_dvec3())
+    /// Whether the ray's line meets a triangle. Watertight: of the triangles around an edge or a vertex at least one is met
+    /// by a line through it.
+    #[cold]
+    pub(crate) fn meets(&self, vertices: &[Vec3; 3]) -> bool {
+        let [u, v, w] = self.edges(vertices);
+        let inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
+        inside && u + v + w != 0.0
+    }
+
+    /// Distance of the plane of a triangle with that corner, if it lies in the ray's interval up to `t_max`.
+    #[inline(always)]
+    pub(crate) fn hit_plane(&self, plane: &Plane, corner: Vec3, t_max: f32) -> Option<f32> {
+        let t = plane.distance(corner, self.origin, self.direction) as f32;
+        // Along the plane t may be infinite.
+        (self.accepts(t, t_max) && t.is_finite()).then_some(t)
+    }
+
+    /// Weights of the second and third vertex where the ray's line meets a triangle.
+    #[inline(always)]
+    pub(crate) fn weights(&self, vertices: &[Vec3; 3]) -> Vec2 {
+        let [u, v, w] = self.edges(vertices);
+        let inverse = 1.0 / (u + v + w);
+        Vec2::new((v * inverse) as f32, (w * inverse) as f32)
     }
 
     /// Roots as in Haines et al., "Precision Improvements for Ray/Sphere Intersection" (2019): the discriminant from the
     /// distance of the centre to the ray, which does not cancel for a small sphere far away. `[HGA19]`
-    fn hit_sphere(&self, centre: Vec3, radius: f32) -> Option<PrimitiveHit> {
+    #[inline(always)]
+    fn hit_sphere(&self, centre: Vec3, radius: f32, t_max: f32) -> Option<f32> {
         let f = self.ray.origin - centre;
         let d = self.ray.direction;
         let b = -f.dot(d);
@@ -126,18 +149,18 @@ impl ShearedRay {
         let c = (length - radius) * (length + radius);
         let (t0, t1) = (c / q, q);
         let (near, far) = (t0.min(t1), t0.max(t1));
-        let t = if self.accepts(near) { near } else { far };
-        self.accepts(t).then_some(PrimitiveHit { t, barycentric: Vec2::ZERO })
+        let t = if self.accepts(near, t_max) { near } else { far };
+        self.accepts(t, t_max).then_some(t)
     }
 
-    fn hit_disc(&self, centre: Vec3, normal: Vec3, radius: f32) -> Option<PrimitiveHit> {
+    fn hit_disc(&self, centre: Vec3, normal: Vec3, radius: f32, t_max: f32) -> Option<f32> {
         let t = (centre - self.ray.origin).dot(normal) / self.ray.direction.dot(normal);
-        let inside = self.accepts(t) && (self.ray.at(t) - centre).length_squared() <= radius * radius;
-        inside.then_some(PrimitiveHit { t, barycentric: Vec2::ZERO })
+        let inside = self.accepts(t, t_max) && (self.ray.at(t) - centre).length_squared() <= radius * radius;
+        inside.then_some(t)
     }
 
     /// In double precision: tubes are few, and their quadratic cancels like a sphere's.
-    fn hit_tube(&self, from: Vec3, axis: Vec3, radius: f32) -> Option<PrimitiveHit> {
+    fn hit_tube(&self, from: Vec3, axis: Vec3, radius: f32, t_max: f32) -> Option<f32> {
         let (o, d) = ((self.ray.origin - from).as_dvec3(), self.ray.direction.as_dvec3());
         let axis = axis.as_dvec3();
         let unit = axis.normalize();
@@ -152,23 +175,30 @@ impl ShearedRay {
         let far = -b - discriminant.sqrt().copysign(b);
         let mut roots = [far / a, c / far];
         roots.sort_by(f64::total_cmp);
-        let on_tube =
-            |t: &f64| self.accepts(*t as f32) && (0.0..=axis.length()).contains(&(o + d * *t).dot(unit));
+        let on_tube = |t: &f64| {
+            self.accepts(*t as f32, t_max) && (0.0..=axis.length()).contains(&(o + d * *t).dot(unit))
+        };
         let t = roots.into_iter().find(on_tube)?;
-        Some(PrimitiveHit { t: t as f32, barycentric: Vec2::ZERO })
+        Some(t as f32)
     }
 
-    fn accepts(&self, t: f32) -> bool {
-        t > self.ray.t_min && t <= self.ray.t_max
+    #[inline(always)]
+    fn accepts(&self, t: f32, t_max: f32) -> bool {
+        t > self.ray.t_min && t <= t_max
     }
 
-    /// The nearest point of the primitive on the ray, if any lies in the ray's interval.
-    pub(crate) fn hit(&self, primitive: &Primitive) -> Option<PrimitiveHit> {
+    /// Distance of the nearest point of a sphere, a disc or a tube in the ray's interval up to `t_max`.
+    #[inline(always)]
+    pub(crate) fn hit_other(&self, primitive: &Primitive, t_max: f32) -> Option<f32> {
         match primitive {
-            Primitive::Triangle(vertices) => self.hit_triangle(vertices),
-            Primitive::Sphere { centre, radius, .. } => self.hit_sphere(*centre, *radius),
-            Primitive::Disc { centre, normal, radius } => self.hit_disc(*centre, *normal, *radius),
-            Primitive::Tube { from, axis, radius } => self.hit_tube(*from, *axis, *radius),
+            // Quads hold triangles; this is for completeness.
+            Primitive::Triangle(vertices) if self.meets(vertices) => {
+                self.hit_plane(&Plane::new(*vertices), vertices[0], t_max)
+            }
+            Primitive::Triangle(_) => None,
+            Primitive::Sphere { centre, radius, .. } => self.hit_sphere(*centre, *radius, t_max),
+            Primitive::Disc { centre, normal, radius } => self.hit_disc(*centre, *normal, *radius, t_max),
+            Primitive::Tube { from, axis, radius } => self.hit_tube(*from, *axis, *radius, t_max),
         }
     }
 }

@@ -57,6 +57,7 @@ pub struct Scene {
 impl Scene {
     /// The nearest surface on a ray.
     #[must_use]
+    #[inline(always)]
     pub fn nearest(&self, ray: Ray) -> Option<Surface> {
         self.accel.nearest(ray).map(|hit| self.surface(&ray, &hit))
     }
@@ -67,10 +68,14 @@ impl Scene {
         self.accel.occluded(ray)
     }
 
+    #[inline(always)]
     fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
         let i = hit.primitive as usize;
         let primitive = &self.accel.primitives()[i];
-        let (position, error, normal) = locate(primitive, hit.barycentric, ray.at(hit.t));
+        let (position, error, normal) = match *primitive {
+            Primitive::Triangle(corners) => self.accel.plane(i).locate(corners, hit.barycentric),
+            _ => locate(primitive, hit.barycentric, ray.at(hit.t)),
+        };
         let mut surface = Surface {
             position,
             error,
@@ -95,6 +100,7 @@ impl Scene {
     /// How the surface scatters light on the side of `outward` (whether the light's direction is on the normal's side), with
     /// its colours looked up. `None`: that side is black.
     #[must_use]
+    #[inline(always)]
     pub fn scattering(&self, surface: &Surface, outward: bool) -> Option<Scattering> {
         let material = self.material(surface.shape);
         let front = outward || material.front.transmits();
@@ -122,6 +128,7 @@ impl Scene {
     /// The frame in which the surface's BSDF is stated, around `normal`: along texture coordinates where roughness differs
     /// along them.
     #[must_use]
+    #[inline(always)]
     pub fn shading_frame(&self, surface: &Surface, normal: Vec3) -> Frame {
         let frame = Frame::from_normal(normal);
         if !self.census.anisotropy || !self.material(surface.shape).is_anisotropic() {
@@ -181,6 +188,7 @@ impl Scene {
 
     /// The material of a shape.
     #[must_use]
+    #[inline]
     pub fn material(&self, shape: u32) -> &Material {
         &self.materials[self.shapes[shape as usize].material as usize]
     }

@@ -41,6 +41,7 @@ impl Surface {
     /// The offset is along the geometric normal and only as long as the error bound asks, so that a small object on a
     /// large floor keeps its contact. `[PBR16]` section 3.9
     #[must_use]
+    #[inline]
     pub fn ray_origin(&self, direction: Vec3) -> Vec3 {
         let distance = self.normal.abs().dot(self.error);
         self.position + self.normal * distance.copysign(direction.dot(self.normal))
@@ -52,13 +53,7 @@ impl Surface {
 /// `approximate` is the point on the ray; quadrics project it onto themselves, triangles interpolate instead.
 pub(crate) fn locate(primitive: &Primitive, barycentric: Vec2, approximate: Vec3) -> (Vec3, Vec3, Vec3) {
     match *primitive {
-        Primitive::Triangle([a, b, c]) => {
-            let corners = [a, b, c].map(Vec3::as_dvec3);
-            let (v, w) = (f64::from(barycentric.x), f64::from(barycentric.y));
-            let weights = off_edges([1.0 - v - w, v, w], &corners);
-            let position = (0..3).map(|i| corners[i] * weights[i]).sum::<DVec3>().as_vec3();
-            (position, position.abs() * TRIANGLE_ERROR, triangle_normal([a, b, c]).unwrap_or(Vec3::Z))
-        }
+        Primitive::Triangle(corners) => Plane::new(corners).locate(corners, barycentric),
         Primitive::Sphere { centre, radius, inward } => {
             let outward = (approximate - centre).normalize_or(Vec3::Z);
             let position = centre + outward * radius;
@@ -80,15 +75,56 @@ pub(crate) fn locate(primitive: &Primitive, barycentric: Vec2, approximate: Vec3
     }
 }
 
-/// A point's weights in a triangle, moved off its edges by twice the point's error.
-///
-/// Errors along the triangle would else put the point beyond the next face of a corner, and a closed box would lose the rays
-/// that start in its edges. In a triangle longer than [`SLENDER`] times its height the move is cut short.
-fn off_edges(weights: [f64; 3], [a, b, c]: &[DVec3; 3]) -> [f64; 3] {
-    let margin = 2.0 * f64::from(TRIANGLE_ERROR) * a.abs().max(b.abs()).max(c.abs()).max_element();
-    let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared()).sqrt();
-    let height = (b - a).cross(c - a).length() / longest;
-    let least = margin / height.max(longest / SLENDER);
-    let kept = weights.map(|w| w.max(least));
-    kept.map(|w| w / kept.iter().sum::<f64>())
+/// What locating a point on a triangle needs beside its corners, worked out beforehand.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Plane {
+    /// Twice the area, along the normal by winding.
+    area: DVec3,
+    /// Unit normal by winding.
+    normal: Vec3,
+    /// A point's weights are at least this.
+    ///
+    /// Errors along the triangle would else put a point beyond the next face of a corner, and a closed box would lose the rays
+    /// that start in its edges: points are moved off edges by twice their error. In a triangle longer than [`SLENDER`] times
+    /// its height the move is cut short.
+    least: f32,
+}
+
+impl Plane {
+    /// That of a triangle.
+    pub(crate) fn new(corners: [Vec3; 3]) -> Self {
+        let [a, b, c] = corners.map(Vec3::as_dvec3);
+        let margin = 2.0 * f64::from(TRIANGLE_ERROR) * a.abs().max(b.abs()).max(c.abs()).max_element();
+        let longest =
+            (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared()).sqrt();
+        let height = (b - a).cross(c - a).length() / longest;
+        let least = (margin / height.max(longest / SLENDER)) as f32;
+        let area = (b - a).cross(c - a);
+        let normal = triangle_normal(corners).unwrap_or(Vec3::Z);
+        Self { area, normal, least: least * (1.0 + f32::EPSILON) }
+    }
+
+    /// Where a line meets the plane through `corner`, in double precision: the sign is right for an origin just off a plane
+    /// whose corners are far away, where depths interpolated from the corners' are noise, and a line in the plane is seen to
+    /// be.
+    #[inline(always)]
+    pub(crate) fn distance(&self, corner: Vec3, origin: DVec3, direction: DVec3) -> f64 {
+        self.area.dot(corner.as_dvec3() - origin) / self.area.dot(direction)
+    }
+
+    /// Position, error bound and geometric normal of a point in the triangle.
+    #[inline(always)]
+    pub(crate) fn locate(&self, corners: [Vec3; 3], barycentric: Vec2) -> (Vec3, Vec3, Vec3) {
+        let (v, w) = (f64::from(barycentric.x), f64::from(barycentric.y));
+        let (mut u, mut v, mut w) = (1.0 - v - w, v, w);
+        let least = f64::from(self.least);
+        if u.min(v).min(w) < least {
+            (u, v, w) = (u.max(least), v.max(least), w.max(least));
+            let sum = u + v + w;
+            (u, v, w) = (u / sum, v / sum, w / sum);
+        }
+        let [a, b, c] = corners;
+        let position = (a.as_dvec3() * u + b.as_dvec3() * v + c.as_dvec3() * w).as_vec3();
+        (position, position.abs() * TRIANGLE_ERROR, self.normal)
+    }
 }

@@ -128,6 +128,7 @@ impl<C: Copy> Bsdf<C> {
     }
 
     /// The same BSDF with its colours replaced.
+    #[inline]
     pub fn map<D>(&self, mut f: impl FnMut(C) -> D) -> Bsdf<D> {
         match *self {
             Self::Diffuse { reflectance } => Bsdf::Diffuse { reflectance: f(reflectance) },
@@ -320,6 +321,7 @@ impl Scattering {
 
     /// Chooses a direction for a photon that came from `wo`; `None` where nothing is scattered.
     #[must_use]
+    #[inline(always)]
     pub fn sample(&self, wo: Vec3, transport: Transport, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
         let whole = Self { opacity: 1.0, ..*self };
         if self.opacity >= 1.0 {
@@ -331,6 +333,7 @@ impl Scattering {
         Some(BsdfSample { wi: -wo, weight: Rgb::WHITE, lobe: Lobe::Followed })
     }
 
+    #[inline(always)]
     fn sample_surface(&self, wo: Vec3, transport: Transport, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
         match self.bsdf {
             Bsdf::Diffuse { reflectance } => {
@@ -386,6 +389,7 @@ fn single(wi: Vec3, weight: Rgb) -> Option<FollowedLobe> {
 }
 
 /// Cosine-distributed on `wo`'s side.
+#[inline(always)]
 fn cosine(wo: Vec3, u: Vec2) -> Vec3 {
     let wi = warp::square_to_cosine_hemisphere(u);
     if wo.z < 0.0 { -wi } else { wi }
