@@ -1,9 +1,10 @@
-//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `bench`, `assets`, `pictures`.
+//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `assets`, `pictures`, `bench`.
 //!
 //! Nothing here is part of the program; what a task does is in the module of its name.
 #![allow(clippy::print_stdout, reason = "these tasks talk to the person who started them")]
 
 mod assets;
+mod bench;
 mod ci;
 mod conformance;
 mod pictures;
@@ -21,7 +22,8 @@ cargo xtask ci                      formatting, lints, documentation, then the t
 cargo xtask conformance [--quick]   the whole comparison with Mitsuba 3 (20 minutes and more), or the small one
 cargo xtask bench census            what leaving out parts of the renderer saves, as a table
 cargo xtask assets                  writes the generated meshes in assets/ again
-cargo xtask pictures                renders every scene in assets/ to docs/pictures (some minutes)";
+cargo xtask pictures                renders every scene in assets/ to docs/pictures (some minutes)
+cargo xtask bench                   whole runs of the benchmark box, stage by stage (some minutes)";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -42,6 +44,7 @@ fn main() -> ExitCode {
         ])),
         ["assets"] => assets::write_all(&tools::root().join("assets"))
             .map_err(|cause| Trouble::Failed(cause.to_string())),
+        ["bench"] => bench::all(),
         ["pictures"] => pictures::render_all(),
         _ => {
             eprintln!("{USAGE}");
