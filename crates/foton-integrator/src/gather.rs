@@ -47,6 +47,7 @@ pub(crate) struct Rule {
     pub(crate) alpha: Alpha,
     /// r² never falls below.
     pub(crate) smallest2: f64,
+    pub(crate) arch: Arch,
 }
 
 /// Light found by a packet's lanes.
@@ -67,7 +68,6 @@ pub(crate) fn all<const LAYERS: usize>(
 ) -> Tally {
     let shading = &hit_points.shading_normals;
     let (first_glossy, gloss_slots) = (hit_points.first_glossy, &hit_points.gloss_slots);
-    let arch = Arch::new();
     let tallies: Vec<Tally> = hit_points
         .packets
         .par_chunks_mut(BLOCK)
@@ -77,7 +77,7 @@ pub(crate) fn all<const LAYERS: usize>(
         .map(|(block, ((packets, statistics), irradiance))| {
             let first = block * BLOCK;
             let block = Block { first, first_glossy, packets, statistics, irradiance, shading, gloss_slots };
-            arch.dispatch(Gather { block, map, grid, rule })
+            rule.arch.dispatch(Gather { block, map, grid, rule })
         })
         .collect();
     tallies.into_iter().fold(Tally::default(), |a, b| Tally {
@@ -267,7 +267,7 @@ fn shading_factor(packet: &Packet, shading_normals: &[[f32; LANES]; 3], photon: 
 
 /// The quotient of two cosines: zero where their signs differ, never above what a floor of |ω·n_g| allows, and exactly 1 where
 /// they are the same.
-#[inline]
+#[inline(always)]
 fn cosine_ratio(shading: f32, geometric: f32) -> f32 {
     let ratio = shading / geometric;
     // Not a number where both are zero.

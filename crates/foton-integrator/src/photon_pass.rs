@@ -32,6 +32,7 @@ pub(crate) struct PhotonPass<'a> {
     pub(crate) direct_light: DirectLight,
     /// Whether any hit point asks where a photon came from.
     pub(crate) directions: bool,
+    pub(crate) arch: Arch,
     /// Longest whole path in edges; a photon path is at least one shorter.
     pub(crate) max_depth: u32,
     pub(crate) seed: u64,
@@ -89,7 +90,6 @@ impl PhotonPass<'_> {
     /// Emits and follows all photons of the pass into `chunks`, the same ones for any number of threads.
     pub(crate) fn shoot(&self, chunks: &mut Vec<Chunk>, cancel: &Cancel) -> Result<(), Cancelled> {
         chunks.resize_with(self.photons.div_ceil(CHUNK) as usize, Chunk::default);
-        let arch = Arch::new();
         chunks.par_iter_mut().enumerate().try_for_each(|(i, chunk)| {
             cancel.check()?;
             let first = i as u64 * CHUNK;
@@ -100,7 +100,7 @@ impl PhotonPass<'_> {
             chunk.lights.clear();
             chunk.lights.resize(self.scene.emitters().len(), LightUse::default());
             let range = first..self.photons.min(first + CHUNK);
-            arch.dispatch(Follow { pass: self, range, chunk });
+            self.arch.dispatch(Follow { pass: self, range, chunk });
             Ok(())
         })
     }

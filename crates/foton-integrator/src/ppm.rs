@@ -5,6 +5,7 @@ use std::sync::Arc;
 use foton_film::{Image, Layer, LayerData, Plane};
 use foton_math::{Purpose, Rgb};
 use foton_scene::Scene;
+use pulp::Arch;
 
 use crate::cancel::{Cancel, Cancelled};
 use crate::eye_pass::EyePass;
@@ -124,6 +125,8 @@ pub struct Ppm {
     last_photons: u64,
     changes: Vec<(u64, Change)>,
     start: Start,
+    /// The instruction set that photons and gather are compiled for. It changes no bit.
+    arch: Arch,
 }
 
 impl Ppm {
@@ -168,6 +171,7 @@ impl Ppm {
             last_photons: 0,
             changes: Vec::new(),
             start,
+            arch: Arch::new(),
         })
     }
 
@@ -193,6 +197,7 @@ impl Ppm {
         let rule = Rule {
             alpha: self.settings.alpha,
             smallest2: RadiusRule::new(&self.scene, self.settings.radius).smallest2(),
+            arch: self.arch,
         };
         let tally = self.light.gather(&mut self.hit_points, &self.map, &self.grid, rule);
         let mut rays: u64 = self.chunks.iter().map(|c| c.rays).sum();
@@ -220,6 +225,7 @@ impl Ppm {
             grid: &self.grid,
             direct_light: self.settings.direct_light,
             directions: self.hit_points.ask_for_directions(),
+            arch: self.arch,
             max_depth: Self::max_depth(&self.scene, &self.settings),
             seed: self.settings.seed,
             pass: self.passes,
@@ -409,3 +415,7 @@ impl Ppm {
             + self.shapes.len() * size_of::<u32>()
     }
 }
+
+#[cfg(test)]
+#[path = "instruction_sets.rs"]
+mod instruction_sets;
