@@ -10,7 +10,7 @@ use winit::dpi::LogicalSize;
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 use winit::window::{Window, WindowAttributes};
 
-use super::{UserEvent, WindowError};
+use super::{UserEvent, WindowError, reason};
 use crate::panels;
 use crate::present::Presenter;
 use crate::state::State;
@@ -40,7 +40,7 @@ impl Live {
             .with_inner_size(LogicalSize::new(width, height))
             .with_min_inner_size(LogicalSize::new(480.0, 360.0));
         let window = event_loop.create_window(attributes);
-        let window = Arc::new(window.map_err(|cause| WindowError::NoDisplay(cause.to_string()))?);
+        let window = Arc::new(window.map_err(|cause| WindowError::NoDisplay(reason(&cause)))?);
         let live = Self::draw_into(window, event_loop, proxy)?;
         live.window.set_visible(true);
         Ok(live)

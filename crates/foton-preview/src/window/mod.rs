@@ -67,6 +67,15 @@ impl From<egui_winit::accesskit_winit::Event> for UserEvent {
     }
 }
 
+/// What the system says, without the place in a library's source.
+fn reason(error: &impl std::fmt::Display) -> String {
+    let text = error.to_string();
+    match text.strip_prefix("os error at ").and_then(|rest| rest.split_once(": ")) {
+        Some((_, reason)) => reason.to_owned(),
+        None => text,
+    }
+}
+
 /// Opens the window and stays until it is closed.
 ///
 /// # Errors
@@ -76,7 +85,7 @@ pub fn run(options: Options) -> Result<(), WindowError> {
         |path: PathBuf| frame_log::FrameLog::create(&path).map_err(|cause| WindowError::Log { path, cause });
     let log = options.frame_log.map(create).transpose()?;
     let events = EventLoop::<UserEvent>::with_user_event().build();
-    let events = events.map_err(|cause| WindowError::NoDisplay(cause.to_string()))?;
+    let events = events.map_err(|cause| WindowError::NoDisplay(reason(&cause)))?;
     let proxy = events.create_proxy();
     let wake = proxy.clone();
     let setup = Setup {
@@ -95,7 +104,7 @@ pub fn run(options: Options) -> Result<(), WindowError> {
     app.finish();
     match (app.take_error(), ended) {
         (Some(error), _) => Err(error),
-        (None, Err(cause)) => Err(WindowError::NoDisplay(cause.to_string())),
+        (None, Err(cause)) => Err(WindowError::NoDisplay(reason(&cause))),
         (None, Ok(())) => Ok(()),
     }
 }
