@@ -26,6 +26,7 @@ mod radius;
 mod refine;
 mod sampling;
 mod settings;
+mod state;
 
 pub use cancel::{Cancel, Cancelled};
 pub use features::{Feature, features};
@@ -38,3 +39,4 @@ pub use photon::PathClass;
 pub use ppm::{PassReport, Ppm, Stage, Start};
 pub use refine::Statistics;
 pub use settings::{Alpha, Change, DirectLight, Settings};
+pub use state::StateError;

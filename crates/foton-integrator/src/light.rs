@@ -10,6 +10,7 @@ use crate::packet::LANES;
 use crate::photon::PathClass;
 use crate::photon_map::PhotonMap;
 use crate::radiance::Radiance;
+use crate::state::{Reader, StateError, Writer};
 use crate::{direct_light, settings::Settings};
 
 /// Light of one pass at the hit points, and of all passes in the pixels.
@@ -32,6 +33,14 @@ impl<const LAYERS: usize> Sums<LAYERS> {
             irradiance_slots: vec![[Rgb::BLACK; LAYERS]; hit_points.packets.len() * LANES],
             radiance: Radiance::new(emission, samples),
         }
+    }
+
+    pub(crate) fn write(&self, out: &mut Writer) {
+        self.radiance.write(out);
+    }
+
+    pub(crate) fn read(&mut self, input: &mut Reader<'_>) -> Result<(), StateError> {
+        self.radiance.read(input)
     }
 
     fn bytes(&self) -> usize {

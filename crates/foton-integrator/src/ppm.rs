@@ -385,6 +385,43 @@ impl Ppm {
             .collect()
     }
 
+    pub(crate) fn set_progress(
+        &mut self,
+        passes: u64,
+        photons_emitted: u64,
+        last_photons: u64,
+        changes: Vec<(u64, Change)>,
+    ) {
+        (self.passes, self.photons_emitted, self.last_photons) = (passes, photons_emitted, last_photons);
+        self.changes = changes;
+    }
+
+    pub(crate) const fn settings_mut(&mut self) -> &mut Settings {
+        &mut self.settings
+    }
+
+    pub(crate) const fn ledger_mut(&mut self) -> &mut Ledger {
+        &mut self.ledger
+    }
+
+    pub(crate) fn lights_mut(&mut self) -> &mut [LightUse] {
+        &mut self.lights
+    }
+
+    pub(crate) const fn hit_points_mut(&mut self) -> &mut HitPoints {
+        &mut self.hit_points
+    }
+
+    pub(crate) const fn light_mut(&mut self) -> &mut Light {
+        &mut self.light
+    }
+
+    /// Marks cells for discs as they are now.
+    pub(crate) fn mark_all_cells(&mut self) {
+        self.grid.mark(&self.hit_points.packets);
+        self.marked_radius2 = f64::INFINITY;
+    }
+
     pub(crate) const fn hit_points(&self) -> &HitPoints {
         &self.hit_points
     }

@@ -4,6 +4,7 @@ use foton_math::Rgb;
 use rayon::prelude::*;
 
 use crate::hit_point::{HitPoints, Irradiance};
+use crate::state::{Reader, StateError, Writer};
 
 /// Pixels that one task looks after.
 const BLOCK: usize = 1024;
@@ -78,6 +79,25 @@ impl<const LAYERS: usize> Radiance<LAYERS> {
         let channel = |c: usize| sums.iter().map(|s| s[c]).sum::<f64>() * scale;
         let e = emission.to_array();
         Rgb::from_array([0, 1, 2].map(|c| (f64::from(e[c]) + channel(c)) as f32))
+    }
+
+    pub(crate) fn write(&self, out: &mut Writer) {
+        for (sums, last) in self.sums.iter().zip(&self.last) {
+            sums.iter().flatten().for_each(|&sum| out.f64(sum));
+            last.iter().for_each(|&last| out.rgb(last));
+        }
+    }
+
+    pub(crate) fn read(&mut self, input: &mut Reader<'_>) -> Result<(), StateError> {
+        for (sums, last) in self.sums.iter_mut().zip(&mut self.last) {
+            for sum in sums.iter_mut().flatten() {
+                *sum = input.f64()?;
+            }
+            for last in last {
+                *last = input.rgb()?;
+            }
+        }
+        Ok(())
     }
 
     /// Bytes held.

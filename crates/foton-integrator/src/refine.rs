@@ -6,6 +6,7 @@
 //! radii freeze in silence.
 
 use crate::settings::Alpha;
+use crate::state::{Reader, StateError, Writer};
 
 /// What a hit point has seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +45,16 @@ impl Statistics {
     #[must_use]
     pub const fn is_unknown(&self) -> bool {
         self.found == 0
+    }
+
+    pub(crate) fn write(&self, out: &mut Writer) {
+        out.f64(self.kept);
+        out.f64(self.radius2);
+        out.u64(self.found);
+    }
+
+    pub(crate) fn read(input: &mut Reader<'_>) -> Result<Self, StateError> {
+        Ok(Self { kept: input.f64()?, radius2: input.f64()?, found: input.u64()? })
     }
 
     /// Takes a pass into account that found `photons` within the radius. `smallest2` bounds r² from below; returns whether it

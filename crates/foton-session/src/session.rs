@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use foton_integrator::{Cancel, Cancelled, MemoryEstimate, PassReport, Ppm, Settings};
+use foton_integrator::{Cancel, Cancelled, MemoryEstimate, PassReport, Ppm, Settings, StateError};
 use foton_scene::Scene;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use thiserror::Error;
@@ -131,6 +131,14 @@ impl Session {
         let report = report?;
         self.rays += report.rays;
         Ok(report)
+    }
+
+    /// Takes a render's state back, with the time and rays that it took.
+    pub(crate) fn restore(&mut self, state: &[u8], elapsed: Duration, rays: u64) -> Result<(), StateError> {
+        self.ppm.restore(state)?;
+        self.elapsed = elapsed;
+        self.rays = rays;
+        Ok(())
     }
 
     /// The render.

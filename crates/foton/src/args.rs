@@ -142,6 +142,16 @@ pub(crate) struct Render {
     /// Also write OUT-000016.exr and so on, at powers of two or every N passes
     #[arg(long, value_name = "pow2|N")]
     pub(crate) every: Option<Every>,
+    /// Keep the state of the render in this file, every so often and when it ends or is interrupted
+    #[arg(long, value_name = "FILE")]
+    pub(crate) checkpoint: Option<PathBuf>,
+    /// How often, e.g. 30s, 10m
+    #[arg(long, value_name = "TIME", default_value = "30s", value_parser = duration, requires = "checkpoint")]
+    pub(crate) checkpoint_every: Duration,
+    /// Go on from a checkpoint of the same scene and settings, with the same bits as without a break; --passes and --time count
+    /// from its beginning
+    #[arg(long, value_name = "FILE")]
+    pub(crate) resume: Option<PathBuf>,
     /// Layers to put into an EXR: direct, caustic, indirect, emission, radius, photon_count, shape_id
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = layer)]
     pub(crate) layers: Vec<LayerKind>,

@@ -1,16 +1,16 @@
 //! `foton render`: one scene to one image, and to more on the way.
 
 use std::num::NonZeroU32;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
 use foton_film::check_writable;
 use foton_format::{Opened, Options};
-use foton_integrator::{Alpha, Cancelled, LayerKind, Settings};
+use foton_integrator::{Alpha, Cancelled, LayerKind, Ppm, Settings};
 use foton_scene::Scene;
 use foton_session::snapshot::{self, Format};
-use foton_session::{Interrupt, SceneIdentity, Session, StartError, StopRule};
+use foton_session::{Interrupt, SceneIdentity, Session, StartError, StopRule, checkpoint};
 
 use crate::args::{Render, Size};
 use crate::memory;
@@ -23,6 +23,7 @@ const DEFAULT_TIME: Duration = Duration::from_secs(60);
 pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
     let (path, format) = &args.output;
     check_writable(path)?;
+    args.checkpoint.as_deref().map_or(Ok(()), check_writable)?;
     let options = Options { defines: args.defines.clone() };
     let opened = foton_format::open(&args.scene, &options).map_err(Failure::Open)?;
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -58,6 +59,12 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
     let interrupt = interrupt_on_signals(talk);
     talk.begin();
     let mut session = Session::start(scene, settings, args.threads.map(usize::from), interrupt.cancel())?;
+    if let Some(checkpoint) = &args.resume {
+        checkpoint::resume(checkpoint, &mut session, &identity)?;
+        let passes = session.ppm().passes();
+        talk.line(&format!("going on from {} after {passes} passes", checkpoint.display()));
+    }
+    let mut keeper = Keeper::new(args, session.elapsed());
     let layers = if *format == Format::Exr { &args.layers[..] } else { &[] };
     let mut outputs = Vec::new();
     session.run(&rule, &interrupt, &mut |progress| {
@@ -67,9 +74,39 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
             snapshot::write(&path, *format, progress.ppm, layers, &identity)?;
             outputs.push(path.display().to_string());
         }
+        if keeper.is_due(progress.elapsed) {
+            keeper.keep(progress.ppm, progress.elapsed, progress.rays, &identity, talk);
+        }
         Ok::<_, Failure>(())
     })?;
+    keeper.keep(session.ppm(), session.elapsed(), session.rays(), &identity, talk);
     finish(&session, &[(path.clone(), *format)], layers, &identity, outputs, talk)
+}
+
+/// Writes checkpoints when they are due.
+struct Keeper<'a> {
+    path: Option<&'a Path>,
+    every: Duration,
+    last: Duration,
+}
+
+impl<'a> Keeper<'a> {
+    fn new(args: &'a Render, elapsed: Duration) -> Self {
+        Self { path: args.checkpoint.as_deref(), every: args.checkpoint_every, last: elapsed }
+    }
+
+    fn is_due(&self, elapsed: Duration) -> bool {
+        self.path.is_some() && elapsed - self.last >= self.every
+    }
+
+    /// Writes one, if they were asked for. One that cannot be written is a warning: the render goes on.
+    fn keep(&mut self, ppm: &Ppm, elapsed: Duration, rays: u64, scene: &SceneIdentity, talk: &Talk) {
+        let Some(path) = self.path.filter(|_| ppm.passes() > 0) else { return };
+        self.last = elapsed;
+        if let Err(error) = checkpoint::write(path, ppm, elapsed, rays, scene) {
+            talk.warning(&format!("no checkpoint: {error}"));
+        }
+    }
 }
 
 /// Builds the scene, at another size if one is asked for, and says what its file got wrong.

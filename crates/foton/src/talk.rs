@@ -8,6 +8,7 @@ use foton_format::{Diagnostic, OpenError};
 use foton_integrator::{DirectLight, Ledger, Ppm};
 use foton_measure::CompareError;
 use foton_scene::BuildError;
+use foton_session::checkpoint::ResumeError;
 use foton_session::{Progress, Session, StartError, StopRule};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
@@ -29,6 +30,7 @@ pub(crate) enum Failure {
         known: Vec<String>,
     },
     Start(StartError),
+    Resume(ResumeError),
     Write(WriteError),
     Read(ReadError),
     #[cfg(feature = "window")]
@@ -55,6 +57,7 @@ impl fmt::Display for Failure {
                 write!(f, "the scene has no sensor \"{asked}\"; it has \"{}\"", known.join("\", \""))
             }
             Self::Start(cause) => cause.fmt(f),
+            Self::Resume(cause) => cause.fmt(f),
             Self::Write(cause) => cause.fmt(f),
             Self::Read(cause) => cause.fmt(f),
             #[cfg(feature = "window")]
@@ -73,6 +76,12 @@ impl From<WriteError> for Failure {
 impl From<ReadError> for Failure {
     fn from(cause: ReadError) -> Self {
         Self::Read(cause)
+    }
+}
+
+impl From<ResumeError> for Failure {
+    fn from(cause: ResumeError) -> Self {
+        Self::Resume(cause)
     }
 }
 

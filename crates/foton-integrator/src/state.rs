@@ -1,0 +1,174 @@
+//! The state of a render as bytes: all that passes have changed. What the start of a render makes anew, bit for bit, is not in it.
+
+use std::num::NonZeroU32;
+
+use foton_math::Rgb;
+use thiserror::Error;
+
+use crate::ledger::Ledger;
+use crate::light::Light;
+use crate::light_use::LightUse;
+use crate::packet::LANES;
+use crate::ppm::Ppm;
+use crate::refine::Statistics;
+use crate::settings::{Alpha, Change};
+
+/// Why bytes are no state of a render.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+pub enum StateError {
+    /// They end too early, or go on.
+    #[error("the state of the render is {0} bytes too short or too long")]
+    Length(i64),
+    /// They are of another scene, or of other settings.
+    #[error("the state of the render is of another scene or of other settings")]
+    OtherRender,
+    /// A number that no render can have.
+    #[error("the state of the render holds a value that cannot be")]
+    Impossible,
+}
+
+/// Little-endian numbers, appended.
+#[derive(Default)]
+pub(crate) struct Writer(Vec<u8>);
+
+impl Writer {
+    pub(crate) fn u64(&mut self, value: u64) {
+        self.0.extend_from_slice(&value.to_le_bytes());
+    }
+
+    pub(crate) fn f64(&mut self, value: f64) {
+        self.u64(value.to_bits());
+    }
+
+    pub(crate) fn rgb(&mut self, colour: Rgb) {
+        for channel in colour.to_array() {
+            self.0.extend_from_slice(&channel.to_le_bytes());
+        }
+    }
+}
+
+/// The same numbers in the same order.
+pub(crate) struct Reader<'a>(&'a [u8]);
+
+impl Reader<'_> {
+    fn take<const N: usize>(&mut self) -> Result<[u8; N], StateError> {
+        let (head, tail) =
+            self.0.split_first_chunk::<N>().ok_or(StateError::Length(self.0.len() as i64 - N as i64))?;
+        self.0 = tail;
+        Ok(*head)
+    }
+
+    pub(crate) fn u64(&mut self) -> Result<u64, StateError> {
+        Ok(u64::from_le_bytes(self.take()?))
+    }
+
+    pub(crate) fn f64(&mut self) -> Result<f64, StateError> {
+        Ok(f64::from_bits(self.u64()?))
+    }
+
+    pub(crate) fn rgb(&mut self) -> Result<Rgb, StateError> {
+        let mut channel = || self.take().map(f32::from_le_bytes);
+        Ok(Rgb::from_array([channel()?, channel()?, channel()?]))
+    }
+
+    /// A count that must be what this render has.
+    fn expect(&mut self, count: usize) -> Result<(), StateError> {
+        if self.u64()? == count as u64 { Ok(()) } else { Err(StateError::OtherRender) }
+    }
+}
+
+impl Ppm {
+    /// All that passes have changed. [`Ppm::restore`] takes it back into a render that was started with the same scene and
+    /// settings, and the passes after that give the same bits as if there had been no break.
+    #[must_use]
+    pub fn state(&self) -> Vec<u8> {
+        let mut out = Writer::default();
+        out.u64(self.passes());
+        out.u64(self.photons_emitted());
+        out.u64(self.photons_in_last_pass());
+        let settings = self.settings();
+        out.f64(settings.alpha.get());
+        out.u64(settings.photons_per_pass.get().into());
+        out.u64(self.changes().len() as u64);
+        for (pass, change) in self.changes() {
+            let (kind, bits) = match change {
+                Change::Alpha(alpha) => (0, alpha.get().to_bits()),
+                Change::PhotonsPerPass(photons) => (1, photons.get().into()),
+            };
+            [*pass, kind, bits].into_iter().for_each(|n| out.u64(n));
+        }
+        let ledger = self.ledger();
+        let sums = [ledger.emitted, ledger.absorbed, ledger.escaped, ledger.roulette, ledger.truncated];
+        sums.into_iter().for_each(|sum| out.f64(sum));
+        out.f64(ledger.shading_normals);
+        out.u64(ledger.dropped);
+        out.u64(self.light_use().len() as u64);
+        for light in self.light_use() {
+            out.u64(light.emitted);
+            out.u64(light.reached);
+        }
+        let statistics = &self.hit_points().statistics_slots;
+        out.u64(statistics.len() as u64);
+        statistics.iter().for_each(|s| s.write(&mut out));
+        match self.light() {
+            Light::Whole(sums) => sums.write(&mut out),
+            Light::ByClass(sums) => sums.write(&mut out),
+        }
+        out.0
+    }
+
+    /// Takes a [`Ppm::state`] back. After an error the render is not to be used.
+    ///
+    /// # Errors
+    /// When the bytes are no state, or that of another render; see [`StateError`].
+    pub fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
+        let mut input = Reader(state);
+        let passes = input.u64()?;
+        let (emitted, last) = (input.u64()?, input.u64()?);
+        let alpha = Alpha::new(input.f64()?).ok_or(StateError::Impossible)?;
+        let photons = nonzero(input.u64()?)?;
+        let changes = (0..input.u64()?).map(|_| change(&mut input)).collect::<Result<_, _>>()?;
+        self.set_progress(passes, emitted, last, changes);
+        self.settings_mut().alpha = alpha;
+        self.settings_mut().photons_per_pass = photons;
+        let ledger = self.ledger_mut();
+        let Ledger { emitted, absorbed, escaped, roulette, truncated, shading_normals, dropped } = ledger;
+        for sum in [emitted, absorbed, escaped, roulette, truncated, shading_normals] {
+            *sum = input.f64()?;
+        }
+        *dropped = input.u64()?;
+        input.expect(self.light_use().len())?;
+        for light in self.lights_mut() {
+            *light = LightUse { emitted: input.u64()?, reached: input.u64()? };
+        }
+        let hit_points = self.hit_points_mut();
+        input.expect(hit_points.statistics_slots.len())?;
+        for (slot, statistics) in hit_points.statistics_slots.iter_mut().enumerate() {
+            *statistics = Statistics::read(&mut input)?;
+            hit_points.packets[slot / LANES].radius2[slot % LANES] = statistics.radius2() as f32;
+        }
+        match self.light_mut() {
+            Light::Whole(sums) => sums.read(&mut input)?,
+            Light::ByClass(sums) => sums.read(&mut input)?,
+        }
+        if !input.0.is_empty() {
+            return Err(StateError::Length(input.0.len() as i64));
+        }
+        self.mark_all_cells();
+        Ok(())
+    }
+}
+
+fn nonzero(n: u64) -> Result<NonZeroU32, StateError> {
+    u32::try_from(n).ok().and_then(NonZeroU32::new).ok_or(StateError::Impossible)
+}
+
+fn change(input: &mut Reader<'_>) -> Result<(u64, Change), StateError> {
+    let (pass, kind, bits) = (input.u64()?, input.u64()?, input.u64()?);
+    let change = match kind {
+        0 => Change::Alpha(Alpha::new(f64::from_bits(bits)).ok_or(StateError::Impossible)?),
+        1 => Change::PhotonsPerPass(nonzero(bits)?),
+        _ => return Err(StateError::Impossible),
+    };
+    Ok((pass, change))
+}

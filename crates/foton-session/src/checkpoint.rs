@@ -1,0 +1,176 @@
+//! Checkpoints: a render's state in a file, from which it goes on with the same bits as if it had never stopped.
+//!
+//! Layout, little-endian: 8 bytes of magic, version (u32), hash of scene and settings (u64), nanoseconds of rendering (u64), rays
+//! (u64), length of the state (u64), the state as zstd, and a hash of all bytes before (u64). What the start of a render makes
+//! anew is not in it: hit points are collected again.
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use foton_film::{WriteError, atomic_write};
+use foton_integrator::{DirectLight, Ppm, StateError};
+use thiserror::Error;
+
+use crate::metadata::SceneIdentity;
+use crate::session::Session;
+
+const MAGIC: [u8; 8] = *b"fotonPPM";
+const VERSION: u32 = 1;
+const HEADER: usize = 8 + 4 + 4 * 8;
+const TRAILER: usize = 8;
+
+/// zstd's own middle: states hardly shrink any further above it.
+const COMPRESSION: i32 = 3;
+
+/// Why a checkpoint cannot be taken up.
+#[derive(Debug, Error)]
+pub enum ResumeError {
+    /// The file cannot be read.
+    #[error("{path}: {cause}", path = path.display())]
+    Read {
+        /// Its path.
+        path: PathBuf,
+        /// What the system says.
+        cause: std::io::Error,
+    },
+    /// It is none.
+    #[error("{path}: this is no checkpoint of foton", path = path.display())]
+    NoCheckpoint {
+        /// Its path.
+        path: PathBuf,
+    },
+    /// It is of another version.
+    #[error("{path}: a checkpoint of version {found}; this foton reads version {VERSION}", path = path.display())]
+    Version {
+        /// Its path.
+        path: PathBuf,
+        /// Its version.
+        found: u32,
+    },
+    /// Its hash is not that of its bytes.
+    #[error("{path}: the checkpoint is damaged", path = path.display())]
+    Damaged {
+        /// Its path.
+        path: PathBuf,
+    },
+    /// The scene or a setting is another.
+    #[error(
+        "{path}: the checkpoint is of another scene or of other settings: scene, size, eye samples, radius, direct light, depth, \
+         seed, sensor and layers must be the same",
+        path = path.display()
+    )]
+    OtherRender {
+        /// Its path.
+        path: PathBuf,
+    },
+    /// Its state makes no sense, although its hash is right.
+    #[error("{path}: {cause}", path = path.display())]
+    State {
+        /// Its path.
+        path: PathBuf,
+        /// What is wrong.
+        cause: StateError,
+    },
+}
+
+/// Writes a render as it stands, with the time and the rays that it has taken; the file that was there before stays whole until the new one is.
+///
+/// # Errors
+/// [`WriteError`] with the path.
+pub fn write(
+    path: &Path,
+    ppm: &Ppm,
+    elapsed: Duration,
+    rays: u64,
+    scene: &SceneIdentity,
+) -> Result<(), WriteError> {
+    let state = ppm.state();
+    let nanoseconds = u64::try_from(elapsed.as_nanos()).unwrap_or(u64::MAX);
+    atomic_write(path, |file| {
+        let packed = zstd::bulk::compress(&state, COMPRESSION)?;
+        let mut bytes = Vec::with_capacity(HEADER + packed.len() + TRAILER);
+        bytes.extend_from_slice(&MAGIC);
+        bytes.extend_from_slice(&VERSION.to_le_bytes());
+        for number in [identity(ppm, scene), nanoseconds, rays, state.len() as u64] {
+            bytes.extend_from_slice(&number.to_le_bytes());
+        }
+        bytes.extend_from_slice(&packed);
+        bytes.extend_from_slice(&hash(&bytes).to_le_bytes());
+        file.write_all(&bytes)
+    })
+}
+
+/// Takes a checkpoint up in a render that was started with the same scene and settings. α and photons a pass come from the
+/// checkpoint.
+///
+/// # Errors
+/// When the file is no checkpoint of this render; see [`ResumeError`]. The session is then not to be used.
+pub fn resume(path: &Path, session: &mut Session, scene: &SceneIdentity) -> Result<(), ResumeError> {
+    let owned = || path.to_owned();
+    let bytes = std::fs::read(path).map_err(|cause| ResumeError::Read { path: owned(), cause })?;
+    let damaged = || ResumeError::Damaged { path: owned() };
+    if !bytes.starts_with(&MAGIC) {
+        return Err(ResumeError::NoCheckpoint { path: owned() });
+    }
+    if bytes.len() < HEADER + TRAILER {
+        return Err(damaged());
+    }
+    let number = |at: usize| {
+        let field = bytes.get(at..at + 8).and_then(|b| b.try_into().ok());
+        field.map_or(0, u64::from_le_bytes)
+    };
+    let found = number(8) as u32;
+    if found != VERSION {
+        return Err(ResumeError::Version { path: owned(), found });
+    }
+    let (content, trailer) = bytes.split_at(bytes.len() - TRAILER);
+    if hash(content).to_le_bytes() != trailer {
+        return Err(damaged());
+    }
+    if number(12) != identity(session.ppm(), scene) {
+        return Err(ResumeError::OtherRender { path: owned() });
+    }
+    let expected = session.ppm().state().len() as u64;
+    let length = number(36);
+    // Each change of a setting takes 24 bytes; no render has so many that the state grows eightfold.
+    if length > 8 * expected.max(1 << 20) {
+        return Err(damaged());
+    }
+    let state = zstd::bulk::decompress(&content[HEADER..], length as usize).map_err(|_| damaged())?;
+    session
+        .restore(&state, Duration::from_nanos(number(20)), number(28))
+        .map_err(|cause| ResumeError::State { path: owned(), cause })
+}
+
+/// A hash of the scene and of all settings that must be the same.
+fn identity(ppm: &Ppm, scene: &SceneIdentity) -> u64 {
+    let s = ppm.settings();
+    let sensor = &ppm.scene().sensors()[s.sensor];
+    let direct = s.direct_light == DirectLight::ShadowRays;
+    let mut text = String::new();
+    // Writing to a string does not fail.
+    let _ = write!(
+        text,
+        "{:016x} {} {} {} {:?} {} {} {direct} {} {} {} {} {}",
+        scene.hash,
+        sensor.name,
+        sensor.width,
+        sensor.height,
+        s.radius.map(f64::to_bits),
+        s.samples_per_pixel,
+        s.first_pass,
+        Ppm::max_depth(ppm.scene(), s),
+        s.seed,
+        s.hit_points_per_sample,
+        s.layers,
+        ppm.start_report().hit_points,
+    );
+    hash(text.as_bytes())
+}
+
+/// FNV-1a, 64 bits.
+fn hash(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
+}
