@@ -32,8 +32,8 @@ fn main() {
         (sensor.width, sensor.height) = (256, 256);
     }
     let none = Census::default();
-    let plain =
-        Settings { photons_per_pass: NonZeroU32::new(1 << 17).expect("above 0"), ..Settings::default() };
+    let settings =
+        || Settings { photons_per_pass: NonZeroU32::new(1 << 17).expect("above 0"), ..Settings::default() };
     let plain = settings();
     let shadow_rays = Settings { direct_light: DirectLight::ShadowRays, ..settings() };
     let layers = Settings { layers: true, ..settings() };

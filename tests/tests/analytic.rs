@@ -11,6 +11,7 @@ use foton_tests::{Sketch, glass, grey, mean, mean_and_sigma, seeds};
 fn settings(photons: u32, seed: u64) -> Settings {
     Settings {
         photons_per_pass: NonZeroU32::new(photons).expect("above 0"),
+        first_pass: NonZeroU32::new(photons).expect("above 0"),
         samples_per_pixel: NonZeroU32::MIN,
         seed,
         ..Settings::default()

@@ -48,6 +48,7 @@ fn scene() -> Sketch {
 fn settings(direct_light: DirectLight) -> Settings {
     Settings {
         photons_per_pass: NonZeroU32::new(30_001).expect("above 0"),
+        first_pass: NonZeroU32::new(30_001).expect("above 0"),
         samples_per_pixel: NonZeroU32::new(3).expect("above 0"),
         direct_light,
         layers: true,

@@ -37,6 +37,7 @@ fn plastic(roughness: Option<f32>) -> Bsdf {
 fn settings(photons: u32) -> Settings {
     Settings {
         photons_per_pass: NonZeroU32::new(photons).expect("above 0"),
+        first_pass: NonZeroU32::new(photons).expect("above 0"),
         samples_per_pixel: NonZeroU32::new(4).expect("above 0"),
         ..Settings::default()
     }

@@ -10,6 +10,7 @@ use foton_tests::{Sketch, glass, grey};
 fn settings() -> Settings {
     Settings {
         photons_per_pass: NonZeroU32::new(400_000).expect("above 0"),
+        first_pass: NonZeroU32::new(400_000).expect("above 0"),
         samples_per_pixel: NonZeroU32::MIN,
         ..Settings::default()
     }
