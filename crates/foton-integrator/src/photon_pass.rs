@@ -9,7 +9,7 @@ use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 use crate::cancel::{Cancel, Cancelled};
-use crate::eye_pass::{leaves_wrongly, shading_normal_towards};
+use crate::eye_pass::{leaves_wrongly, on_the_right_side, shading_normal_towards};
 use crate::grid::Grid;
 use crate::ledger::{Ledger, energy, lost};
 use crate::light_use::LightUse;
@@ -172,7 +172,8 @@ impl PhotonPass<'_> {
         let scattered = flight.power * sample.weight;
         let direction = frame.to_outer(sample.wi).normalize();
         let reflects = sample.wi.z * local.z > 0.0;
-        let correction = if leaves_wrongly(surface, wo, direction, reflects) {
+        let followed = sample.lobe == Lobe::Followed;
+        let correction = if !followed && leaves_wrongly(surface, wo, direction, reflects) {
             0.0
         } else if sample.wi == -local {
             // Straight on, as if there were no surface.
@@ -192,10 +193,12 @@ impl PhotonPass<'_> {
             return None;
         }
         let power = roulette(corrected, flight.power, numbers.next_1d(), &mut chunk.ledger)?;
+        let direction =
+            if followed { on_the_right_side(surface, wo, direction, reflects) } else { direction };
         Some(Flight {
             ray: Ray::new(surface.ray_origin(direction), direction),
             power,
-            class: flight.class.scattered(sample.lobe == Lobe::Followed),
+            class: flight.class.scattered(followed),
             edges: flight.edges + 1,
         })
     }

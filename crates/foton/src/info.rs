@@ -1,8 +1,12 @@
 //! `foton info`: what a scene contains, what that switches on, and what a render of it would take.
 
+use std::num::NonZeroU32;
+use std::sync::Arc;
+
 use foton_format::Options;
-use foton_integrator::{Feature, Settings, features};
+use foton_integrator::{Cancel, Feature, Ppm, Settings, features};
 use foton_scene::Scene;
+use foton_scene::description::SceneDescription;
 use foton_session::Session;
 use serde_json::{Value, json};
 
@@ -10,12 +14,17 @@ use crate::args::Info;
 use crate::job::{build, choose_sensor};
 use crate::talk::{Failure, Talk};
 
+/// Longest side, in pixels, of the picture that tells what each emitter's photons are good for.
+const PROBE_SIZE: u32 = 64;
+const PROBE_PHOTONS: NonZeroU32 = NonZeroU32::new(1 << 14).expect("above 0");
+
 /// Runs `foton info`.
 pub(crate) fn print(args: &Info, talk: &Talk) -> Result<(), Failure> {
     let options = Options { defines: args.defines.clone() };
     let opened = foton_format::open(&args.scene, &options).map_err(Failure::Open)?;
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
+    let probed = opened.description.clone();
     let (scene, identity) = build(opened, &name, None, talk)?;
     let settings = Settings { sensor, ..Settings::default() };
     if args.json {
@@ -25,7 +34,35 @@ pub(crate) fn print(args: &Info, talk: &Talk) -> Result<(), Failure> {
             talk.out(&line);
         }
     }
+    if let Some(probe) = probe(probed, &settings) {
+        talk.check_lights(&probe);
+    }
     Ok(())
+}
+
+/// One pass of few photons at few pixels; `None` where nothing emits light.
+fn probe(mut description: SceneDescription, settings: &Settings) -> Option<Ppm> {
+    for sensor in &mut description.sensors {
+        let longest = f64::from(sensor.width.max(sensor.height));
+        let shrunk = |side: u32| (f64::from(side) * f64::from(PROBE_SIZE) / longest).ceil().max(1.0) as u32;
+        if longest > f64::from(PROBE_SIZE) {
+            sensor.resize(shrunk(sensor.width), shrunk(sensor.height));
+        }
+    }
+    let scene = Scene::build(&description).ok()?;
+    if scene.emitters().is_empty() {
+        return None;
+    }
+    let settings = Settings {
+        samples_per_pixel: NonZeroU32::MIN,
+        first_pass: PROBE_PHOTONS,
+        photons_per_pass: PROBE_PHOTONS,
+        ..settings.clone()
+    };
+    let cancel = Cancel::default();
+    let mut ppm = Ppm::start(Arc::new(scene), settings, &mut |_| {}, &cancel).ok()?;
+    ppm.advance(&mut |_| {}, &cancel).ok()?;
+    Some(ppm)
 }
 
 fn as_json(scene: &Scene, settings: &Settings, name: &str, hash: u64) -> Value {
