@@ -166,12 +166,16 @@ fn a_mirror_whose_normals_lean_too_far_swallows_no_light() {
         texture_coordinates: Vec::new(),
         triangles: vec![[0, 1, 2], [0, 2, 3]],
     };
-    let mirror = Sketch::default().camera(from, DVec3::ZERO, 4.0, 8).shape(
-        Geometry::Mesh(Arc::new(plane)),
-        DAffine3::IDENTITY,
-        Bsdf::Mirror { reflectance: WHITE },
-        None,
-    );
+    // What goes on below the mirror meets black.
+    let mirror = Sketch::default()
+        .camera(from, DVec3::ZERO, 4.0, 8)
+        .rectangle(-0.2 * DVec3::Y, DVec3::Z * 9.0, DVec3::X * 9.0, grey(0.0), None)
+        .shape(
+            Geometry::Mesh(Arc::new(plane)),
+            DAffine3::IDENTITY,
+            Bsdf::Mirror { reflectance: WHITE },
+            None,
+        );
     let lit_by = |kind: EmitterKind| {
         let mut sketch = mirror.clone();
         sketch.0.emitters.push(EmitterDescription { name: "light".into(), kind });
