@@ -1,0 +1,145 @@
+//! Cameras and edits through the engine: what moves answers small and quick, what is undone has the same bits as before.
+
+use foton_film::Image;
+use foton_session::StopRule;
+use foton_session::edit::{DragMode, FieldId, Property, Side, Target, Value};
+use foton_session::engine::{Activity, Change, Command, Frame, Gesture};
+
+use crate::rig::{BALL, Folder, Rig, SIZE, image};
+
+fn edit(rig: &Rig, change: Change) {
+    rig.send(Command::Edit(change));
+}
+
+/// The whole picture of another render than that of `before`.
+#[track_caller]
+fn whole(rig: &Rig, before: &Frame) -> Frame {
+    rig.until("the whole picture", |f| f.render != before.render && f.activity == Activity::Done)
+}
+
+/// Pixels that differ.
+fn differing(a: &Image, b: &Image) -> usize {
+    a.pixels.iter().zip(&b.pixels).filter(|(a, b)| a != b).count()
+}
+
+#[test]
+fn a_moving_camera_gives_small_pictures_then_the_whole() {
+    let (rig, before) = Rig::at_pass(2);
+    rig.send(Command::Camera { gesture: Gesture::Orbit { yaw: 0.2, pitch: 0.1 }, moving: true });
+    let moving = rig.until("a move", |f| {
+        f.activity == Activity::Moving && f.render != before.render && f.numbers.passes > 0
+    });
+    let [width, height] = moving.picture.as_ref().expect("a picture").size();
+    assert!(width < SIZE[0] && height < SIZE[1], "{width} × {height}");
+    assert_eq!(moving.size, SIZE, "the image keeps its size");
+    rig.send(Command::Moving(false));
+    let after = whole(&rig, &before);
+    assert_eq!(after.picture.as_ref().expect("a picture").size(), SIZE);
+    assert!(differing(&image(&before), &image(&after)) > 1000);
+    assert!(after.scene.is_edited && after.scene.sensors[0].xml != before.scene.sensors[0].xml);
+    rig.send(Command::Camera { gesture: Gesture::FieldOfView(30.0), moving: false });
+    let near = whole(&rig, &after);
+    assert!((near.scene.sensors[0].fov_degrees - 30.0).abs() < 1e-9);
+    rig.send(Command::ResetCamera);
+    let back = whole(&rig, &near);
+    assert_eq!(image(&back), image(&before));
+    assert!(!back.scene.is_edited);
+}
+
+#[test]
+fn a_drag_changes_the_picture_and_undoing_it_brings_the_same_bits_back() {
+    let (rig, before) = Rig::at_pass(2);
+    rig.send(Command::Choose(Some(BALL)));
+    let chosen = rig.until("a choice", |f| f.selection.is_some());
+    let selection = chosen.selection.expect("just seen");
+    assert_eq!((selection.target, selection.inspection.title.as_str()), (Target::Shape(1), "ball"));
+    assert!(!selection.outline.is_empty());
+    assert_eq!(chosen.render, before.render, "choosing starts nothing anew");
+
+    edit(&rig, Change::BeginDrag { film: BALL, mode: DragMode::Horizontal });
+    edit(&rig, Change::DragTo([BALL[0] + 25.0, BALL[1]]));
+    let moving = rig.until("the move", |f| f.activity == Activity::Moving && f.numbers.passes > 0);
+    assert_ne!(moving.selection.expect("kept").outline, selection.outline);
+    edit(&rig, Change::EndDrag([BALL[0] + 25.0, BALL[1] + 2.0]));
+    let after = whole(&rig, &before);
+    assert!(differing(&image(&before), &image(&after)) > 500);
+    assert!(after.scene.is_edited && after.scene.undo.as_ref().is_some_and(|name| name.contains("ball")));
+
+    edit(&rig, Change::Undo);
+    let undone = whole(&rig, &after);
+    assert_eq!(image(&undone), image(&before));
+    assert_eq!(undone.selection.expect("kept").outline, selection.outline);
+    edit(&rig, Change::Redo);
+    let redone = rig.until("it again", |f| f.render != undone.render && f.activity == Activity::Done);
+    assert_eq!(image(&redone), image(&after));
+}
+
+#[test]
+fn a_drag_that_is_called_off_leaves_no_step() {
+    let (rig, before) = Rig::at_pass(2);
+    rig.send(Command::Choose(Some(BALL)));
+    edit(&rig, Change::BeginDrag { film: BALL, mode: DragMode::Vertical });
+    edit(&rig, Change::DragTo([BALL[0], BALL[1] - 20.0]));
+    rig.until("the move", |f| {
+        f.activity == Activity::Moving && f.render != before.render && f.numbers.passes > 0
+    });
+    edit(&rig, Change::CancelDrag);
+    let after = whole(&rig, &before);
+    assert_eq!(image(&after), image(&before));
+    assert_eq!((after.scene.undo.clone(), after.scene.is_edited), (None, false));
+}
+
+#[test]
+fn a_field_that_is_dragged_is_one_step_and_a_saved_scene_is_unedited() {
+    let folder = Folder::new("save");
+    let (rig, before) = Rig::at_pass(1);
+    rig.send(Command::Choose(Some(BALL)));
+    let field = FieldId::Material(Side::Front, Property::InsideIor);
+    for (ior, done) in [(1.8, false), (2.0, false), (2.4, true)] {
+        edit(&rig, Change::SetField { field, value: Value::Number(ior), done });
+    }
+    edit(&rig, Change::Nudge { steps: [1.0, 0.0], mode: DragMode::Horizontal });
+    let ior = |f: &Frame| {
+        let fields = &f.selection.as_ref().expect("kept").inspection.fields;
+        fields.iter().find(|f| f.id == field).map(|f| f.value).expect("glass has one")
+    };
+    let is = |value, ior: f64| matches!(value, Value::Number(v) if (v - ior).abs() < 1e-6);
+    let after = whole(&rig, &before);
+    assert!(is(ior(&after), 2.4), "{:?}", ior(&after));
+    let path = folder.0.join("edited.xml");
+    rig.send(Command::SaveScene(path.clone()));
+    assert_eq!(rig.saved(), [path.clone()]);
+    rig.until("it saved", |f| !f.scene.is_edited);
+    assert_eq!(std::fs::read_to_string(&path).expect("written"), "Some(42) 2");
+    edit(&rig, Change::Undo);
+    edit(&rig, Change::Undo);
+    let undone = rig.until("two steps back", |f| f.scene.undo.is_none() && f.activity == Activity::Done);
+    assert!(is(ior(&undone), 1.5), "{:?}", ior(&undone));
+    assert_eq!(image(&undone), image(&before));
+}
+
+#[test]
+fn what_was_asked_to_be_written_is_written_before_the_end() {
+    let folder = Folder::new("finish");
+    let rig = Rig::new(crate::rig::settings(), None);
+    rig.open("room");
+    rig.until("a pass", |f| f.activity == Activity::Rendering);
+    rig.send(Command::Snapshot(folder.0.clone()));
+    rig.engine.finish_writing();
+    let there = |name: &str| folder.0.join(name).exists();
+    assert!(there("foton-001.exr") && there("foton-001.png"));
+}
+
+#[test]
+fn a_choice_beside_everything_chooses_nothing_and_starts_nothing_anew() {
+    let (rig, before) = Rig::at_pass(1);
+    rig.send(Command::Choose(Some(BALL)));
+    rig.until("a choice", |f| f.selection.is_some());
+    rig.send(Command::Choose(None));
+    let frame = rig.until("no choice", |f| f.selection.is_none());
+    assert_eq!(frame.render, before.render);
+    edit(&rig, Change::DragTo([0.0, 0.0]));
+    edit(&rig, Change::Undo);
+    rig.send(Command::StopAt(StopRule::passes(2)));
+    assert_eq!(rig.done(2).render, before.render, "edits of nothing are none");
+}

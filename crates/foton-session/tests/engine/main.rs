@@ -1,0 +1,232 @@
+//! The engine as a window steers it: commands in, frames and events out. Scenes are made in code; what is compared is bits.
+
+mod edits;
+mod rig;
+
+use std::num::NonZeroU32;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use foton_session::engine::{Activity, Command, Configuration, Event, Picture, Shown};
+use foton_session::snapshot::{self, Format};
+use foton_session::{Alpha, Change, DirectLight, Settings, StopRule};
+use rig::{Folder, Rig, SIZE, headless, identity, image, settings};
+
+fn alpha(alpha: f64) -> Alpha {
+    Alpha::new(alpha).expect("an alpha")
+}
+
+#[test]
+fn a_scene_opens_and_frames_come_until_the_stop_rule() {
+    let rig = Rig::new(settings(), None);
+    rig.send(Command::StopAt(StopRule::passes(3)));
+    rig.open("room");
+    let opened = rig.hear("of the scene", |event| match event {
+        Event::Opened { name, warnings } => Some((name.clone(), warnings.len())),
+        _ => None,
+    });
+    assert_eq!(opened, ("room.xml".to_owned(), 1));
+    let frame = rig.done(3);
+    assert_eq!((frame.size, frame.scene.shapes), (SIZE, 2));
+    assert_eq!(frame.numbers.photons, 4096 + 2 * 8192, "passes grow to what was asked for");
+    assert_eq!(*image(&frame), headless(3, settings(), |_, _| ()).ppm().image());
+    // More may be asked for, and time is a rule, too; there is always one pass.
+    rig.send(Command::StopAt(StopRule::passes(5)));
+    assert_eq!(rig.done(5).render, frame.render);
+    rig.send(Command::StopAt(StopRule::time(Duration::from_nanos(1))));
+    rig.send(Command::Restart);
+    let again = rig.done(1);
+    assert_ne!(again.render, frame.render);
+}
+
+#[test]
+fn alpha_and_photons_change_at_the_next_pass_of_the_same_render() {
+    let (rig, before) = Rig::at_pass(2);
+    let photons = NonZeroU32::new(20_000).expect("not zero");
+    let changes = [Change::Alpha(alpha(0.25)), Change::PhotonsPerPass(photons)];
+    for change in changes {
+        rig.send(Command::Steer(change));
+    }
+    rig.send(Command::StopAt(StopRule::passes(4)));
+    let after = rig.done(4);
+    assert_eq!(after.render, before.render);
+    assert_eq!((after.settings.alpha, after.settings.photons_per_pass), (alpha(0.25), photons));
+    let steered = headless(4, settings(), |pass, session| {
+        if pass == 2 {
+            changes.into_iter().for_each(|change| session.ppm_mut().change(change));
+        }
+    });
+    assert_eq!(*image(&after), steered.ppm().image());
+    assert_ne!(
+        *image(&after),
+        headless(4, settings(), |_, _| ()).ppm().image(),
+        "the changes change something"
+    );
+}
+
+#[test]
+fn a_configuration_starts_anew() {
+    let (rig, before) = Rig::at_pass(2);
+    let configuration = Configuration {
+        seed: 5,
+        direct_light: DirectLight::ShadowRays,
+        radius: Some(0.125),
+        threads: Some(1),
+        ..Configuration::of(&before.settings, before.threads)
+    };
+    rig.send(Command::Configure(configuration.clone()));
+    let after = rig.until("another render", |f| f.render != before.render && f.activity == Activity::Done);
+    assert_eq!(Configuration::of(&after.settings, after.threads), configuration);
+    let asked =
+        Settings { seed: 5, direct_light: DirectLight::ShadowRays, radius: Some(0.125), ..settings() };
+    assert_eq!(*image(&after), headless(2, asked, |_, _| ()).ppm().image());
+}
+
+#[test]
+fn a_render_pauses_steps_and_goes_on() {
+    let rig = Rig::new(settings(), None);
+    rig.open("room");
+    rig.until("a pass", |f| f.activity == Activity::Rendering && f.numbers.passes > 1);
+    rig.send(Command::Pause);
+    let paused = rig.until("the pause", |f| f.activity == Activity::Paused);
+    let passes = paused.numbers.passes;
+    // Whatever makes it draw again, no pass comes.
+    rig.send(Command::Probe(Some([3, 4])));
+    let probed = rig.until("the probe", |f| f.probe.is_some());
+    assert_eq!((probed.activity, probed.numbers.passes), (Activity::Paused, passes));
+    for step in 1..=2 {
+        rig.send(Command::Step);
+        let stepped = rig.until("a step", |f| f.activity == Activity::Paused && f.numbers.passes > passes);
+        assert_eq!(stepped.numbers.passes, passes + step);
+    }
+    rig.send(Command::Resume);
+    let on = rig.until("it going on", |f| f.activity == Activity::Rendering && f.numbers.passes > passes + 3);
+    assert_eq!(on.render, paused.render);
+}
+
+#[test]
+fn a_snapshot_is_the_file_that_a_headless_render_writes() {
+    let folder = Folder::new("snapshot");
+    let (rig, _) = Rig::at_pass(3);
+    rig.send(Command::Snapshot(folder.0.clone()));
+    rig.send(Command::Snapshot(folder.0.clone()));
+    let names = |stem: &str| ["exr", "png"].map(|e| folder.0.join(stem).with_extension(e)).to_vec();
+    assert_eq!(rig.saved(), names("foton-001"));
+    assert_eq!(rig.saved(), names("foton-002"), "nothing is written over");
+    let session = headless(3, settings(), |_, _| ());
+    for (extension, format) in [("exr", Format::Exr), ("png", Format::Png)] {
+        let expected = folder.0.join("expected").with_extension(extension);
+        snapshot::write(&expected, format, session.ppm(), &[], &identity()).expect("written");
+        let read = |path: PathBuf| std::fs::read(path).expect("it is there");
+        assert_eq!(read(folder.0.join("foton-001").with_extension(extension)), read(expected), "{extension}");
+    }
+    rig.send(Command::Snapshot(folder.0.join("nowhere")));
+    assert!(rig.failure().contains("nowhere"));
+}
+
+#[test]
+fn snapshots_come_by_themselves_at_powers_of_two() {
+    let folder = Folder::new("powers");
+    let rig = Rig::new(settings(), None);
+    rig.send(Command::AutoSnapshots(Some(folder.0.clone())));
+    rig.send(Command::StopAt(StopRule::passes(5)));
+    rig.open("room");
+    for pass in [1, 2, 4] {
+        assert_eq!(rig.saved()[0], folder.0.join(format!("room-{pass:06}.exr")));
+    }
+    rig.done(5);
+    assert_eq!(std::fs::read_dir(&folder.0).expect("there").count(), 6);
+}
+
+#[test]
+fn a_scene_that_fails_leaves_the_last_one_running() {
+    let rig = Rig::new(settings(), None);
+    rig.open("room");
+    let before = rig.until("a pass", |f| f.activity == Activity::Rendering);
+    rig.open("ruin");
+    assert_eq!(rig.failure(), "ruin:3:7: there is no such scene");
+    let after =
+        rig.until("more passes", |f| f.numbers.passes > before.numbers.passes + 1 && f.opening.is_none());
+    assert_eq!((after.render, &after.scene.name), (before.render, &before.scene.name));
+}
+
+#[test]
+fn opening_can_be_called_off_and_passes_go_on_meanwhile() {
+    let rig = Rig::new(settings(), None);
+    rig.open("room");
+    rig.until("a pass", |f| f.activity == Activity::Rendering);
+    rig.open("slow");
+    let opening = rig.until("the opening", |f| f.opening.as_deref() == Some("slow"));
+    let later = rig.until("more passes", |f| f.numbers.passes > opening.numbers.passes);
+    rig.send(Command::CancelOpen);
+    let off = rig.until("it called off", |f| f.opening.is_none());
+    rig.go.send(()).expect("it waits");
+    let after = rig.until("more passes", |f| f.numbers.passes > off.numbers.passes + 1);
+    assert_eq!((after.render, after.opening), (later.render, None));
+}
+
+#[test]
+fn renders_that_would_not_fit_are_refused_and_smaller_ones_are_not() {
+    let rig = Rig::new(settings(), Some(1e4));
+    rig.open("room");
+    let text = rig.failure();
+    assert!(text.contains("MiB may be used"), "{text}");
+}
+
+#[test]
+fn measures_and_kinds_of_light_are_shown_instead_of_radiance() {
+    let (rig, before) = Rig::at_pass(2);
+    for shown in [Shown::Radius, Shown::PhotonCount, Shown::Luminance, Shown::Unknown] {
+        rig.send(Command::Show(shown));
+        let frame = rig.until("a measure", |f| f.shown == shown);
+        let Some(Picture::Measure { plane, .. }) = &frame.picture else { panic!("{shown:?} in colours") };
+        assert!(plane.values.iter().any(|v| *v > 0.0), "{shown:?}");
+        assert_eq!(frame.render, before.render);
+    }
+    let layers = Configuration { layers: true, ..Configuration::of(&before.settings, before.threads) };
+    rig.send(Command::Configure(layers));
+    let one = |i: usize| Shown::Classes { reflected: std::array::from_fn(|k| k == i), emission: false };
+    let mut sum = vec![0.0; image(&before).pixels.len()];
+    for i in 0..3 {
+        rig.send(Command::Show(one(i)));
+        let frame = rig.until("a kind of light", |f| f.shown == one(i) && f.activity == Activity::Done);
+        let kind = image(&frame);
+        assert!(i == 2 || kind.pixels.iter().any(|c| c.luminance() > 0.0), "kind {i}");
+        sum.iter_mut().zip(&kind.pixels).for_each(|(s, c)| *s += f64::from(c.luminance()));
+    }
+    for (s, c) in sum.iter().zip(&image(&before).pixels) {
+        let all = f64::from(c.luminance());
+        assert!((s - all).abs() <= 1e-4 * all.max(1e-3), "{s} is not {all}");
+    }
+}
+
+#[test]
+fn the_probe_says_what_the_picture_shows() {
+    let (rig, _) = Rig::at_pass(2);
+    rig.send(Command::ShowPhotons(true));
+    let floor = [90, 110];
+    rig.send(Command::Probe(Some(floor)));
+    let frame = rig.until("the probe", |f| f.probe.is_some() && !f.dots.is_empty());
+    let probe = frame.probe.as_ref().expect("asked for");
+    let index = floor[1] as usize * SIZE[0] as usize + floor[0] as usize;
+    assert_eq!(probe.radiance, image(&frame).pixels[index]);
+    assert_eq!(probe.surface, Some(("floor".to_owned(), "grey".to_owned())));
+    assert!(probe.hit_points == 1 && probe.disc.len() > 8 && probe.radius.is_some_and(|r| r > 0.0));
+    rig.send(Command::Probe(Some([9999, 0])));
+    rig.until("nothing outside", |f| f.probe.is_none());
+}
+
+#[test]
+fn dropping_the_engine_ends_its_thread_without_the_pass_under_way() {
+    let long = NonZeroU32::new(1 << 22).expect("not zero");
+    let rig = Rig::new(Settings { photons_per_pass: long, first_pass: long, ..settings() }, None);
+    rig.open("room");
+    // The small picture is there, and the first whole pass, of seconds, has begun or is about to.
+    rig.until("first light", |f| f.activity == Activity::Collecting && f.picture.is_some());
+    let Rig { engine, thread, .. } = rig;
+    let frames = engine.frames().clone();
+    drop(engine);
+    let last = std::iter::from_fn(|| frames.recv_timeout(Duration::from_secs(120)).ok()).last();
+    assert!(thread.try_recv().is_err_and(|e| e == crossbeam_channel::TryRecvError::Disconnected));
+    assert!(last.is_none_or(|f| f.activity == Activity::Collecting), "the pass was finished first");
+}
