@@ -138,6 +138,8 @@ pub(crate) struct State {
     pub(crate) adapter: String,
     /// Texels along the side of the adapter's largest texture.
     pub(crate) largest_texture: u32,
+    /// Someone asked for the end.
+    pub(crate) wants_to_close: bool,
     /// A configuration that is being edited and was not sent yet.
     pub(crate) draft: Option<Configuration>,
 }
@@ -170,6 +172,7 @@ impl State {
             places: Vec::new(),
             adapter: String::new(),
             largest_texture: 8192,
+            wants_to_close: false,
             draft: None,
         }
     }

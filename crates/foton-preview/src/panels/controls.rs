@@ -6,7 +6,7 @@ use std::time::Duration;
 use foton_session::engine::{Command, Configuration, Gesture};
 use foton_session::{Alpha, Change, DirectLight, Settings, StopRule};
 
-use super::heading;
+use super::{heading, slider};
 use crate::state::State;
 
 pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
@@ -27,26 +27,25 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
 
 fn steer(ui: &mut egui::Ui, state: &mut State, settings: &Settings) {
     let mut alpha = settings.alpha.get();
-    let slider = ui.add(egui::Slider::new(&mut alpha, 0.01..=1.0).text("α").max_decimals(3).smart_aim(false));
-    state.place("alpha", &slider);
-    let slider = slider.on_hover_text(
+    let response = ui.add(slider(&mut alpha, 0.01..=1.0).text("α").max_decimals(3).smart_aim(false));
+    state.place("alpha", &response);
+    let response = response.on_hover_text(
         "Share of new photons that each hit point keeps, from above 0 to 1. Small: radii shrink fast, so blur goes and noise stays. \
          Large: smooth, but the blur of the radius stays longer. 2/3 lets both fall together. Costs no time.",
     );
-    if slider.changed()
+    if response.changed()
         && let Some(alpha) = Alpha::new(alpha)
     {
         state.steer(Change::Alpha(alpha));
     }
     let mut photons = settings.photons_per_pass.get();
-    let slider =
-        ui.add(egui::Slider::new(&mut photons, 1 << 10..=1 << 24).logarithmic(true).text("photons a pass"));
-    state.place("photons per pass", &slider);
-    let slider = slider.on_hover_text(
+    let response = ui.add(slider(&mut photons, 1 << 10..=1 << 24).logarithmic(true).text("photons a pass"));
+    state.place("photons per pass", &response);
+    let response = response.on_hover_text(
         "Photons traced in each pass, 1 024 to 16 777 216. Fewer: the picture answers sooner. More: less overhead for each photon, \
          and radii shrink by fewer, better-founded steps.",
     );
-    if slider.changed()
+    if response.changed()
         && let Some(photons) = NonZeroU32::new(photons)
     {
         state.steer(Change::PhotonsPerPass(photons));
@@ -57,22 +56,25 @@ fn stop_rule(ui: &mut egui::Ui, state: &mut State, rule: StopRule) {
     let mut new = rule;
     ui.horizontal(|ui| {
         let mut on = rule.passes.is_some();
-        ui.checkbox(&mut on, "after");
+        let label = ui.checkbox(&mut on, "after passes");
         let mut passes = rule.passes.unwrap_or(64);
-        let value = ui
-            .add_enabled(on, egui::DragValue::new(&mut passes).range(1..=1_000_000_000u64).suffix(" passes"));
-        value.on_hover_text("Pauses after so many passes; Resume with a higher number goes on");
+        let value = ui.add_enabled(on, egui::DragValue::new(&mut passes).range(1..=1_000_000_000u64));
+        value
+            .labelled_by(label.id)
+            .on_hover_text("Pauses after so many passes; Resume with a higher number goes on");
         new.passes = on.then_some(passes);
     });
     ui.horizontal(|ui| {
         let mut on = rule.time.is_some();
-        ui.checkbox(&mut on, "after ");
+        let label = ui.checkbox(&mut on, "after time");
         let mut seconds = rule.time.map_or(60.0, |t| t.as_secs_f64());
         let value = ui.add_enabled(
             on,
             egui::DragValue::new(&mut seconds).range(0.1..=1e7).speed(0.5).max_decimals(1).suffix(" s"),
         );
-        value.on_hover_text("Pauses after so much rendering; a pass that would end later is not begun");
+        value
+            .labelled_by(label.id)
+            .on_hover_text("Pauses after so much rendering; a pass that would end later is not begun");
         new.time = on.then(|| Duration::from_secs_f64(seconds));
     });
     if new != rule {
@@ -96,11 +98,7 @@ fn anew(ui: &mut egui::Ui, state: &mut State, settings: &Settings, threads: Opti
         );
     });
     let mut samples = draft.samples_per_pixel.get();
-    let value = ui.add(
-        egui::Slider::new(&mut samples, 1..=64)
-            .text("hit points a pixel")
-            .clamping(egui::SliderClamping::Edits),
-    );
+    let value = ui.add(slider(&mut samples, 1..=64).text("hit points a pixel"));
     hold(&value);
     value.on_hover_text(
         "Eye samples a pixel, 1 to 64. More: smoother edges and gloss. Memory and gathering grow with it.",
@@ -108,7 +106,7 @@ fn anew(ui: &mut egui::Ui, state: &mut State, settings: &Settings, threads: Opti
     draft.samples_per_pixel = NonZeroU32::new(samples).unwrap_or(NonZeroU32::MIN);
     ui.horizontal(|ui| {
         let mut own = draft.radius.is_some();
-        ui.checkbox(&mut own, "first radius").on_hover_text(
+        let label = ui.checkbox(&mut own, "first radius").on_hover_text(
             "Off: from each pixel's footprint. Large: smooth and blurred at first; small: sharp and noisy",
         );
         let start = state.frame.as_ref().map_or(1.0, |f| f.numbers.radii.median).max(1e-9);
@@ -118,6 +116,7 @@ fn anew(ui: &mut egui::Ui, state: &mut State, settings: &Settings, threads: Opti
             own,
             egui::DragValue::new(&mut radius).range(1e-9..=1e9).speed(speed).suffix(" world units"),
         );
+        let value = value.labelled_by(label.id);
         hold(&value);
         draft.radius = own.then_some(radius);
     });
@@ -165,12 +164,12 @@ fn camera(ui: &mut egui::Ui, state: &mut State, sensor: usize) {
         return;
     };
     let mut degrees = fov;
-    let slider = ui
-        .add(egui::Slider::new(&mut degrees, 1.0..=170.0).text("field of view").suffix("°").max_decimals(1));
-    if slider.changed() {
-        state.ask(Command::Camera { gesture: Gesture::FieldOfView(degrees), moving: slider.dragged() });
+    let response =
+        ui.add(slider(&mut degrees, 1.0..=170.0).text("field of view").suffix("°").max_decimals(1));
+    if response.changed() {
+        state.ask(Command::Camera { gesture: Gesture::FieldOfView(degrees), moving: response.dragged() });
     }
-    if slider.drag_stopped() {
+    if response.drag_stopped() {
         state.ask(Command::Moving(false));
     }
     if ui.button("Reset camera").on_hover_text("Back to where the scene's file has it (H)").clicked() {
@@ -178,9 +177,10 @@ fn camera(ui: &mut egui::Ui, state: &mut State, sensor: usize) {
     }
     heading(ui, "Snapshots");
     ui.horizontal(|ui| {
-        ui.label("Folder");
+        let label = ui.label("Folder");
         let mut edited = state.preferences.snapshot_folder.display().to_string();
         let field = ui.add(egui::TextEdit::singleline(&mut edited).desired_width(180.0));
+        let field = field.labelled_by(label.id);
         if field.changed() {
             state.preferences.snapshot_folder = edited.into();
         }

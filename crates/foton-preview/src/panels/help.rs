@@ -2,7 +2,7 @@
 
 use crate::state::State;
 
-const KEYS: [(&str, &str); 22] = [
+const KEYS: [(&str, &str); 23] = [
     ("drag", "turn the camera"),
     ("Shift+drag, right drag", "move the camera across"),
     ("wheel", "camera nearer, farther"),
@@ -24,6 +24,7 @@ const KEYS: [(&str, &str); 22] = [
     ("1 … 5", "radiance, luminance, radius, photons, none yet"),
     ("Ctrl+O", "open a scene"),
     ("Ctrl+S", "save the edited scene"),
+    ("Ctrl+Q", "close the window"),
     ("?", "this list"),
 ];
 

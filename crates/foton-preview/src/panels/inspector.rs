@@ -3,7 +3,7 @@
 use foton_session::edit::{Control, Field, Value};
 use foton_session::engine::{Change, Command};
 
-use super::heading;
+use super::{heading, slider};
 use crate::state::State;
 
 pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
@@ -65,13 +65,13 @@ fn show_field(ui: &mut egui::Ui, state: &mut State, field: &Field) {
     };
     match (&field.control, field.value) {
         (Control::Number { min, max, logarithmic }, Value::Number(value)) => {
-            let mut number = value;
+            // What is nothing but rounding is no negative number.
+            let mut number = if value.abs() < 1e-12 { 0.0 } else { value };
             let unit = if field.unit.is_empty() { String::new() } else { format!(" {}", field.unit) };
             let response = if *logarithmic {
-                let slider = egui::Slider::new(&mut number, *min..=*max).logarithmic(true).suffix(unit);
-                ui.add(slider.text(field.label))
+                ui.add(slider(&mut number, *min..=*max).logarithmic(true).suffix(unit).text(field.label))
             } else if max - min <= 1000.0 {
-                ui.add(egui::Slider::new(&mut number, *min..=*max).suffix(unit).text(field.label))
+                ui.add(slider(&mut number, *min..=*max).suffix(unit).text(field.label))
             } else {
                 let response = ui.horizontal(|ui| {
                     let label = ui.label(field.label);

@@ -21,11 +21,12 @@ pub(super) fn obey(ui: &egui::Ui, state: &mut State) {
     if pressed(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z) || pressed(Modifiers::COMMAND, Key::Y) {
         state.ask(Command::Edit(Change::Redo));
     }
-    let with_command: [(Key, Act); 4] = [
+    let with_command: [(Key, Act); 5] = [
         (Key::Z, |s| s.ask(Command::Edit(Change::Undo))),
         (Key::R, |s| s.ask(Command::Restart)),
         (Key::O, open_dialog),
         (Key::S, save_dialog),
+        (Key::Q, |s| s.wants_to_close = true),
     ];
     for (key, act) in with_command {
         if pressed(Modifiers::COMMAND, key) {

@@ -11,6 +11,9 @@ mod numbers;
 mod overlay;
 mod toolbar;
 
+#[cfg(test)]
+mod tests;
+
 use foton_session::engine::Command;
 
 use crate::files::Outcome;
@@ -61,6 +64,11 @@ fn heading(ui: &mut egui::Ui, text: &str) {
     ui.add_space(8.0);
     ui.label(egui::RichText::new(text).strong());
     ui.add_space(2.0);
+}
+
+/// A slider that leaves a value alone until someone moves it: one that rounds or clamps what it shows would steer by itself.
+fn slider<N: egui::emath::Numeric>(value: &mut N, range: std::ops::RangeInclusive<N>) -> egui::Slider<'_> {
+    egui::Slider::new(value, range).clamping(egui::SliderClamping::Edits)
 }
 
 /// A number with thousands set apart: `12 345 678`.

@@ -129,14 +129,16 @@ fn view(ui: &mut egui::Ui, state: &mut State) {
     });
     list.response.labelled_by(label.id);
     if matches!(state.shown, Shown::Radiance | Shown::Classes { .. }) {
+        let label = ui.label("Exposure");
         let exposure = ui.add(
             egui::Slider::new(&mut state.exposure_stops, -8.0..=8.0)
-                .text("Exposure")
                 .suffix(" stops")
                 .step_by(0.1)
                 .clamping(egui::SliderClamping::Never),
         );
-        exposure.on_hover_text("Each stop doubles the light on the screen; nothing is rendered anew");
+        exposure
+            .labelled_by(label.id)
+            .on_hover_text("Each stop doubles the light on the screen; nothing is rendered anew");
         let label = ui.label("Tone");
         let list =
             egui::ComboBox::from_id_salt("tone").selected_text(state.tone_map.name()).show_ui(ui, |ui| {

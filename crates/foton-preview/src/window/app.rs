@@ -141,6 +141,16 @@ impl App {
         self.watched = Some((file, changed));
     }
 
+    fn close(&mut self, event_loop: &ActiveEventLoop) {
+        if event_loop.exiting() {
+            return;
+        }
+        if let Some(log) = &mut self.log {
+            log.closing();
+        }
+        event_loop.exit();
+    }
+
     fn open_window(&mut self, event_loop: &ActiveEventLoop) {
         let opened = match self.live.take() {
             None => Live::open(event_loop, &self.proxy, &self.state),
@@ -202,14 +212,15 @@ impl ApplicationHandler<UserEvent> for App {
         let Some(live) = &mut self.live else { return };
         let response = live.egui.on_window_event(&live.window, &event);
         match event {
-            WindowEvent::CloseRequested => {
-                if let Some(log) = &mut self.log {
-                    log.closing();
+            // Some close windows without asking.
+            WindowEvent::CloseRequested | WindowEvent::Destroyed => return self.close(event_loop),
+            WindowEvent::RedrawRequested => {
+                self.draw();
+                if self.state.wants_to_close {
+                    self.close(event_loop);
                 }
-                event_loop.exit();
                 return;
             }
-            WindowEvent::RedrawRequested => return self.draw(),
             WindowEvent::Resized(size) => {
                 live.resize(size.width, size.height);
                 let size = size.to_logical(live.window.scale_factor());

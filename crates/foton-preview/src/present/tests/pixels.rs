@@ -97,18 +97,19 @@ fn pictures_of_other_sizes_and_kinds_replace_each_other() {
 
 #[test]
 fn a_picture_larger_than_textures_may_be_is_shown_reduced_and_in_place() {
-    // Where a device takes 64 texels, 150 pixels become 50: each texel is a mean of nine, and a pixel of the screen is one texel.
-    const LARGEST: u32 = 64;
-    let pixels: Vec<Rgb> = (0..150 * 31).map(unlike_neighbours).collect();
-    let picture = rgb(150, pixels.clone());
-    let mut screen = Screen::with_largest_texture([50, 11], LARGEST);
-    let view = View { image_rect: rect(0.0, 0.0, 50.0, 31.0 / 3.0), ..plain(1, 1) };
+    // Where a device takes 256 texels, as many as the colour map has, 600 pixels become 200: each texel is a mean of nine, and a
+    // pixel of the screen is one texel.
+    const LARGEST: u32 = 256;
+    let pixels: Vec<Rgb> = (0..600 * 31).map(unlike_neighbours).collect();
+    let picture = rgb(600, pixels.clone());
+    let mut screen = Screen::with_largest_texture([200, 11], LARGEST);
+    let view = View { image_rect: rect(0.0, 0.0, 200.0, 31.0 / 3.0), ..plain(1, 1) };
     let shown = screen.draw(&view, &picture, None);
     assert_eq!(reduction(picture.size(), LARGEST), 3);
-    for (i, found) in shown.into_iter().take(500).enumerate() {
-        let (x, y) = (3.0 * (i % 50) as f32, 3.0 * (i / 50) as f32);
-        assert_shows(found, mean_over(&pixels, 150, [x, y, x + 3.0, y + 3.0]), (x, y));
+    for (i, found) in shown.into_iter().take(2000).enumerate() {
+        let (x, y) = (3.0 * (i % 200) as f32, 3.0 * (i / 200) as f32);
+        assert_shows(found, mean_over(&pixels, 600, [x, y, x + 3.0, y + 3.0]), (x, y));
     }
-    assert_eq!(reduction([64, 64], LARGEST), 1);
-    assert_eq!(reduction([65, 1], LARGEST), 2);
+    assert_eq!(reduction([256, 256], LARGEST), 1);
+    assert_eq!(reduction([257, 1], LARGEST), 2);
 }

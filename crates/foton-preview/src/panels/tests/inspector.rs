@@ -1,0 +1,81 @@
+//! The inspector over a selection that was made up.
+
+use foton_session::engine::Change;
+
+use super::*;
+
+fn chosen() -> Harness<'static, State> {
+    window(|state| state.frame.as_mut().expect("there").selection = Some(selection()))
+}
+
+fn set(id: FieldId, value: Value) -> Command {
+    Command::Edit(Change::SetField { field: id, value, done: true })
+}
+
+const fn material(property: Property) -> FieldId {
+    FieldId::Material(Side::Front, property)
+}
+
+#[test]
+fn it_says_what_is_chosen_and_who_shares_its_material() {
+    let mut harness = chosen();
+    for text in ["ball", "glass sphere", "Material glass", "shared by 2 shapes"] {
+        assert!(harness.query_all_by_label_contains(text).next().is_some(), "{text}");
+    }
+    click(&mut harness, Role::Button, "Make its own");
+    assert_asked(&mut harness, &Command::Edit(Change::OwnMaterial));
+    click(&mut harness, Role::Button, "Undo");
+    assert_asked(&mut harness, &Command::Edit(Change::Undo));
+    assert!(find(&harness, Role::Button, "Redo").accesskit_node().is_disabled());
+    click(&mut harness, Role::Button, "Close");
+    assert_asked(&mut harness, &Command::Choose(None));
+}
+
+#[test]
+fn numbers_are_set_by_slider_and_by_typing() {
+    let mut harness = chosen();
+    find(&harness, Role::Slider, "IOR inside").set_value_accesskit(2.0);
+    assert_asked(&mut harness, &set(material(Property::InsideIor), Value::Number(2.0)));
+    type_number(&mut harness, "Radius", "2.5");
+    let last = asked(&mut harness).pop();
+    assert_eq!(last, Some(format!("{:?}", set(FieldId::Radius, Value::Number(2.5)))));
+    type_number(&mut harness, "X", "-3");
+    let last = asked(&mut harness).pop();
+    assert_eq!(last, Some(format!("{:?}", set(FieldId::Position(0), Value::Number(-3.0)))));
+}
+
+#[test]
+fn a_slider_that_is_dragged_is_done_when_it_is_let_go() {
+    let mut harness = chosen();
+    let slider = find(&harness, Role::Slider, "IOR inside").rect();
+    harness.drag_at(slider.left_center() + egui::vec2(10.0, 0.0));
+    harness.run_steps(2);
+    harness.hover_at(slider.center());
+    harness.run_steps(2);
+    let moving = asked(&mut harness);
+    assert!(!moving.is_empty() && moving.iter().all(|a| a.contains("done: false")), "{moving:?}");
+    harness.drop_at(slider.center());
+    let ended = asked(&mut harness);
+    assert!(ended.last().is_some_and(|a| a.contains("done: true")), "{ended:?}");
+}
+
+#[test]
+fn choices_switches_and_colours_are_set() {
+    let mut harness = chosen();
+    choose(&mut harness, "Kind", "diffuse");
+    assert_asked(&mut harness, &set(material(Property::Kind), Value::Choice(0)));
+    click(&mut harness, Role::CheckBox, "Rough");
+    assert_asked(&mut harness, &set(material(Property::Rough), Value::Toggle(true)));
+    // The colour button opens a picker, whose channels are numbers.
+    find(&harness, Role::ColorWell, "Transmission").click();
+    settle(&mut harness);
+    let before = harness.query_all_by_role(Role::SpinButton).count();
+    assert!(before > 0);
+    assert_eq!(asked(&mut harness), [""; 0], "looking is not setting");
+}
+
+#[test]
+fn without_a_choice_there_is_no_inspector() {
+    let harness = window(|_| ());
+    assert!(harness.query_by_label("Close").is_none());
+}

@@ -1,0 +1,413 @@
+//! The panels driven as a person drives them, by accessible labels, pointer and keys; what they ask for is in the outbox.
+
+mod inspector;
+mod keys;
+mod picture;
+mod pointer;
+
+use std::num::NonZeroU32;
+use std::sync::Arc;
+use std::time::Duration;
+
+use egui::accesskit::Role;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::{Harness, Node};
+use foton_film::{Image, ToneMap};
+use foton_math::Rgb;
+use foton_session::edit::{Control, Field, FieldId, Inspection, MaterialUse, Property, Side, Target, Value};
+use foton_session::engine::{
+    Activity, Command, Configuration, Event, Frame, Numbers, Picture, SceneFacts, Selection, SensorFacts,
+    Shown, Source,
+};
+use foton_session::{Alpha, Change, DirectLight, Settings, StopRule};
+
+use crate::preferences::Preferences;
+use crate::state::State;
+
+/// Width and height of the image in pixels.
+const SIZE: [u32; 2] = [60, 40];
+
+/// A frame of a render that has some passes.
+fn frame() -> Frame {
+    let sensor = |name: &str| SensorFacts {
+        name: name.into(),
+        fov_degrees: 40.0,
+        size: SIZE,
+        xml: "<sensor type=\"perspective\"/>".into(),
+    };
+    let mut image = Image::black(SIZE[0], SIZE[1]);
+    image.pixels.fill(Rgb::new(0.5, 0.25, 0.125));
+    Frame {
+        number: 7,
+        render: 1,
+        activity: Activity::Rendering,
+        opening: None,
+        size: SIZE,
+        picture: Some(Picture::Colour(Arc::new(image))),
+        shown: Shown::Radiance,
+        numbers: Numbers {
+            passes: 12,
+            photons: 3_000_000,
+            photons_in_pass: 262_144,
+            elapsed: Duration::from_secs(9),
+            photons_per_s: 1.5e6,
+            hit_points: 2400,
+            ..Numbers::default()
+        },
+        settings: Settings::default(),
+        threads: None,
+        stop: StopRule::default(),
+        scene: Arc::new(SceneFacts {
+            name: "room.xml".into(),
+            file: Some("/scenes/room.xml".into()),
+            sensors: vec![sensor("front"), sensor("top")],
+            shapes: 3,
+            undo: Some("move ball".into()),
+            ..SceneFacts::default()
+        }),
+        dots: Arc::default(),
+        probe: None,
+        selection: None,
+        lights: Vec::new(),
+    }
+}
+
+fn field(id: FieldId, label: &'static str, value: Value, control: Control) -> Field {
+    Field { id, label, unit: "", help: "What it does.", value, control }
+}
+
+/// A glass ball that shares its material, in a square of 20 to 40 by 10 to 30 pixels.
+fn selection() -> Selection {
+    let material = |p| FieldId::Material(Side::Front, p);
+    let number = |min, max, logarithmic| Control::Number { min, max, logarithmic };
+    let kinds = ["diffuse", "glass"].map(str::to_owned).to_vec();
+    let corners = [[20.0, 10.0], [40.0, 10.0], [40.0, 30.0], [20.0, 30.0]];
+    Selection {
+        target: Target::Shape(2),
+        inspection: Inspection {
+            title: "ball".into(),
+            kind: "glass sphere".into(),
+            material: Some(MaterialUse { name: "glass".into(), shapes: 2 }),
+            notes: vec!["The material \"glass\" is shared by 2 shapes.".into()],
+            fields: vec![
+                field(FieldId::Position(0), "X", Value::Number(0.5), number(-1e6, 1e6, false)),
+                field(FieldId::Radius, "Radius", Value::Number(1.0), number(0.01, 100.0, true)),
+                field(
+                    material(Property::InsideIor),
+                    "IOR inside",
+                    Value::Number(1.5),
+                    number(1.0, 3.0, false),
+                ),
+                field(
+                    material(Property::Transmission),
+                    "Transmission",
+                    Value::Colour([1.0; 3]),
+                    Control::Colour,
+                ),
+                field(material(Property::Kind), "Kind", Value::Choice(1), Control::Choice(kinds)),
+                field(material(Property::Rough), "Rough", Value::Toggle(false), Control::Toggle),
+            ],
+        },
+        outline: (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).collect(),
+    }
+}
+
+/// A window of 1280 × 800 points.
+fn window(change: impl FnOnce(&mut State)) -> Harness<'static, State> {
+    // The picker of colours has a sign that no font here knows.
+    let mut state = State::new(Preferences::default(), vec!["pool".into(), "ring".into()]);
+    state.frame = Some(frame());
+    change(&mut state);
+    let mut harness = Harness::builder()
+        .with_size(egui::vec2(1280.0, 800.0))
+        .allow_missing_glyphs()
+        .build_ui_state(|ui, state| super::show(ui, state), state);
+    settle(&mut harness);
+    harness
+}
+
+/// A few frames: a live view never asks for none.
+fn settle(harness: &mut Harness<'_, State>) {
+    harness.run_steps(4);
+}
+
+/// What was asked for since the last time, in words, which are easier to compare than commands.
+fn asked(harness: &mut Harness<'_, State>) -> Vec<String> {
+    settle(harness);
+    harness.state_mut().outbox.drain(..).map(|command| format!("{command:?}")).collect()
+}
+
+/// Fails unless exactly this was asked for, once or while frames did not answer several times.
+#[track_caller]
+fn assert_asked(harness: &mut Harness<'_, State>, expected: &Command) {
+    let (asked, expected) = (asked(harness), format!("{expected:?}"));
+    assert!(!asked.is_empty() && asked.iter().all(|a| *a == expected), "{asked:?} is not {expected}");
+}
+
+fn find<'a>(harness: &'a Harness<'_, State>, role: Role, label: &'a str) -> Node<'a> {
+    harness.get_by_role_and_label(role, label)
+}
+
+fn click(harness: &mut Harness<'_, State>, role: Role, label: &str) {
+    find(harness, role, label).click_accesskit();
+    settle(harness);
+}
+
+/// Types a number into the box beside a slider, or one alone.
+fn type_number(harness: &mut Harness<'_, State>, label: &str, text: &str) {
+    type_into(harness, label, text);
+    harness.key_press(egui::Key::Enter);
+    settle(harness);
+}
+
+/// The same without the end of it.
+fn type_into(harness: &mut Harness<'_, State>, label: &str, text: &str) {
+    find(harness, Role::SpinButton, label).focus();
+    settle(harness);
+    harness.event(egui::Event::Text(text.into()));
+    settle(harness);
+}
+
+/// Chooses from a list.
+fn choose(harness: &mut Harness<'_, State>, list: &str, option: &str) {
+    click(harness, Role::ComboBox, list);
+    harness.get_by_role_and_label(Role::Button, option).click_accesskit();
+}
+
+fn alpha(value: f64) -> Command {
+    Command::Steer(Change::Alpha(Alpha::new(value).expect("an alpha")))
+}
+
+#[test]
+fn every_control_has_an_accessible_name() {
+    for with_everything in [false, true] {
+        let harness = window(|state| {
+            if with_everything {
+                state.frame.as_mut().expect("there").selection = Some(selection());
+                state.frame.as_mut().expect("there").opening = Some("slow.xml".into());
+                state.frame.as_mut().expect("there").stop = StopRule { passes: Some(9), time: None };
+                state.error("room.xml:1:1: wrong");
+                state.changed_on_disk = true;
+                state.show_help = true;
+            }
+        });
+        harness.check_accessibility();
+        let count = harness.query_all_by_role(Role::Slider).count();
+        assert_eq!(count, if with_everything { 7 } else { 5 });
+    }
+    let mut empty = window(|state| state.frame = None);
+    empty.check_accessibility();
+    assert_eq!(asked(&mut empty), [""; 0]);
+}
+
+#[test]
+fn nothing_is_asked_for_until_someone_asks() {
+    // Values that sliders would round, and some beyond their ranges.
+    let mut harness = window(|state| {
+        let frame = state.frame.as_mut().expect("there");
+        frame.settings.photons_per_pass = NonZeroU32::new(40).expect("not zero");
+        frame.settings.samples_per_pixel = NonZeroU32::new(1000).expect("not zero");
+        let mut scene = SceneFacts::clone(&frame.scene);
+        scene.sensors[0].fov_degrees = 37.123_456;
+        frame.scene = Arc::new(scene);
+        frame.stop = StopRule::time(Duration::from_millis(12_345));
+        let mut selection = selection();
+        selection.inspection.fields[1].value = Value::Number(1.0 / 3.0);
+        frame.selection = Some(selection);
+    });
+    assert_eq!(asked(&mut harness), [""; 0]);
+}
+
+#[test]
+fn sliders_steer_the_next_pass() {
+    let mut harness = window(|_| ());
+    find(&harness, Role::Slider, "α").set_value_accesskit(0.3);
+    assert_asked(&mut harness, &alpha(0.3));
+    find(&harness, Role::Slider, "photons a pass").set_value_accesskit(65_536.0);
+    let photons = NonZeroU32::new(65_536).expect("not zero");
+    assert_asked(&mut harness, &Command::Steer(Change::PhotonsPerPass(photons)));
+}
+
+#[test]
+fn values_are_typed_and_what_is_out_of_range_goes_to_its_end() {
+    let half = Alpha::new(0.5).expect("an alpha");
+    let mut harness = window(|state| state.frame.as_mut().expect("there").settings.alpha = half);
+    type_number(&mut harness, "α", "0.45");
+    assert!(asked(&mut harness).contains(&format!("{:?}", alpha(0.45))));
+    type_number(&mut harness, "α", "7");
+    let typed = asked(&mut harness);
+    assert!(typed.contains(&format!("{:?}", alpha(1.0))), "{typed:?}");
+    type_number(&mut harness, "α", "nonsense");
+    assert_eq!(asked(&mut harness), [""; 0]);
+    type_number(&mut harness, "photons a pass", "1000000");
+    assert!(asked(&mut harness).pop().is_some_and(|a| a.contains("1000000")));
+}
+
+#[test]
+fn controls_say_what_they_do_to_speed_and_accuracy() {
+    let mut harness = window(|_| ());
+    for (role, label, help) in [
+        (Role::Slider, "α", "Share of new photons"),
+        (Role::Slider, "photons a pass", "answers sooner"),
+        (Role::Slider, "hit points a pixel", "Memory and gathering grow"),
+        (Role::Button, "shadow rays", "sharp shadows at once"),
+        (Role::CheckBox, "first radius", "pixel's footprint"),
+        (Role::SpinButton, "Seed", "the same light"),
+        (Role::Button, "Snapshot", "EXR and PNG"),
+        (Role::Button, "Pin", "to compare with"),
+        (Role::Slider, "Exposure", "nothing is rendered anew"),
+    ] {
+        let at = find(&harness, role, label).rect().center();
+        harness.hover_at(at);
+        harness.run_steps(20);
+        assert!(harness.query_by_label_contains(help).is_some(), "{label}: {help}");
+        harness.hover_at(egui::pos2(1279.0, 799.0));
+        harness.run_steps(20);
+    }
+}
+
+#[test]
+fn stop_rules_are_switched_and_typed() {
+    let mut harness = window(|_| ());
+    click(&mut harness, Role::CheckBox, "after passes");
+    assert_asked(&mut harness, &Command::StopAt(StopRule::passes(64)));
+    click(&mut harness, Role::CheckBox, "after time");
+    assert_asked(&mut harness, &Command::StopAt(StopRule::time(Duration::from_secs(60))));
+    harness.state_mut().frame.as_mut().expect("there").stop = StopRule::passes(64);
+    settle(&mut harness);
+    type_number(&mut harness, "after passes", "200");
+    let last = asked(&mut harness).pop();
+    assert_eq!(last, Some(format!("{:?}", Command::StopAt(StopRule::passes(200)))));
+    click(&mut harness, Role::CheckBox, "after passes");
+    assert_asked(&mut harness, &Command::StopAt(StopRule::default()));
+}
+
+#[test]
+fn what_starts_anew_says_so_and_is_sent_once_it_is_let_go() {
+    let now = Configuration::of(&Settings::default(), None);
+    let mut harness = window(|_| ());
+    click(&mut harness, Role::Button, "shadow rays");
+    let shadow_rays = Configuration { direct_light: DirectLight::ShadowRays, ..now.clone() };
+    assert_asked(&mut harness, &Command::Configure(shadow_rays));
+    assert!(harness.state().messages.iter().any(|m| m.text.contains("Started anew")));
+
+    // While a number is typed nothing starts; then once.
+    type_into(&mut harness, "Seed", "12");
+    assert_eq!(asked(&mut harness), [""; 0]);
+    harness.key_press(egui::Key::Enter);
+    assert_asked(&mut harness, &Command::Configure(Configuration { seed: 12, ..now.clone() }));
+
+    click(&mut harness, Role::CheckBox, "first radius");
+    assert!(asked(&mut harness)[0].contains("radius: Some("));
+    find(&harness, Role::Slider, "hit points a pixel").set_value_accesskit(16.0);
+    let sixteen = NonZeroU32::new(16).expect("not zero");
+    assert_asked(
+        &mut harness,
+        &Command::Configure(Configuration { samples_per_pixel: sixteen, ..now.clone() }),
+    );
+    choose(&mut harness, "Camera of the scene", "top");
+    assert_asked(&mut harness, &Command::Configure(Configuration { sensor: 1, ..now }));
+}
+
+#[test]
+fn lists_choose_what_is_shown_and_how() {
+    let mut harness = window(|_| ());
+    choose(&mut harness, "Tone", ToneMap::AgX.name());
+    assert_eq!(asked(&mut harness), [""; 0], "nothing is rendered anew");
+    assert_eq!(harness.state().tone_map, ToneMap::AgX);
+    choose(&mut harness, "Show", "Radius");
+    assert_asked(&mut harness, &Command::Show(Shown::Radius));
+    assert!(harness.query_by_role_and_label(Role::Slider, "Exposure").is_none(), "measures are not exposed");
+}
+
+#[test]
+fn kinds_of_light_are_switched_and_kept_apart_from_then_on() {
+    let mut harness = window(|_| ());
+    click(&mut harness, Role::Button, "Light");
+    click(&mut harness, Role::CheckBox, "Caustic");
+    let shown = Shown::Classes { reflected: [true, false, true], emission: true };
+    let layers = Configuration { layers: true, ..Configuration::of(&Settings::default(), None) };
+    let expected = [Command::Show(shown), Command::Configure(layers)].map(|c| format!("{c:?}"));
+    assert_eq!(asked(&mut harness), expected);
+    click(&mut harness, Role::CheckBox, "Caustic");
+    assert_asked(&mut harness, &Command::Show(Shown::Radiance));
+}
+
+#[test]
+fn the_bar_pauses_steps_restarts_saves_and_opens() {
+    let mut harness = window(|state| state.preferences.snapshot_folder = "/pictures".into());
+    for (label, command) in [
+        ("Pause", Command::Pause),
+        ("Restart", Command::Restart),
+        ("Snapshot", Command::Snapshot("/pictures".into())),
+        ("Photons", Command::ShowPhotons(true)),
+    ] {
+        click(&mut harness, Role::Button, label);
+        assert_asked(&mut harness, &command);
+    }
+    assert!(find(&harness, Role::Button, "Step").accesskit_node().is_disabled());
+    harness.state_mut().frame.as_mut().expect("there").activity = Activity::Paused;
+    settle(&mut harness);
+    for (label, command) in [("Resume", Command::Resume), ("Step", Command::Step)] {
+        click(&mut harness, Role::Button, label);
+        assert_asked(&mut harness, &command);
+    }
+    click(&mut harness, Role::Button, "Scene");
+    click(&mut harness, Role::Button, "Built in");
+    click(&mut harness, Role::Button, "ring");
+    assert_asked(&mut harness, &Command::Open(Source::BuiltIn("ring".into())));
+    click(&mut harness, Role::Button, "Pin");
+    assert!(harness.state().pinned.as_ref().is_some_and(|p| p.label == "pass 12"));
+    click(&mut harness, Role::Button, "Unpin");
+    assert!(harness.state().pinned.is_none());
+    click(&mut harness, Role::Button, "Reset camera");
+    assert_asked(&mut harness, &Command::ResetCamera);
+    click(&mut harness, Role::CheckBox, "at passes 1, 2, 4, 8, …");
+    assert_asked(&mut harness, &Command::AutoSnapshots(Some("/pictures".into())));
+}
+
+#[test]
+fn a_scene_that_opens_can_be_called_off_and_one_that_changed_reloaded() {
+    let mut harness = window(|state| {
+        state.frame.as_mut().expect("there").opening = Some("slow.xml".into());
+        state.changed_on_disk = true;
+    });
+    click(&mut harness, Role::Button, "Cancel");
+    assert_asked(&mut harness, &Command::CancelOpen);
+    click(&mut harness, Role::Button, "Reload");
+    assert_asked(&mut harness, &Command::Open(Source::File("/scenes/room.xml".into())));
+    assert!(harness.query_by_label("Reload").is_none());
+}
+
+#[test]
+fn notices_go_and_errors_stay_until_they_are_closed() {
+    let mut harness = window(|state| {
+        state.hear(Event::Opened { name: "room.xml".into(), warnings: vec!["room.xml:2:2: odd".into()] });
+        state.hear(Event::Failed("ruin.xml:3:7: unknown bsdf \"dielectrc\"".into()));
+    });
+    for text in ["Opened room.xml", "room.xml:2:2: odd", "ruin.xml:3:7"] {
+        assert!(harness.query_by_label_contains(text).is_some(), "{text}");
+    }
+    for _ in 0..60 {
+        let time = harness.input().time.unwrap_or_default();
+        harness.input_mut().time = Some(time + 0.25);
+        harness.step();
+    }
+    assert_eq!(harness.state().messages.len(), 1);
+    click(&mut harness, Role::Button, "Dismiss");
+    assert!(harness.state().messages.is_empty());
+}
+
+#[test]
+fn scripts_are_told_where_controls_are() {
+    let harness = window(|_| ());
+    let places = &harness.state().places;
+    for name in ["canvas", "alpha", "photons per pass", "pause", "snapshot", "photons"] {
+        let rect = places.iter().find(|(n, _)| *n == name).map(|(_, rect)| *rect);
+        let window = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(1280.0, 800.0));
+        assert!(rect.is_some_and(|r| window.contains_rect(r) && r.area() > 100.0), "{name}: {rect:?}");
+    }
+    let slider = find(&harness, Role::Slider, "α").rect();
+    let place = places.iter().find(|(n, _)| *n == "alpha").expect("just seen").1;
+    assert!(place.contains(slider.center()));
+}
