@@ -1,5 +1,7 @@
 //! What tests across crates share: small scenes made in code, and renders of them.
 
+pub mod window;
+
 use std::f64::consts::PI;
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `assets`, `pictures`, `bench`.
+//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `assets`, `pictures`, `bench`, `monkey`.
 //!
 //! Nothing here is part of the program; what a task does is in the module of its name.
 #![allow(clippy::print_stdout, reason = "these tasks talk to the person who started them")]
@@ -10,6 +10,7 @@ mod conformance;
 mod pictures;
 mod test;
 mod tools;
+mod window;
 
 use std::process::ExitCode;
 
@@ -22,8 +23,9 @@ cargo xtask ci                      formatting, lints, documentation, then the t
 cargo xtask conformance [--quick]   the whole comparison with Mitsuba 3 (20 minutes and more), or the small one
 cargo xtask bench census            what leaving out parts of the renderer saves, as a table
 cargo xtask assets                  writes the generated meshes in assets/ again
-cargo xtask pictures                renders every scene in assets/ to docs/pictures (some minutes)
-cargo xtask bench                   whole runs of the benchmark box, stage by stage (some minutes)";
+cargo xtask pictures [--window]     renders every scene in assets/ to docs/pictures, and the window (some minutes); or it alone
+cargo xtask bench                   whole runs of the benchmark box, stage by stage (some minutes)
+cargo xtask monkey [--minutes N]    random clicks and keys in the window for N (10) minutes: no error, no memory that grows";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -46,6 +48,9 @@ fn main() -> ExitCode {
             .map_err(|cause| Trouble::Failed(cause.to_string())),
         ["bench"] => bench::all(),
         ["pictures"] => pictures::render_all(),
+        ["pictures", "--window"] => pictures::of_window(),
+        ["monkey"] => window::monkey("10"),
+        ["monkey", "--minutes", minutes] => window::monkey(minutes),
         _ => {
             eprintln!("{USAGE}");
             return ExitCode::from(2);

@@ -1,14 +1,14 @@
-//! `cargo xtask pictures`: renders every scene in `assets/` to `docs/pictures/NAME.png`, for the documents to show.
+//! `cargo xtask pictures`: renders every scene in `assets/` to `docs/pictures/NAME.png`, and the window, for the documents to show.
 //!
 //! Passes, photons and seed are fixed and results do not depend on threads, so that the same program writes the same files.
 
 use std::collections::BTreeSet;
-use std::env;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::tools::{self, Trouble};
+use crate::window;
 
 /// How one scene is rendered for its picture.
 struct Picture {
@@ -40,11 +40,26 @@ pub(crate) fn render_all() -> Result<(), Trouble> {
     if !forgotten.is_empty() {
         return Err(Trouble::Failed(format!("no picture is planned for {}", forgotten.join(", "))));
     }
+    let (foton, folder) = prepare()?;
+    PICTURES.iter().try_for_each(|picture| picture.render(&foton))?;
+    window::pictures(&foton, &folder)
+}
+
+/// Pictures of the window alone.
+///
+/// # Errors
+/// What could not be built, opened or written.
+pub(crate) fn of_window() -> Result<(), Trouble> {
+    let (foton, folder) = prepare()?;
+    window::pictures(&foton, &folder)
+}
+
+/// The program, built, and the folder for its pictures, made.
+fn prepare() -> Result<(PathBuf, PathBuf), Trouble> {
     let folder = tools::root().join("docs/pictures");
     fs::create_dir_all(&folder).map_err(|cause| Trouble::Failed(format!("{}: {cause}", folder.display())))?;
     tools::run(&mut tools::cargo(&["build", "--release", "--package", "foton"]))?;
-    let foton = tools::target_dir().join("release").join(format!("foton{}", env::consts::EXE_SUFFIX));
-    PICTURES.iter().try_for_each(|picture| picture.render(&foton))
+    Ok((window::foton("release"), folder))
 }
 
 impl Picture {

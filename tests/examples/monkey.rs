@@ -1,0 +1,174 @@
+//! `cargo xtask monkey`: random clicks, drags, wheels and keys in the real window for some minutes. Fails on an error in the
+//! log, on an end that nobody asked for, and on memory that grows.
+//!
+//! Not touched are the controls that ask for more memory (photons a pass, hit points a pixel), files and the end.
+#![allow(clippy::print_stdout, reason = "it talks to the person who started it")]
+
+use std::env;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use foton_math::{Purpose, Stream};
+use foton_tests::window::{Display, Opening, Window};
+
+const WINDOW: [u32; 2] = [1000, 640];
+
+/// Between looks at the memory.
+const LOOK: Duration = Duration::from_secs(2);
+
+/// Memory in the last quarter may be so much more than in the second.
+const GROWTH: f64 = 1.05;
+
+const KEYS: [&str; 26] = [
+    "space",
+    "space",
+    "period",
+    "f",
+    "h",
+    "o",
+    "k",
+    "1",
+    "2",
+    "3",
+    "4",
+    "5",
+    "1",
+    "Left",
+    "Right",
+    "Up",
+    "Down",
+    "Prior",
+    "Next",
+    "Escape",
+    "ctrl+z",
+    "ctrl+shift+z",
+    "ctrl+r",
+    "question",
+    "w",
+    "e",
+];
+
+struct Monkey {
+    display: Display,
+    window: Window,
+    stream: Stream,
+    actions: u64,
+}
+
+fn main() {
+    let arguments: Vec<String> = env::args().skip(1).collect();
+    let [foton, minutes] = arguments.as_slice() else { panic!("usage: monkey FOTON MINUTES") };
+    let minutes: f64 = minutes.parse().expect("a number of minutes");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the repository");
+    let folder = env::temp_dir().join(format!("foton-monkey-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let display = Display::start(WINDOW);
+    let scene = root.join("assets/cornell-spheres/scene.xml");
+    let opening = Opening {
+        foton: &PathBuf::from(foton),
+        scene: Some(&scene),
+        folder: &folder,
+        size: WINDOW,
+        is_dark: true,
+    };
+    let mut window = Window::open(&display, &opening);
+    window.frame("a pass", |f| (f["activity"] == "rendering").then_some(()));
+    let mut monkey = Monkey { display, window, stream: Stream::new(0, Purpose::Test, 0, 0), actions: 0 };
+    let memory = monkey.play(Duration::from_secs_f64(60.0 * minutes));
+    let passes = monkey.window.log.lines().iter().filter(|line| line["event"] == "drawn").count();
+    println!("{} actions, {passes} frames drawn", monkey.actions);
+    monkey.finish();
+    judge(&memory);
+    std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+impl Monkey {
+    /// Plays for a while; what memory the window held.
+    fn play(&mut self, time: Duration) -> Vec<u64> {
+        let begin = Instant::now();
+        let mut memory = Vec::new();
+        while begin.elapsed() < time {
+            self.act();
+            self.actions += 1;
+            assert!(
+                self.window.is_running(),
+                "it ended after {} actions\n{}",
+                self.actions,
+                self.window.log.tail()
+            );
+            let due = LOOK * memory.len() as u32;
+            if begin.elapsed() >= due {
+                memory.extend(self.window.memory());
+            }
+        }
+        memory
+    }
+
+    /// A whole number below `n`.
+    fn below(&mut self, n: u32) -> u32 {
+        ((self.stream.next_1d() * n as f32) as u32).min(n - 1)
+    }
+
+    /// A point of a control.
+    fn within(&mut self, place: &str) -> String {
+        let [x, y, width, height] = self.window.place(place);
+        let (u, v) = (f64::from(self.stream.next_1d()), f64::from(self.stream.next_1d()));
+        format!("{:.0} {:.0}", x + 1.0 + u * (width - 2.0), y + 1.0 + v * (height - 2.0))
+    }
+
+    fn act(&mut self) {
+        let from = self.within("canvas");
+        match self.below(10) {
+            0 | 1 => self.display.hand(&format!("mousemove {from} click 1")),
+            2..=4 => {
+                let to = self.within("canvas");
+                let button = [1, 1, 2, 3][self.below(4) as usize];
+                self.display.hand(&format!("mousemove {from} mousedown {button}"));
+                self.display.hand(&format!("mousemove {to}"));
+                self.display.hand(&format!("mousemove {from} mousemove {to} mouseup {button}"));
+            }
+            5 => {
+                let wheel = 4 + self.below(2);
+                self.display.hand(&format!("mousemove {from} click {wheel} click {wheel}"));
+            }
+            6 => {
+                let place = ["alpha", "pause", "photons"][self.below(3) as usize];
+                let at = self.within(place);
+                self.display.hand(&format!("mousemove {at} click 1"));
+            }
+            _ => {
+                let key = KEYS[self.below(KEYS.len() as u32) as usize];
+                self.display.hand(&format!("mousemove {from} key {key}"));
+            }
+        }
+    }
+
+    /// Closes the window, and looks for errors.
+    fn finish(&mut self) {
+        self.display.hand("key Escape");
+        self.display.hand("key ctrl+q");
+        let (took, is_well) = self.window.end();
+        println!("the process ended {took:?} after it was asked to");
+        assert!(is_well, "it ended badly");
+        let errors: Vec<String> = self
+            .window
+            .log
+            .lines()
+            .iter()
+            .filter(|l| l["event"] == "error")
+            .map(ToString::to_string)
+            .collect();
+        assert!(errors.is_empty(), "{}", errors.join("\n"));
+    }
+}
+
+/// Fails if memory has grown from the second quarter of the time to the last.
+fn judge(memory: &[u64]) {
+    let quarter = memory.len() / 4;
+    let mean = |part: &[u64]| part.iter().sum::<u64>() as f64 / part.len().max(1) as f64 / f64::from(1 << 20);
+    let means: Vec<f64> = memory.chunks(quarter.max(1)).take(4).map(mean).collect();
+    println!("memory in the quarters of the time, MiB: {means:.1?}");
+    if let [_, second, _, last] = means[..] {
+        assert!(last <= second * GROWTH, "memory has grown");
+    }
+}
