@@ -136,7 +136,12 @@ fn paint(ui: &egui::Ui, state: &State, rect: Rect, image: Rect, picture: &Engine
         mode,
         image_rect: Rect::from_min_max(image.min * to_pixels, image.max * to_pixels),
         wipe: state.pinned.as_ref().map(|_| state.wipe),
-        background: ui.visuals().extreme_bg_color,
+        // White around a picture would make it look darker than it is.
+        background: if ui.visuals().dark_mode {
+            ui.visuals().extreme_bg_color
+        } else {
+            egui::Color32::from_gray(200)
+        },
     };
     let pinned = state.pinned.as_ref().map(|p| shared(&p.picture));
     let callback = PresentCallback { view, picture: shared(picture), pinned };

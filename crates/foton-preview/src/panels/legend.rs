@@ -48,8 +48,8 @@ impl Scale {
 pub(super) fn draw(painter: &egui::Painter, view: Rect, scale: &Scale) {
     const STEPS: u32 = 64;
     let bar = Rect::from_min_size(
-        Pos2::new(view.right() - 92.0, view.top() + 40.0),
-        Vec2::new(14.0, (view.height() - 80.0).clamp(40.0, 260.0)),
+        Pos2::new(view.right() - 92.0, view.top() + 64.0),
+        Vec2::new(14.0, (view.height() - 104.0).clamp(40.0, 260.0)),
     );
     let back = bar.expand2(Vec2::new(8.0, 28.0)).with_max_x(view.right() - 8.0);
     painter.rect_filled(back, 4.0, Color32::from_black_alpha(170));

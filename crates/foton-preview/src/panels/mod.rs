@@ -77,7 +77,7 @@ fn grouped(n: u64) -> String {
     let mut text = String::new();
     for (i, digit) in digits.chars().enumerate() {
         if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push('\u{202f}');
+            text.push('\u{a0}');
         }
         text.push(digit);
     }
@@ -102,7 +102,7 @@ mod words {
 
     #[test]
     fn numbers_are_short_and_grouped() {
-        assert_eq!(grouped(1_234_567), "1\u{202f}234\u{202f}567");
+        assert_eq!(grouped(1_234_567), "1\u{a0}234\u{a0}567");
         assert_eq!((grouped(0), grouped(999)), ("0".to_owned(), "999".to_owned()));
         assert_eq!((short(0.0), short(12.345), short(0.0456)), ("0".into(), "12.3".into(), "0.0456".into()));
         assert_eq!((short(1.5e-5), short(123_456.0)), ("1.50e-5".to_owned(), "1.23e5".to_owned()));

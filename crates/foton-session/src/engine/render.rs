@@ -120,7 +120,8 @@ impl Render {
     }
 
     fn over(session: Session, level: Level) -> Self {
-        Self { session, level, marks: Vec::new(), no_photon_share: 1.0, photons_in_pass: 0, radii: None }
+        let marks = vec![Mark { elapsed: session.elapsed(), photons: 0, rays: 0 }];
+        Self { session, level, marks, no_photon_share: 1.0, photons_in_pass: 0, radii: None }
     }
 
     pub(super) fn is_whole(&self) -> bool {
@@ -158,7 +159,8 @@ impl Render {
         let (elapsed, rays) = (self.session.elapsed(), self.session.rays());
         self.marks.push(Mark { elapsed, photons: report.photons, rays });
         let old = self.marks.partition_point(|m| m.elapsed + RATE_SPAN < elapsed);
-        self.marks.drain(..old.min(self.marks.len() - 1));
+        // One from before the span stays, for passes may take longer.
+        self.marks.drain(..old.saturating_sub(1));
         Ok(elapsed - before)
     }
 
