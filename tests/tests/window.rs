@@ -290,7 +290,6 @@ fn errors_are_none_and_it_closes(driver: &mut Driver) {
     assert!(is_well);
     // 200 ms on an idle machine; a pass or a file in the way would take longer than this on any.
     assert!(took.as_secs() < 10, "{took:?} from closing to the end");
-    println!("the process ended {took:?} after it was asked to");
     let errors: Vec<&Value> =
         driver.window.log.lines().iter().filter(|line| line["event"] == "error").collect();
     assert!(errors.is_empty(), "{errors:?}");

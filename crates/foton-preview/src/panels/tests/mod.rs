@@ -121,7 +121,7 @@ fn window(change: impl FnOnce(&mut State)) -> Harness<'static, State> {
     let mut harness = Harness::builder()
         .with_size(egui::vec2(1280.0, 800.0))
         .allow_missing_glyphs()
-        .build_ui_state(|ui, state| super::show(ui, state), state);
+        .build_ui_state(super::show, state);
     settle(&mut harness);
     harness
 }
@@ -287,7 +287,7 @@ fn what_starts_anew_says_so_and_is_sent_once_it_is_let_go() {
     let now = Configuration::of(&Settings::default(), None);
     let mut harness = window(|_| ());
     click(&mut harness, Role::Button, "shadow rays");
-    let shadow_rays = Configuration { direct_light: DirectLight::ShadowRays, ..now.clone() };
+    let shadow_rays = Configuration { direct_light: DirectLight::ShadowRays, ..now };
     assert_asked(&mut harness, &Command::Configure(shadow_rays));
     assert!(harness.state().messages.iter().any(|m| m.text.contains("Started anew")));
 
@@ -295,16 +295,13 @@ fn what_starts_anew_says_so_and_is_sent_once_it_is_let_go() {
     type_into(&mut harness, "Seed", "12");
     assert_eq!(asked(&mut harness), [""; 0]);
     harness.key_press(egui::Key::Enter);
-    assert_asked(&mut harness, &Command::Configure(Configuration { seed: 12, ..now.clone() }));
+    assert_asked(&mut harness, &Command::Configure(Configuration { seed: 12, ..now }));
 
     click(&mut harness, Role::CheckBox, "first radius");
     assert!(asked(&mut harness)[0].contains("radius: Some("));
     find(&harness, Role::Slider, "hit points a pixel").set_value_accesskit(16.0);
     let sixteen = NonZeroU32::new(16).expect("not zero");
-    assert_asked(
-        &mut harness,
-        &Command::Configure(Configuration { samples_per_pixel: sixteen, ..now.clone() }),
-    );
+    assert_asked(&mut harness, &Command::Configure(Configuration { samples_per_pixel: sixteen, ..now }));
     choose(&mut harness, "Camera of the scene", "top");
     assert_asked(&mut harness, &Command::Configure(Configuration { sensor: 1, ..now }));
 }

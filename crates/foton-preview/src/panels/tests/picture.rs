@@ -17,7 +17,7 @@ fn drawn(change: impl FnOnce(&mut State)) -> (impl Fn(egui::Pos2) -> [u8; 3], eg
     let mut harness = Harness::builder()
         .with_size(egui::vec2(1000.0, 600.0))
         .renderer(WgpuTestRenderer::from_render_state(gpu))
-        .build_ui_state(|ui, state| crate::panels::show(ui, state), state);
+        .build_ui_state(crate::panels::show, state);
     harness.run_steps(4);
     let canvas = harness.state().places.iter().find(|(name, _)| *name == "canvas").expect("a canvas").1;
     let pixels = harness.render().expect("a picture");
