@@ -2,6 +2,7 @@
 
 use foton_scene::{Emitter, Scene};
 
+use crate::error::ErrorSums;
 use crate::hit_point::{Gloss, ShadowOrigin};
 use crate::radiance::Radiance;
 use crate::settings::{DirectLight, Settings};
@@ -145,6 +146,15 @@ pub fn features(scene: &Scene, settings: &Settings) -> Vec<Feature> {
             "sums three times as large",
             24,
             layers,
+        ),
+        feature(
+            "live error",
+            settings.error,
+            "the error is asked for",
+            "nothing asks how wrong the image is",
+            "a second moment of each photon that counts, squares of each pass",
+            ErrorSums::BYTES_PER_HIT_POINT,
+            ErrorSums::BYTES_PER_PIXEL,
         ),
     ]
 }

@@ -54,18 +54,25 @@ pub(crate) struct Rule {
 struct Found<const LAYERS: usize> {
     flux: [[[f32; LANES]; 3]; LAYERS],
     count: [u32; LANES],
+    /// Σ d² Φ in luminance, where the error is asked for.
+    moment: [f32; LANES],
 }
 
 /// Gathers all photons for all hit points and refines them. Fills `irradiance_slots` with this pass's estimates.
 ///
-/// `LAYERS` is 3 to keep path classes apart, or 1.
-pub(crate) fn all<const LAYERS: usize>(
+/// `LAYERS` is 3 to keep path classes apart, or 1. With `ERROR`, `moment_slots` get what the bias is estimated from; without,
+/// there are none.
+pub(crate) fn all<const LAYERS: usize, const ERROR: bool>(
     hit_points: &mut HitPoints,
     map: &PhotonMap,
     grid: &Grid,
     rule: Rule,
     irradiance_slots: &mut [Irradiance<LAYERS>],
+    moment_slots: &mut [f32],
 ) -> Tally {
+    let mut moments = moment_slots.chunks_mut(BLOCK * LANES);
+    let blocks = hit_points.packets.len().div_ceil(BLOCK);
+    let moments: Vec<&mut [f32]> = (0..blocks).map(|_| moments.next().unwrap_or_default()).collect();
     let shading = &hit_points.shading_normals;
     let (first_glossy, gloss_slots) = (hit_points.first_glossy, &hit_points.gloss_slots);
     let tallies: Vec<Tally> = hit_points
@@ -73,11 +80,13 @@ pub(crate) fn all<const LAYERS: usize>(
         .par_chunks_mut(BLOCK)
         .zip(hit_points.statistics_slots.par_chunks_mut(BLOCK * LANES))
         .zip(irradiance_slots.par_chunks_mut(BLOCK * LANES))
+        .zip(moments)
         .enumerate()
-        .map(|(block, ((packets, statistics), irradiance))| {
+        .map(|(block, (((packets, statistics), irradiance), moments))| {
             let first = block * BLOCK;
-            let block = Block { first, first_glossy, packets, statistics, irradiance, shading, gloss_slots };
-            rule.arch.dispatch(Gather { block, map, grid, rule })
+            let block =
+                Block { first, first_glossy, packets, statistics, irradiance, moments, shading, gloss_slots };
+            rule.arch.dispatch(Gather::<LAYERS, ERROR> { block, map, grid, rule })
         })
         .collect();
     tallies.into_iter().fold(Tally::default(), |a, b| Tally {
@@ -97,20 +106,22 @@ struct Block<'a, const LAYERS: usize> {
     packets: &'a mut [Packet],
     statistics: &'a mut [Statistics],
     irradiance: &'a mut [Irradiance<LAYERS>],
+    /// Empty without `ERROR`.
+    moments: &'a mut [f32],
     shading: &'a [[[f32; LANES]; 3]],
     gloss_slots: &'a [Option<Gloss>],
 }
 
 /// The work on a block, compiled for each instruction set; the best that the machine has is taken. Everything that this calls
 /// for each photon is inlined into it. No instruction set changes a result.
-struct Gather<'a, const LAYERS: usize> {
+struct Gather<'a, const LAYERS: usize, const ERROR: bool> {
     block: Block<'a, LAYERS>,
     map: &'a PhotonMap,
     grid: &'a Grid,
     rule: Rule,
 }
 
-impl<const LAYERS: usize> WithSimd for Gather<'_, LAYERS> {
+impl<const LAYERS: usize, const ERROR: bool> WithSimd for Gather<'_, LAYERS, ERROR> {
     type Output = Tally;
 
     #[inline(always)]
@@ -129,17 +140,23 @@ impl<const LAYERS: usize> WithSimd for Gather<'_, LAYERS> {
             if let Some(glossy) = index.checked_sub(block.first_glossy) {
                 let gloss = &block.gloss_slots[glossy * LANES..(glossy + 1) * LANES];
                 for &(first, end) in &runs {
-                    collect_gloss(packet, gloss, map.run(first, end), &mut found, &mut tally);
+                    let photons = map.run(first, end);
+                    collect_gloss::<LAYERS, ERROR>(packet, gloss, photons, &mut found, &mut tally);
                 }
             } else if let Some(normals) = block.shading.get(index) {
                 for &(first, end) in &runs {
-                    collect::<LAYERS, true>(packet, normals, map.run(first, end), &mut found, &mut tally);
+                    let photons = map.run(first, end);
+                    collect::<LAYERS, true, ERROR>(packet, normals, photons, &mut found, &mut tally);
                 }
             } else {
                 let normals = &[[0.0; LANES]; 3];
                 for &(first, end) in &runs {
-                    collect::<LAYERS, false>(packet, normals, map.run(first, end), &mut found, &mut tally);
+                    let photons = map.run(first, end);
+                    collect::<LAYERS, false, ERROR>(packet, normals, photons, &mut found, &mut tally);
                 }
+            }
+            if ERROR {
+                found.write_moments(packet, &mut block.moments[i * LANES..(i + 1) * LANES]);
             }
             conclude(packet, &found, statistics, irradiance, rule, &mut tally);
         }
@@ -148,17 +165,27 @@ impl<const LAYERS: usize> WithSimd for Gather<'_, LAYERS> {
 }
 
 impl<const LAYERS: usize> Found<LAYERS> {
-    const NONE: Self = Self { flux: [[[0.0; LANES]; 3]; LAYERS], count: [0; LANES] };
+    const NONE: Self = Self { flux: [[[0.0; LANES]; 3]; LAYERS], count: [0; LANES], moment: [0.0; LANES] };
 
     #[inline(always)]
     const fn layer(photon: &Photon) -> usize {
         if LAYERS == 1 { 0 } else { photon.class_index() }
     }
+
+    /// Σ 6(s − ½) Φ/(π r²) with s = d²/r²: see [`crate::error`].
+    fn write_moments(&self, packet: &Packet, moments: &mut [f32]) {
+        for (l, moment) in moments.iter_mut().enumerate() {
+            let radius2 = packet.radius2[l];
+            let flux: f32 = self.flux.iter().map(|f| Rgb::new(f[0][l], f[1][l], f[2][l]).luminance()).sum();
+            // Lanes without a hit point have found nothing.
+            *moment = (6.0 * self.moment[l] / radius2 - 3.0 * flux) / (PI * radius2);
+        }
+    }
 }
 
 /// Sums the photons that count for Lambertian hit points. `SHADED` corrects for interpolated normals.
 #[inline(always)]
-fn collect<const LAYERS: usize, const SHADED: bool>(
+fn collect<const LAYERS: usize, const SHADED: bool, const ERROR: bool>(
     packet: &Packet,
     shading_normals: &[[f32; LANES]; 3],
     photons: &[Photon],
@@ -183,12 +210,20 @@ fn collect<const LAYERS: usize, const SHADED: bool>(
         for l in 0..LANES {
             found.count[l] += counts[l] & 1;
         }
+        if ERROR {
+            let distance2 = distances2(packet, photon);
+            let luminance = photon.power.luminance();
+            for l in 0..LANES {
+                let term = luminance * factor[l] * distance2[l];
+                found.moment[l] += f32::from_bits(term.to_bits() & counts[l]);
+            }
+        }
     }
 }
 
 /// Sums the photons that count for hit points with a BSDF of their own, weighed by it one by one.
 #[inline(always)]
-fn collect_gloss<const LAYERS: usize>(
+fn collect_gloss<const LAYERS: usize, const ERROR: bool>(
     packet: &Packet,
     gloss: &[Option<Gloss>],
     photons: &[Photon],
@@ -202,6 +237,7 @@ fn collect_gloss<const LAYERS: usize>(
             continue;
         }
         let wi = photon.direction();
+        let distance2 = if ERROR { distances2(packet, photon) } else { [0.0; LANES] };
         let layer = &mut found.flux[Found::<LAYERS>::layer(photon)];
         for l in (0..LANES).filter(|&l| counts[l] != 0) {
             found.count[l] += 1;
@@ -213,6 +249,9 @@ fn collect_gloss<const LAYERS: usize>(
             layer[0][l] += weighed.r;
             layer[1][l] += weighed.g;
             layer[2][l] += weighed.b;
+            if ERROR {
+                found.moment[l] += weighed.luminance() * distance2[l];
+            }
         }
     }
 }
@@ -247,6 +286,19 @@ fn counting_lanes(packet: &Packet, photon: &Photon) -> [u32; LANES] {
         counts[l] = u32::from(counted).wrapping_neg();
     }
     counts
+}
+
+/// Squared distances of a photon: once more, so that what asks for no error is left as it is.
+#[inline(always)]
+fn distances2(packet: &Packet, photon: &Photon) -> [f32; LANES] {
+    let p = photon.position;
+    let mut distance2 = [0.0; LANES];
+    let [x, y, z] = &packet.position;
+    for l in 0..LANES {
+        let (dx, dy, dz) = (x[l] - p.x, y[l] - p.y, z[l] - p.z);
+        distance2[l] = dx * dx + dy * dy + dz * dz;
+    }
+    distance2
 }
 
 /// |ω·n_s|/|ω·n_g|: photons measure irradiance about the geometric normal, the BSDF wants it about the shading normal. Zero

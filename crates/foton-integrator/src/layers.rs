@@ -17,11 +17,17 @@ pub enum LayerKind {
     PhotonCount,
     /// Index of the shape that the pixel's first sample meets first, from 0; 2³² − 1 for none.
     ShapeId,
+    /// Standard deviation of the pixel's luminance. Needs [`Settings::error`](crate::Settings::error), as all errors do.
+    ErrorNoise,
+    /// Blur of the pixel's luminance by the radius: a root mean square over 5 × 5 pixels.
+    ErrorBias,
+    /// √(noise² + bias²).
+    ErrorTotal,
 }
 
 impl LayerKind {
     /// All kinds.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 10] = [
         Self::Direct,
         Self::Caustic,
         Self::Indirect,
@@ -29,6 +35,9 @@ impl LayerKind {
         Self::Radius,
         Self::PhotonCount,
         Self::ShapeId,
+        Self::ErrorNoise,
+        Self::ErrorBias,
+        Self::ErrorTotal,
     ];
 
     /// The name in files and on the command line.
@@ -42,6 +51,9 @@ impl LayerKind {
             Self::Radius => "radius",
             Self::PhotonCount => "photon_count",
             Self::ShapeId => "shape_id",
+            Self::ErrorNoise => "error_noise",
+            Self::ErrorBias => "error_bias",
+            Self::ErrorTotal => "error_total",
         }
     }
 
@@ -55,5 +67,11 @@ impl LayerKind {
     #[must_use]
     pub const fn needs_classes(self) -> bool {
         matches!(self, Self::Direct | Self::Caustic | Self::Indirect)
+    }
+
+    /// Whether the error must be estimated for it.
+    #[must_use]
+    pub const fn needs_error(self) -> bool {
+        matches!(self, Self::ErrorNoise | Self::ErrorBias | Self::ErrorTotal)
     }
 }

@@ -5,6 +5,7 @@
 
 mod cancel;
 mod direct_light;
+mod error;
 mod eye_pass;
 mod features;
 mod gather;
@@ -29,6 +30,7 @@ mod settings;
 mod state;
 
 pub use cancel::{Cancel, Cancelled};
+pub use error::{ErrorEstimate, TileError};
 pub use features::{Feature, features};
 pub use inspect::{Disc, Radii, StoredPhoton};
 pub use layers::LayerKind;

@@ -3,6 +3,7 @@
 use foton_math::Rgb;
 use foton_scene::Scene;
 
+use crate::error::{self, ErrorSums};
 use crate::gather::{self, Rule, Tally};
 use crate::grid::Grid;
 use crate::hit_point::{HitPoints, Irradiance};
@@ -75,8 +76,15 @@ impl Light {
         map: &PhotonMap,
         grid: &Grid,
         rule: Rule,
+        error: Option<&mut ErrorSums>,
     ) -> Tally {
-        each!(self, s => gather::all(hit_points, map, grid, rule, &mut s.irradiance_slots))
+        each!(self, s => {
+            let irradiance = &mut s.irradiance_slots;
+            match error {
+                None => gather::all::<_, false>(hit_points, map, grid, rule, irradiance, &mut []),
+                Some(e) => gather::all::<_, true>(hit_points, map, grid, rule, irradiance, e.moment_slots()),
+            }
+        })
     }
 
     /// Adds direct light by shadow rays to the pass; returns the number of rays.
@@ -87,6 +95,27 @@ impl Light {
     /// Adds the pass to the pixels.
     pub(crate) fn add_pass(&mut self, hit_points: &HitPoints) {
         each!(self, s => s.radiance.add(hit_points, &s.irradiance_slots));
+    }
+
+    /// Tells the error of a pass that was added; `photons` are those of the pass, `power` is a photon's on average.
+    pub(crate) fn add_error(
+        &self,
+        error: &mut ErrorSums,
+        hit_points: &HitPoints,
+        (photons, power): (u64, f64),
+    ) {
+        each!(self, s => error.add(&error::Pass {
+            hit_points,
+            irradiance_slots: &s.irradiance_slots,
+            radiance: &s.radiance,
+            photons,
+            power,
+        }));
+    }
+
+    /// Noise and bias by pixel.
+    pub(crate) fn error_planes(&self, error: &ErrorSums) -> (Vec<f32>, Vec<f32>) {
+        each!(self, s => error.planes(&s.radiance))
     }
 
     /// All radiance after `photons`, emission included.

@@ -5,6 +5,7 @@ use std::fmt;
 use foton_math::{Purpose, Rgb};
 use foton_scene::Scene;
 
+use crate::error::ErrorSums;
 use crate::eye_pass::EyePass;
 use crate::hit_point::{Gloss, HitPoint, Irradiance, ShadowOrigin};
 use crate::packet::{LANES, Packet};
@@ -65,10 +66,12 @@ impl MemoryEstimate {
         let slot = size_of::<Packet>() / LANES
             + size_of::<Statistics>()
             + if shadow { size_of::<ShadowOrigin>() } else { 0 }
+            + if settings.error { ErrorSums::BYTES_PER_HIT_POINT } else { 0 }
             + if shaded { 3 * size_of::<f32>() } else { 0 };
         let slot = slot as f64 + layers * size_of::<Irradiance<1>>() as f64;
         let per_pixel =
             if settings.layers { Radiance::<3>::BYTES_PER_PIXEL } else { Radiance::<1>::BYTES_PER_PIXEL };
+        let per_pixel = per_pixel + if settings.error { ErrorSums::BYTES_PER_PIXEL } else { 0 };
         let photon = 2.0 * size_of::<Photon>() as f64 + size_of::<u32>() as f64;
         Self {
             hit_points,

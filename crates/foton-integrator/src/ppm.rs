@@ -8,6 +8,7 @@ use foton_scene::Scene;
 use pulp::Arch;
 
 use crate::cancel::{Cancel, Cancelled};
+use crate::error::{ErrorEstimate, ErrorSums, TileError};
 use crate::eye_pass::EyePass;
 use crate::gather::{Rule, Tally};
 use crate::grid::Grid;
@@ -114,6 +115,7 @@ pub struct Ppm {
     hit_points: HitPoints,
     shapes: Vec<u32>,
     light: Light,
+    error: Option<ErrorSums>,
     grid: Grid,
     marked_radius2: f64,
     chunks: Vec<Chunk>,
@@ -152,6 +154,8 @@ impl Ppm {
         drop((eye.hit_points, eye.gloss));
         let grid = Grid::new(&hit_points.packets);
         let light = Light::new(eye.emission, &hit_points, &settings);
+        let (width, samples) = (scene.sensors()[settings.sensor].width, settings.samples_per_pixel.get());
+        let error = settings.error.then(|| ErrorSums::new(&hit_points, width, samples));
         let lights = vec![LightUse::default(); scene.emitters().len()];
         cancel.check()?;
         Ok(Self {
@@ -160,6 +164,7 @@ impl Ppm {
             hit_points,
             shapes: eye.shapes,
             light,
+            error,
             grid,
             marked_radius2: f64::INFINITY,
             chunks: Vec::new(),
@@ -199,7 +204,7 @@ impl Ppm {
             smallest2: RadiusRule::new(&self.scene, self.settings.radius).smallest2(),
             arch: self.arch,
         };
-        let tally = self.light.gather(&mut self.hit_points, &self.map, &self.grid, rule);
+        let tally = self.light.gather(&mut self.hit_points, &self.map, &self.grid, rule, self.error.as_mut());
         let mut rays: u64 = self.chunks.iter().map(|c| c.rays).sum();
         if self.settings.direct_light == DirectLight::ShadowRays {
             watch(Stage::ShadowRays);
@@ -214,6 +219,10 @@ impl Ppm {
             self.lights.iter_mut().zip(&chunk.lights).for_each(|(sum, &light)| *sum += light);
         }
         self.photons_emitted += photons;
+        if let Some(error) = &mut self.error {
+            let power = self.ledger.emitted / self.photons_emitted.max(1) as f64;
+            self.light.add_error(error, &self.hit_points, (photons, power));
+        }
         self.last_photons = photons;
         self.passes += 1;
         Ok(self.report(photons, rays, &tally))
@@ -344,6 +353,30 @@ impl Ppm {
         self.as_image(pixels.collect())
     }
 
+    /// How wrong the image still is; `None` without [`Settings::error`], in the first passes, and in the dark.
+    #[must_use]
+    pub fn error(&self) -> Option<ErrorEstimate> {
+        self.error.as_ref()?.estimate()
+    }
+
+    /// The means of all squares of 8 × 8 pixels with their errors, row by row; none without [`Settings::error`].
+    #[must_use]
+    pub fn error_tiles(&self) -> Vec<TileError> {
+        self.error.as_ref().map_or_else(Vec::new, ErrorSums::tiles)
+    }
+
+    /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`Settings::error`].
+    #[must_use]
+    pub fn error_plane(&self, kind: LayerKind) -> Option<Vec<f32>> {
+        let (noise, bias) = self.light.error_planes(self.error.as_ref()?);
+        match kind {
+            LayerKind::ErrorNoise => Some(noise),
+            LayerKind::ErrorBias => Some(bias),
+            LayerKind::ErrorTotal => Some(noise.iter().zip(&bias).map(|(n, b)| n.hypot(*b)).collect()),
+            _ => None,
+        }
+    }
+
     /// A layer beside the image; `None` for a path class when [`Settings::layers`] is off.
     #[must_use]
     pub fn layer(&self, kind: LayerKind) -> Option<Layer> {
@@ -354,6 +387,9 @@ impl Ppm {
             LayerKind::Radius => LayerData::F32(Plane { width, height, values: self.mean_radii() }),
             LayerKind::PhotonCount => LayerData::U32(Plane { width, height, values: self.photons_found() }),
             LayerKind::ShapeId => LayerData::U32(Plane { width, height, values: self.shapes.clone() }),
+            LayerKind::ErrorNoise | LayerKind::ErrorBias | LayerKind::ErrorTotal => {
+                LayerData::F32(Plane { width, height, values: self.error_plane(kind)? })
+            }
         };
         Some(Layer { name: kind.name().to_owned(), channels })
     }
@@ -367,7 +403,7 @@ impl Ppm {
             LayerKind::Caustic => class(PathClass::Caustic)?,
             LayerKind::Indirect => class(PathClass::Indirect)?,
             LayerKind::Emission => self.light.emission().to_vec(),
-            LayerKind::Radius | LayerKind::PhotonCount | LayerKind::ShapeId => return None,
+            _ => return None,
         };
         Some(self.as_image(pixels))
     }
@@ -446,6 +482,7 @@ impl Ppm {
         self.scene.bytes()
             + self.hit_points.bytes()
             + self.light.bytes()
+            + self.error.as_ref().map_or(0, ErrorSums::bytes)
             + self.grid.bytes()
             + self.map.bytes()
             + self.chunks.iter().map(chunk).sum::<usize>()

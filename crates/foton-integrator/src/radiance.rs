@@ -100,6 +100,13 @@ impl<const LAYERS: usize> Radiance<LAYERS> {
         Ok(())
     }
 
+    /// Luminance of a pixel's reflected radiance, times the photons emitted.
+    pub(crate) fn luminance_sum(&self, pixel: usize) -> f64 {
+        let [r, g, b] = [0, 1, 2].map(|c| self.sums[pixel].iter().map(|s| s[c]).sum::<f64>());
+        let [red, green, blue] = Rgb::LUMINANCE;
+        f64::from(red) * r + f64::from(green) * g + f64::from(blue) * b
+    }
+
     /// Bytes held.
     pub(crate) const fn bytes(&self) -> usize {
         self.sums.len() * Self::BYTES_PER_PIXEL

@@ -71,6 +71,8 @@ pub struct Settings {
     pub hit_points_per_sample: NonZeroU32,
     /// Whether direct, caustic and indirect light are kept apart (costs 24 to 72 bytes a hit point and pixel).
     pub layers: bool,
+    /// Whether the error is estimated pass by pass (costs 4 bytes a hit point, 32 a pixel and some time).
+    pub error: bool,
 }
 
 impl Default for Settings {
@@ -88,6 +90,7 @@ impl Default for Settings {
             sensor: 0,
             hit_points_per_sample: number(8),
             layers: false,
+            error: false,
         }
     }
 }

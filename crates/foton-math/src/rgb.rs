@@ -64,11 +64,15 @@ impl Rgb {
         (self.r + self.g + self.b) / 3.0
     }
 
+    /// What each channel adds to luminance, by ITU-R BT.709.
+    pub const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
+
     /// Relative luminance with the weights of ITU-R BT.709.
     #[must_use]
     #[inline]
     pub fn luminance(self) -> f32 {
-        0.2126 * self.r + 0.7152 * self.g + 0.0722 * self.b
+        let [r, g, b] = Self::LUMINANCE;
+        r * self.r + g * self.g + b * self.b
     }
 
     /// Whether no channel is above zero.

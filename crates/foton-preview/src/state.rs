@@ -127,6 +127,8 @@ pub(crate) struct State {
     pub(crate) probed: Option<[u32; 2]>,
     pub(crate) rate: Trace,
     pub(crate) radius: Trace,
+    /// Total error in per cent.
+    pub(crate) error: Trace,
     /// Which render and pass the traces ended at.
     pub(crate) traced: (u64, u64),
     /// The scene's file changed on the disk.
@@ -166,6 +168,7 @@ impl State {
             probed: None,
             rate: Trace::default(),
             radius: Trace::default(),
+            error: Trace::default(),
             traced: (0, 0),
             changed_on_disk: false,
             built_in,
@@ -183,11 +186,15 @@ impl State {
         if frame.render != self.traced.0 {
             self.rate = Trace::default();
             self.radius = Trace::default();
+            self.error = Trace::default();
         }
         if now != self.traced && frame.numbers.passes > 1 {
             let seconds = frame.numbers.elapsed.as_secs_f64();
             self.rate.push(seconds, frame.numbers.photons_per_s / 1e6);
             self.radius.push(seconds, frame.numbers.radii.median);
+            if let Some(error) = frame.numbers.error {
+                self.error.push(seconds, 100.0 * error.total);
+            }
         }
         self.traced = now;
         self.frame = Some(frame);

@@ -37,6 +37,12 @@ pub(crate) fn of(ppm: &Ppm, scene: &SceneIdentity) -> Metadata {
     );
     let changes: Vec<String> =
         ppm.changes().iter().map(|(pass, change)| format!("{pass} {change}")).collect();
+    let error = ppm.error().map(|e| {
+        format!(
+            "relative={:.4} noise={:.4} bias={:.4} low={:.4} high={:.4} unknown={:.4}",
+            e.total, e.noise, e.bias, e.low, e.high, e.unknown_share
+        )
+    });
     [
         ("foton:version", env!("CARGO_PKG_VERSION").to_owned()),
         ("foton:scene", scene.name.clone()),
@@ -48,5 +54,6 @@ pub(crate) fn of(ppm: &Ppm, scene: &SceneIdentity) -> Metadata {
         ("foton:changes", changes.join("\n")),
     ]
     .into_iter()
+    .chain(error.map(|error| ("foton:error", error)))
     .collect()
 }

@@ -99,7 +99,7 @@ impl Session {
             if interrupt.is_requested() && passes > 0 {
                 return Ok(StopCause::Interrupted);
             }
-            if rule.is_reached(passes, self.elapsed, last) {
+            if rule.is_reached(passes, self.elapsed, last, self.ppm.error().as_ref()) {
                 return Ok(StopCause::Rule);
             }
             let before = self.elapsed;

@@ -96,6 +96,10 @@ pub(crate) struct Render {
     /// Stop after this much rendering, e.g. 90s, 10m, 1.5h [without any stop rule: 60s]
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) time: Option<Duration>,
+    /// Stop when the error is certainly below this, e.g. 2% or 0.02: root mean square over the mean reflected light, eye
+    /// samples as they are. `off` leaves the estimate out, which saves a little time
+    #[arg(long, value_name = "SHARE|off", value_parser = error_wish)]
+    pub(crate) error: Option<ErrorWish>,
     #[arg(long, value_name = "N", help = with_default(
         "Photons emitted in a pass: fewer answer sooner, more cost less a photon [as the scene says, else ",
         Settings::default().photons_per_pass,
@@ -152,12 +156,22 @@ pub(crate) struct Render {
     /// from its beginning
     #[arg(long, value_name = "FILE")]
     pub(crate) resume: Option<PathBuf>,
-    /// Layers to put into an EXR: direct, caustic, indirect, emission, radius, photon_count, shape_id
+    /// Layers to put into an EXR: direct, caustic, indirect, emission, radius, photon_count, shape_id,
+    /// error_noise, error_bias, error_total
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = layer)]
     pub(crate) layers: Vec<LayerKind>,
     /// Print one JSON object a line on stdout
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// `--error`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum ErrorWish {
+    /// Not estimated.
+    Off,
+    /// Stop below this.
+    Below(f64),
 }
 
 /// `--direct`.
@@ -281,6 +295,16 @@ fn with_unit(s: &str, units: &[(&str, f64)]) -> Option<f64> {
     (number > 0.0 && number.is_finite()).then_some(number * factor)
 }
 
+fn error_wish(s: &str) -> Result<ErrorWish, String> {
+    if s == "off" {
+        return Ok(ErrorWish::Off);
+    }
+    with_unit(s, &[("%", 0.01), ("", 1.0)])
+        .filter(|share| *share < 1.0)
+        .map(ErrorWish::Below)
+        .ok_or_else(|| "expected a share between 0 and 1, such as 2% or 0.02, or off".to_owned())
+}
+
 fn duration(s: &str) -> Result<Duration, String> {
     with_unit(s, &[("ms", 1e-3), ("s", 1.0), ("m", 60.0), ("h", 3600.0), ("", 1.0)])
         .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
@@ -313,6 +337,10 @@ mod tests {
         assert_eq!((bytes("8G"), bytes("1.5MiB")), (Ok(8 << 30), Ok(3 << 19)));
         for bad in ["", "-1s", "0s", "s", "NaNs", "1e300h", "tomorrow"] {
             assert!(duration(bad).is_err(), "{bad}");
+        }
+        assert_eq!((error_wish("2%"), error_wish("off")), (Ok(ErrorWish::Below(0.02)), Ok(ErrorWish::Off)));
+        for bad in ["0", "-1%", "100%", "1", "low"] {
+            assert!(error_wish(bad).is_err(), "{bad}");
         }
         assert_eq!("640x480".parse(), Ok(Size { width: 640, height: 480 }));
         for bad in ["640", "0x3", "axb", "70000x1", "-1x5"] {

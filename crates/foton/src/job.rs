@@ -12,7 +12,7 @@ use foton_scene::Scene;
 use foton_session::snapshot::{self, Format};
 use foton_session::{Interrupt, SceneIdentity, Session, StartError, StopRule, checkpoint};
 
-use crate::args::{Render, Size};
+use crate::args::{ErrorWish, Render, Size};
 use crate::memory;
 use crate::talk::{Failure, Talk};
 
@@ -43,16 +43,21 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
         seed: args.seed,
         sensor,
         layers: args.layers.iter().any(|l| l.needs_classes()),
+        error: args.error != Some(ErrorWish::Off) || args.layers.iter().any(|l| l.needs_error()),
         ..Settings::default()
     };
-    let mut rule = StopRule { passes: args.passes, time: args.time };
+    let error = match args.error {
+        Some(ErrorWish::Below(share)) => Some(share),
+        Some(ErrorWish::Off) | None => None,
+    };
+    let mut rule = StopRule { passes: args.passes, time: args.time, error };
     if rule == StopRule::default() {
         if let Some(passes) = suggested.passes {
             rule.passes = Some(passes.into());
-            talk.line(&format!("no --passes or --time: {passes} passes, as the scene file says"));
+            talk.line(&format!("no --passes, --time or --error: {passes} passes, as the scene file says"));
         } else {
             rule.time = Some(DEFAULT_TIME);
-            talk.line("no --passes or --time: rendering for 60 s");
+            talk.line("no --passes, --time or --error: rendering for 60 s");
         }
     }
     refuse_beyond_memory(&scene, &settings, args.memory)?;

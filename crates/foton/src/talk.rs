@@ -5,7 +5,7 @@ use std::io::Write;
 
 use foton_film::{ReadError, WriteError};
 use foton_format::{Diagnostic, OpenError};
-use foton_integrator::{DirectLight, Ledger, Ppm};
+use foton_integrator::{DirectLight, ErrorEstimate, Ledger, Ppm};
 use foton_measure::CompareError;
 use foton_scene::BuildError;
 use foton_session::checkpoint::ResumeError;
@@ -172,8 +172,9 @@ impl Talk {
         let seconds = p.elapsed.as_secs_f64();
         let rate = |n: u64| n as f64 / seconds.max(1e-9);
         let r = &p.report;
+        let error = p.ppm.error();
         if self.json {
-            self.event(&json!({
+            let mut event = json!({
                 "event": "pass",
                 "pass": r.pass,
                 "photons": r.photons,
@@ -187,17 +188,20 @@ impl Talk {
                 "candidates": r.candidates,
                 "accepted": r.accepted,
                 "radii_at_floor": r.floored,
-            }));
+            });
+            add_error(&mut event, error.as_ref());
+            self.event(&event);
         }
-        if let Some(fraction) = rule.fraction(r.pass, p.elapsed) {
+        if let Some(fraction) = rule.fraction(r.pass, p.elapsed, error.as_ref()) {
             self.bar.set_position((fraction * 1000.0) as u64);
         }
         self.bar.set_message(format!(
-            "pass {}, {:.1} M photons, {:.2} M/s, {:.1} % of hit points without a photon",
+            "pass {}, {:.1} M photons, {:.2} M/s, {:.1} % of hit points without a photon{}",
             r.pass,
             r.photons as f64 / 1e6,
             rate(r.photons) / 1e6,
-            r.no_photon_share * 100.0
+            r.no_photon_share * 100.0,
+            error.map_or_else(String::new, |e| format!(", {}", error_text(&e)))
         ));
     }
 
@@ -208,7 +212,7 @@ impl Talk {
         let seconds = session.elapsed().as_secs_f64();
         let stages: serde_json::Map<_, _> =
             session.stages().iter().map(|(s, t)| (s.name().to_owned(), json!(t.as_secs_f64()))).collect();
-        self.event(&json!({
+        let mut done = json!({
             "event": "done",
             "passes": ppm.passes(),
             "photons": ppm.photons_emitted(),
@@ -219,7 +223,9 @@ impl Talk {
             "eye_rays": ppm.start_report().eye_rays,
             "stages": stages,
             "lights": lights_json(ppm),
-        }));
+        });
+        add_error(&mut done, ppm.error().as_ref());
+        self.event(&done);
         if self.json {
             return;
         }
@@ -236,6 +242,14 @@ impl Talk {
             ppm.photons_emitted() as f64 / 1e6 / seconds.max(1e-9),
             shares.join(", ")
         ));
+        if let Some(error) = ppm.error() {
+            self.line(&format!(
+                "{}; 90 % confidence {:.2} to {:.2} %, without what eye samples miss and what no photon has found",
+                error_text(&error),
+                100.0 * error.low,
+                100.0 * error.high
+            ));
+        }
         for path in outputs {
             self.line(&format!("wrote {path}"));
         }
@@ -273,6 +287,21 @@ impl Talk {
         if ledger.dropped > 0 {
             self.warning(&format!("{} photons were dropped: their power was not finite", ledger.dropped));
         }
+    }
+}
+
+/// The error in a few words.
+fn error_text(e: &ErrorEstimate) -> String {
+    let percent = |share: f64| 100.0 * share;
+    format!("error {:.2} % (noise {:.2}, bias {:.2})", percent(e.total), percent(e.noise), percent(e.bias))
+}
+
+/// Adds the error to an event: shares of the mean reflected light; null while nothing is known.
+fn add_error(event: &mut Value, error: Option<&ErrorEstimate>) {
+    let fields = |e: &ErrorEstimate| [e.total, e.noise, e.bias, e.low, e.high, e.unknown_share];
+    let names = ["error", "noise", "bias", "error_low", "error_high", "unknown_share"];
+    for (i, name) in names.into_iter().enumerate() {
+        event[name] = json!(error.map(|e| fields(e)[i]));
     }
 }
 

@@ -81,6 +81,7 @@ fn settings(suggested: &Suggested) -> Settings {
         alpha: suggested.alpha.and_then(Alpha::new).unwrap_or(defaults.alpha),
         photons_per_pass: photons.unwrap_or(defaults.photons_per_pass),
         radius: suggested.radius,
+        error: true,
         ..defaults
     }
 }

@@ -240,7 +240,7 @@ fn session(scene: &Path) -> Session {
     let opened = foton_format::open(scene, &foton_format::Options::default()).expect("the scene opens");
     let scene = Arc::new(Scene::build(&opened.description).expect("the scene is sound"));
     let photons_per_pass = 2000.try_into().expect("above zero");
-    let settings = Settings { photons_per_pass, layers: true, ..Settings::default() };
+    let settings = Settings { photons_per_pass, layers: true, error: true, ..Settings::default() };
     let interrupt = Interrupt::default();
     let mut session = Session::start(scene, settings, Some(2), interrupt.cancel()).expect("starts");
     session.run(&StopRule::passes(2), &interrupt, &mut |_| Ok::<_, StartError>(())).expect("runs");

@@ -77,6 +77,7 @@ fn stop_rule(ui: &mut egui::Ui, state: &mut State, rule: StopRule) {
             .on_hover_text("Pauses after so much rendering; a pass that would end later is not begun");
         new.time = on.then(|| Duration::from_secs_f64(seconds));
     });
+    let new = super::error::stop_at(ui, new);
     if new != rule {
         state.ask(Command::StopAt(new));
     }

@@ -2,6 +2,7 @@
 
 mod canvas;
 mod controls;
+mod error;
 mod help;
 mod inspector;
 mod keys;

@@ -3,7 +3,7 @@
 use egui_plot::{Line, Plot, PlotPoints};
 use foton_session::engine::{Activity, Frame};
 
-use super::{grouped, heading, short};
+use super::{error, grouped, heading, short};
 use crate::state::{State, Trace};
 
 /// The line at the bottom.
@@ -22,6 +22,7 @@ pub(super) fn status(ui: &mut egui::Ui, state: &State) {
         ui.separator();
         ui.label(format!("{:.2} M photons/s", n.photons_per_s / 1e6));
         ui.separator();
+        error::status(ui, n.error.as_ref());
         if let Some(probe) = frame.probe.as_ref().filter(|p| Some(p.pixel) == state.probed) {
             let c = probe.radiance;
             let [r, g, b] = [c.r, c.g, c.b].map(|v| short(f64::from(v)));
@@ -47,13 +48,18 @@ fn activity(frame: &Frame) -> String {
         Activity::Empty => "no scene".to_owned(),
         Activity::Moving => "moving".to_owned(),
         Activity::Collecting => "collecting hit points…".to_owned(),
-        Activity::Rendering => match frame.stop.fraction(frame.numbers.passes, frame.numbers.elapsed) {
+        Activity::Rendering => match share_done(frame) {
             Some(share) => format!("rendering {:.0} %", share * 100.0),
             None => "rendering".to_owned(),
         },
         Activity::Paused => "paused".to_owned(),
         Activity::Done => "done".to_owned(),
     }
+}
+
+fn share_done(frame: &Frame) -> Option<f64> {
+    let n = &frame.numbers;
+    frame.stop.fraction(n.passes, n.elapsed, n.error.as_ref())
 }
 
 /// The table and the plots.
@@ -68,6 +74,9 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
             ui.end_row();
         };
         row("time", format!("{:.1} s", n.elapsed.as_secs_f64()), "Of rendering; pauses do not count");
+        for (name, value, help) in error::rows(state) {
+            row(name, value, help);
+        }
         row("rays/s", format!("{:.2} M", n.rays_per_s / 1e6), "Over the last two seconds");
         row("hit points", grouped(n.hit_points), "Where eye paths end on surfaces that spread light");
         row("without photon", format!("{:.2} %", n.no_photon_share * 100.0), "Unknown, not dark");
@@ -100,6 +109,7 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
     ui.checkbox(&mut state.preferences.show_plots, "Plots");
     if state.preferences.show_plots {
         plot(ui, "M photons/s over time (s)", &state.rate);
+        plot(ui, "error over time (%, s)", &state.error);
         plot(ui, "median radius over time (s)", &state.radius);
     }
     if !state.adapter.is_empty() {

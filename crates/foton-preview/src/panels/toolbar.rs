@@ -1,7 +1,7 @@
 //! The bar on top: scene, run, snapshot, what is shown.
 
 use foton_film::ToneMap;
-use foton_session::engine::{Activity, Command, Configuration, Shown, Source};
+use foton_session::engine::{Activity, Command, Configuration, ErrorPart, Shown, Source};
 
 use crate::files::{FileDialog, SCENES};
 use crate::state::{DialogPurpose, Pinned, Placement, State};
@@ -108,12 +108,15 @@ fn run(ui: &mut egui::Ui, state: &mut State) {
 }
 
 /// What can be shown, by name.
-pub(super) const PICTURES: [(&str, Shown); 5] = [
+pub(super) const PICTURES: [(&str, Shown); 8] = [
     ("Radiance", Shown::Radiance),
     ("Luminance", Shown::Luminance),
     ("Radius", Shown::Radius),
     ("Photons found", Shown::PhotonCount),
     ("No photon yet", Shown::Unknown),
+    ("Error", Shown::Error(ErrorPart::Total)),
+    ("Noise", Shown::Error(ErrorPart::Noise)),
+    ("Blur", Shown::Error(ErrorPart::Bias)),
 ];
 
 fn view(ui: &mut egui::Ui, state: &mut State) {

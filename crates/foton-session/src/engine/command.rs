@@ -164,6 +164,19 @@ pub enum Shown {
     Luminance,
     /// Share of hit points that have found no photon.
     Unknown,
+    /// How wrong each pixel still is; radiance where the error is not estimated.
+    Error(ErrorPart),
+}
+
+/// What makes a pixel wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ErrorPart {
+    /// Too few photons.
+    Noise,
+    /// Radii too large.
+    Bias,
+    /// Both.
+    Total,
 }
 
 /// What a window may ask.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use foton_film::{Image, Plane};
-use foton_integrator::{PathClass, Radii, Settings};
+use foton_integrator::{ErrorEstimate, PathClass, Radii, Settings};
 use foton_math::Rgb;
 
 use super::command::Shown;
@@ -151,6 +151,8 @@ pub struct Numbers {
     pub hit_points: u64,
     /// Share of hit points that have found no photon: unknown, not dark.
     pub no_photon_share: f64,
+    /// How wrong the image still is, once there are passes enough to tell.
+    pub error: Option<ErrorEstimate>,
     /// Spread of radii in world units.
     pub radii: Radii,
     /// Bytes held.

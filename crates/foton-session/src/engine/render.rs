@@ -10,7 +10,7 @@ use foton_math::Rgb;
 use foton_scene::Scene;
 use foton_scene::description::SensorDescription;
 
-use super::command::Shown;
+use super::command::{ErrorPart, Shown};
 use super::frame::{Numbers, Picture};
 use crate::session::{Session, StartError};
 
@@ -111,7 +111,12 @@ impl Render {
         }
         let settings = Settings {
             samples_per_pixel: NonZeroU32::MIN,
+<<<<<<< HEAD
             photons_per_pass: settings.photons_per_pass.min(level.photons()),
+=======
+            photons_per_pass: settings.photons_per_pass.min(SMALL_PASS),
+            error: false,
+>>>>>>> e8bc942 (integrator: how wrong the image is, live, split into noise and blur; foton: --error; preview: its figure, plot and pictures)
             ..settings.clone()
         };
         // Sensors that made a scene once make one at any size.
@@ -184,6 +189,7 @@ impl Render {
             stages: *self.session.stages(),
             hit_points: ppm.start_report().hit_points,
             no_photon_share: self.no_photon_share,
+            error: ppm.error(),
             radii,
             bytes: ppm.bytes(),
         }
@@ -218,6 +224,15 @@ impl Render {
                 measure("luminance (W/m²/sr)", ppm.image().pixels.iter().map(|c| c.luminance()).collect())
             }
             Shown::Unknown => measure("hit points without a photon", ppm.unknown_share()),
+            Shown::Error(part) => {
+                let (label, kind) = match part {
+                    ErrorPart::Noise => ("noise (W/m²/sr)", LayerKind::ErrorNoise),
+                    ErrorPart::Bias => ("blur (W/m²/sr)", LayerKind::ErrorBias),
+                    ErrorPart::Total => ("error (W/m²/sr)", LayerKind::ErrorTotal),
+                };
+                ppm.error_plane(kind)
+                    .map_or_else(|| Picture::Colour(Arc::new(ppm.image())), |plane| measure(label, plane))
+            }
         }
     }
 }

@@ -289,7 +289,10 @@ impl Worker {
         }
         match self.flow {
             Flow::Steps(left) => left == 0,
-            Flow::Run => self.stop.is_reached(render.ppm().passes(), render.elapsed(), self.last_pass),
+            Flow::Run => {
+                let ppm = render.ppm();
+                self.stop.is_reached(ppm.passes(), render.elapsed(), self.last_pass, ppm.error().as_ref())
+            }
         }
     }
 

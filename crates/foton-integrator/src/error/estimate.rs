@@ -1,0 +1,125 @@
+//! The error of an image in one figure, and of its tiles.
+
+use super::moments::{Scatter, Weights};
+
+/// Half of the outer 10 % of a normal distribution lie beyond this many standard deviations.
+const Z_90: f64 = 1.645;
+
+/// How far an image is from the one that endless passes over the same eye samples would make.
+///
+/// All shares are relative to the mean reflected luminance of those pixels that see anything reflect; the error is the root
+/// mean square over the same pixels. Left out, because passes cannot show it: what the eye samples miss (antialiasing and
+/// gloss are frozen with them), light on paths that no photon has found yet where others have, and most of the blur right at
+/// edges, which is no Laplacian.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ErrorEstimate {
+    /// √(noise² + bias²).
+    pub total: f64,
+    /// What more photons alone would take away; hit points that no photon has found count as if one were about to.
+    pub noise: f64,
+    /// Blur by the radius.
+    pub bias: f64,
+    /// The error is above this nineteen times in twenty, as far as the figure goes.
+    pub low: f64,
+    /// The error is below this nineteen times in twenty, as far as the figure goes.
+    pub high: f64,
+    /// Share of pixels that see something reflect and have found no light at all: unknown, not dark.
+    pub unknown_share: f64,
+    /// Number of equal passes that those so far are worth: passes grow at first.
+    pub effective_passes: f64,
+    /// The mean that the others are relative to (W/m²/sr).
+    pub mean_luminance: f64,
+}
+
+/// The mean over the seen pixels of a square of 8 × 8 and what is known of its error. Luminance, W/m²/sr.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TileError {
+    /// Pixels that see something reflect.
+    pub pixels: u32,
+    /// Reflected luminance.
+    pub mean: f64,
+    /// Standard deviation of the mean.
+    pub noise: f64,
+    /// What blur added to the mean, as estimated: to be subtracted.
+    pub bias: f64,
+    /// Standard deviation of `bias`; independent of the noise of the mean.
+    pub bias_noise: f64,
+}
+
+impl TileError {
+    /// A bound of the tile's error that `z` standard deviations of noise belong to: √max(0, B² − Var B) + z σ.
+    #[must_use]
+    pub fn bound(&self, z: f64) -> f64 {
+        (self.bias * self.bias - self.bias_noise * self.bias_noise).max(0.0).sqrt() + z * self.noise
+    }
+}
+
+/// Sums over pixels.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sums {
+    /// Pixels that see something reflect.
+    pub(super) seen: f64,
+    /// Luminance.
+    pub(super) light: f64,
+    /// Variances of it.
+    pub(super) variance: f64,
+    /// B² − Var B.
+    pub(super) bias2: f64,
+    /// Var B.
+    pub(super) bias_variance: f64,
+    /// Squared deviations of the last pass from the mean.
+    pub(super) deviation: f64,
+    /// Pixels without light.
+    pub(super) unknown: f64,
+    /// Squares of what a photon would bring there.
+    pub(super) unknown2: f64,
+}
+
+impl Sums {
+    pub(super) fn plus(self, o: Self) -> Self {
+        Self {
+            seen: self.seen + o.seen,
+            light: self.light + o.light,
+            variance: self.variance + o.variance,
+            bias2: self.bias2 + o.bias2,
+            bias_variance: self.bias_variance + o.bias_variance,
+            deviation: self.deviation + o.deviation,
+            unknown: self.unknown + o.unknown,
+            unknown2: self.unknown2 + o.unknown2,
+        }
+    }
+
+    /// The figure; `None` while there are too few passes, or no light, to say anything.
+    ///
+    /// The mean over pixels of σ² is unbiased whether or not they share photons; how far it can be trusted is not, and follows
+    /// from how much whole passes scatter. B̂ is as noisy as √3 σ, so its own variance is taken off its square before anything
+    /// else is done. With K = 2/ρ² independent parts, the realised mean of (b + ε)² has variance ρ²(σ⁴ + 2 b² σ²).
+    pub(super) fn estimate(&self, weights: &Weights, scatter: &Scatter) -> Option<ErrorEstimate> {
+        let rho2 = scatter.relative_variance()?;
+        let mean = self.light / self.seen;
+        if self.seen == 0.0 || mean <= 0.0 {
+            return None;
+        }
+        let relative = |sum: f64| sum / self.seen / (mean * mean);
+        let (noise2, unknown2) = (relative(self.variance), relative(self.unknown2));
+        let (bias2, bias_variance) = (relative(self.bias2).max(0.0), relative(self.bias_variance));
+        let concentration = weights.concentration();
+        let of_noise = (1.0 + concentration) * noise2 * noise2 + 2.0 * bias2 * noise2;
+        let of_bias = bias_variance * bias_variance + 2.0 * bias2 * bias_variance;
+        let effective_passes = 1.0 / concentration;
+        let sigma = (rho2 * (of_noise + of_bias)).sqrt();
+        // Student's t in place of the normal's quantile, to first order.
+        let t = Z_90 * (1.0 + (Z_90 * Z_90 + 1.0) / (4.0 * (effective_passes - 1.0).max(1.0)));
+        let total2 = noise2 + unknown2 + bias2;
+        Some(ErrorEstimate {
+            total: total2.sqrt(),
+            noise: (noise2 + unknown2).sqrt(),
+            bias: bias2.sqrt(),
+            low: (total2 - t * sigma).max(0.0).sqrt(),
+            high: (total2 + t * sigma).sqrt(),
+            unknown_share: self.unknown / self.seen,
+            effective_passes,
+            mean_luminance: mean,
+        })
+    }
+}

@@ -1,0 +1,262 @@
+//! How wrong the image still is, from the passes alone: noise from how much their estimates scatter, bias from where in the
+//! discs light falls.
+//!
+//! **Bias.** A disc of radius r measures the mean of E over it, E + (r²/8)∇²E + … With s = d²/r² for a photon at distance d,
+//! B̂ = Σ 6(s − ½) Φ/(π r²) has that same expectation: over the disc s is uniform, so the factor's mean is 0 and the Laplacian's
+//! part is 6 Var(s) r²/4 · ∇²E = (r²/8)∇²E. Summed pass by pass with each pass's own radius, as L is, it is the bias of L.
+//! Among all radial weights with this expectation, the one linear in s has the smallest variance: Var B̂ = 36 Var(s) Var L =
+//! 3 Var L (4 for two concentric discs, 4.5 for the derivative kernel of `[HJJ10]`), and B̂ and L are uncorrelated.
+//!
+//! Luminance only: photons carry all channels, so their errors go together.
+
+mod estimate;
+mod moments;
+
+use foton_math::Rgb;
+use rayon::prelude::*;
+
+pub use estimate::{ErrorEstimate, TileError};
+
+use crate::hit_point::{HitPoints, Irradiance};
+use crate::packet::LANES;
+use crate::radiance::Radiance;
+use estimate::Sums;
+use moments::{Moments, Scatter, Weights};
+
+/// Pixels along the side of a tile.
+const TILE: usize = 8;
+
+/// The bias plane averages squares over this many pixels to each side.
+const SMOOTHED: usize = 2;
+
+/// What a pixel keeps beside its sum.
+#[derive(Clone, Copy, Debug, Default)]
+struct Pixel {
+    /// Σ aⱼ² and Σ nⱼ aⱼ of its luminance.
+    squares: f64,
+    cross: f64,
+    /// The same and the sum for its bias, of which fewer digits are known.
+    bias: f64,
+    bias_squares: f32,
+    bias_cross: f32,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Tile {
+    pixels: u32,
+    light: Moments,
+    bias: Moments,
+}
+
+/// Sums over all passes so far.
+pub(crate) struct ErrorSums {
+    /// 6(s − ½)Φ/(π r²) of this pass by slot, in luminance.
+    moment_slots: Vec<f32>,
+    pixels: Vec<Pixel>,
+    tiles: Vec<Tile>,
+    width: usize,
+    samples: f64,
+    weights: Weights,
+    scatter: Scatter,
+    estimate: Option<ErrorEstimate>,
+}
+
+/// A pass that has been added to the image.
+pub(crate) struct Pass<'a, const LAYERS: usize> {
+    pub(crate) hit_points: &'a HitPoints,
+    pub(crate) irradiance_slots: &'a [Irradiance<LAYERS>],
+    pub(crate) radiance: &'a Radiance<LAYERS>,
+    /// Photons that it emitted.
+    pub(crate) photons: u64,
+    /// Mean power of a photon where it leaves its emitter.
+    pub(crate) power: f64,
+}
+
+/// What a pixel's own pass says.
+struct Addend {
+    light: f64,
+    bias: f64,
+}
+
+impl<const LAYERS: usize> Pass<'_, LAYERS> {
+    fn addend(&self, pixel: usize, moment_slots: &[f32], samples: f64) -> Addend {
+        let hit_points = self.hit_points;
+        let range = hit_points.pixel_start[pixel] as usize..hit_points.pixel_start[pixel + 1] as usize;
+        let mut bias = 0.0;
+        for (&slot, &weight) in hit_points.slot_of[range.clone()].iter().zip(&hit_points.weights[range]) {
+            let irradiance: Rgb = self.irradiance_slots[slot as usize].iter().copied().sum();
+            let luminance = irradiance.luminance();
+            if luminance > 0.0 {
+                let seen = (weight * irradiance).luminance() / luminance;
+                bias += f64::from(seen * moment_slots[slot as usize]);
+            }
+        }
+        let light: Rgb = self.radiance.last[pixel].iter().copied().sum();
+        Addend { light: f64::from(light.luminance()), bias: bias / samples }
+    }
+
+    /// Luminance per emitted photon that a pixel would gain if each of its hit points that know nothing found one.
+    fn one_photon(&self, pixel: usize, samples: f64) -> f64 {
+        let hit_points = self.hit_points;
+        let range = hit_points.pixel_start[pixel] as usize..hit_points.pixel_start[pixel + 1] as usize;
+        let unknown = range.filter_map(|h| {
+            let statistics = &hit_points.statistics_slots[hit_points.slot_of[h] as usize];
+            let area = std::f64::consts::PI * statistics.radius2();
+            statistics.is_unknown().then(|| f64::from(hit_points.weights[h].luminance()) / area)
+        });
+        unknown.sum::<f64>() * self.power / samples
+    }
+}
+
+impl ErrorSums {
+    pub(crate) fn new(hit_points: &HitPoints, width: u32, samples: u32) -> Self {
+        let (width, pixels) = (width as usize, hit_points.pixel_start.len() - 1);
+        let height = pixels.div_ceil(width.max(1));
+        let mut tiles = vec![Tile::default(); width.div_ceil(TILE) * height.div_ceil(TILE)];
+        for pixel in 0..pixels {
+            let tile = pixel / width / TILE * width.div_ceil(TILE) + pixel % width / TILE;
+            let is_seen = hit_points.pixel_start[pixel] < hit_points.pixel_start[pixel + 1];
+            tiles[tile].pixels += u32::from(is_seen);
+        }
+        Self {
+            moment_slots: vec![0.0; hit_points.packets.len() * LANES],
+            pixels: vec![Pixel::default(); pixels],
+            tiles,
+            width,
+            samples: f64::from(samples),
+            weights: Weights::default(),
+            scatter: Scatter::default(),
+            estimate: None,
+        }
+    }
+
+    /// Where the gather puts each slot's moment.
+    pub(crate) fn moment_slots(&mut self) -> &mut [f32] {
+        &mut self.moment_slots
+    }
+
+    /// Takes a pass that has been added to `radiance` already.
+    pub(crate) fn add<const LAYERS: usize>(&mut self, pass: &Pass<'_, LAYERS>) {
+        let photons = pass.photons as f64;
+        self.weights.add(photons);
+        let (width, samples, weights) = (self.width, self.samples, self.weights);
+        let moment_slots = &self.moment_slots;
+        let bands = self.pixels.par_chunks_mut(TILE * width);
+        let sums: Vec<Sums> = bands
+            .zip(self.tiles.par_chunks_mut(width.div_ceil(TILE)))
+            .enumerate()
+            .map(|(band, (pixels, tiles))| {
+                let mut sums = Sums::default();
+                let mut addends = vec![(0.0, 0.0); tiles.len()];
+                for (i, pixel) in pixels.iter_mut().enumerate() {
+                    let index = band * TILE * width + i;
+                    if pass.hit_points.pixel_start[index] == pass.hit_points.pixel_start[index + 1] {
+                        continue;
+                    }
+                    let addend = pass.addend(index, moment_slots, samples);
+                    pixel.add(&addend, photons);
+                    let mean = pass.radiance.luminance_sum(index) / weights.photons;
+                    pixel.sum_up(mean, &weights, &mut sums);
+                    sums.deviation += (addend.light / photons - mean).powi(2);
+                    if mean <= 0.0 {
+                        sums.unknown += 1.0;
+                        sums.unknown2 += (pass.one_photon(index, samples) / weights.photons).powi(2);
+                    }
+                    let (light, bias) = &mut addends[i % width / TILE];
+                    *light += addend.light;
+                    *bias += addend.bias;
+                }
+                for (tile, (light, bias)) in tiles.iter_mut().zip(addends) {
+                    tile.light.add(light, photons);
+                    tile.bias.add(bias, photons);
+                }
+                sums
+            })
+            .collect();
+        let sums = sums.into_iter().fold(Sums::default(), Sums::plus);
+        let share = photons / self.weights.photons;
+        if share < 1.0 && sums.seen > 0.0 {
+            self.scatter.add(photons * sums.deviation / sums.seen / (1.0 - share));
+        }
+        self.estimate = sums.estimate(&self.weights, &self.scatter);
+    }
+
+    /// The figure after the last pass.
+    pub(crate) const fn estimate(&self) -> Option<ErrorEstimate> {
+        self.estimate
+    }
+
+    /// All tiles of 8 × 8 pixels, row by row.
+    pub(crate) fn tiles(&self) -> Vec<TileError> {
+        let of = |tile: &Tile| {
+            let pixels = f64::from(tile.pixels.max(1));
+            let (mean, variance) = tile.light.mean_and_variance(&self.weights);
+            let (bias, bias_variance) = tile.bias.mean_and_variance(&self.weights);
+            TileError {
+                pixels: tile.pixels,
+                mean: mean / pixels,
+                noise: variance.sqrt() / pixels,
+                bias: bias / pixels,
+                bias_noise: bias_variance.sqrt() / pixels,
+            }
+        };
+        self.tiles.iter().map(of).collect()
+    }
+
+    /// Standard deviation and bias of each pixel's luminance. The bias is a root mean square over the 5 × 5 pixels around it,
+    /// since a single pixel's is hardly known.
+    pub(crate) fn planes<const LAYERS: usize>(&self, radiance: &Radiance<LAYERS>) -> (Vec<f32>, Vec<f32>) {
+        let of = |(index, pixel): (usize, &Pixel)| {
+            let mut sums = Sums::default();
+            pixel.sum_up(
+                radiance.luminance_sum(index) / self.weights.photons.max(1.0),
+                &self.weights,
+                &mut sums,
+            );
+            (sums.variance, sums.bias2)
+        };
+        let (variance, bias2): (Vec<f64>, Vec<f64>) = self.pixels.iter().enumerate().map(of).unzip();
+        let (width, height) = (self.width, self.pixels.len().div_ceil(self.width.max(1)));
+        let smooth = |index: usize| {
+            let (x, y) = (index % width, index / width);
+            let rows = y.saturating_sub(SMOOTHED)..=(y + SMOOTHED).min(height - 1);
+            let columns = x.saturating_sub(SMOOTHED)..(x + SMOOTHED + 1).min(width);
+            let count = (rows.clone().count() * columns.len()) as f64;
+            let sum: f64 = rows.map(|y| bias2[y * width..][columns.clone()].iter().sum::<f64>()).sum();
+            (sum / count).max(0.0).sqrt() as f32
+        };
+        (variance.iter().map(|v| v.sqrt() as f32).collect(), (0..bias2.len()).map(smooth).collect())
+    }
+
+    /// Bytes held.
+    pub(crate) const fn bytes(&self) -> usize {
+        size_of::<f32>() * self.moment_slots.len()
+            + Self::BYTES_PER_PIXEL * self.pixels.len()
+            + size_of::<Tile>() * self.tiles.len()
+    }
+
+    /// Bytes held per hit point.
+    pub(crate) const BYTES_PER_HIT_POINT: usize = size_of::<f32>();
+    /// Bytes held per pixel, without the tiles' two.
+    pub(crate) const BYTES_PER_PIXEL: usize = size_of::<Pixel>();
+}
+
+impl Pixel {
+    fn add(&mut self, addend: &Addend, photons: f64) {
+        self.squares += addend.light * addend.light;
+        self.cross += photons * addend.light;
+        self.bias += addend.bias;
+        self.bias_squares += (addend.bias * addend.bias) as f32;
+        self.bias_cross += (photons * addend.bias) as f32;
+    }
+
+    fn sum_up(&self, mean: f64, weights: &Weights, sums: &mut Sums) {
+        let bias = self.bias / weights.photons.max(1.0);
+        let bias_variance = weights.variance(bias, f64::from(self.bias_squares), f64::from(self.bias_cross));
+        sums.seen += 1.0;
+        sums.light += mean;
+        sums.variance += weights.variance(mean, self.squares, self.cross);
+        sums.bias2 += bias * bias - bias_variance;
+        sums.bias_variance += bias_variance;
+    }
+}

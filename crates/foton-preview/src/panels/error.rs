@@ -1,0 +1,120 @@
+//! The live error: its figure, its split, its plot, and when it will be small enough.
+
+use foton_session::{ErrorEstimate, StopRule};
+
+use crate::state::{State, Trace};
+
+/// Points of a trace that a slope is fitted to, at least.
+const LEAST_POINTS: usize = 6;
+
+/// What a person who asks for nothing else may want to know the time to: 2 %.
+const USUAL_GOAL: f64 = 0.02;
+
+const HELP: &str = "Root mean square error of the image over its mean reflected light, estimated from the passes. Noise is what more \
+                    photons take away, blur what smaller radii do. Left out: what the eye samples miss, light that no photon has \
+                    found, most of the blur right at edges";
+
+/// "3.1 %".
+fn percent(share: f64) -> String {
+    let digits = if share < 0.1 { 2 } else { 1 };
+    format!("{:.digits$} %", 100.0 * share)
+}
+
+/// The figure in the line at the bottom.
+pub(super) fn status(ui: &mut egui::Ui, error: Option<&ErrorEstimate>) {
+    let Some(e) = error else { return };
+    let text = format!("error {} (noise {}, blur {})", percent(e.total), percent(e.noise), percent(e.bias));
+    ui.label(text).on_hover_text(HELP);
+    ui.separator();
+}
+
+/// The rows of the table: name, value, help.
+pub(super) fn rows(state: &State) -> Vec<(&'static str, String, &'static str)> {
+    let Some((frame, e)) = state.frame.as_ref().and_then(|f| Some((f, f.numbers.error?))) else {
+        return Vec::new();
+    };
+    let mut rows = vec![
+        ("error", percent(e.total), HELP),
+        ("noise, blur", format!("{}, {}", percent(e.noise), percent(e.bias)), HELP),
+        (
+            "from, to ",
+            format!("{}, {}", percent(e.low), percent(e.high)),
+            "The error lies between these, nine times in ten",
+        ),
+    ];
+    let goal = frame.stop.error.unwrap_or(USUAL_GOAL);
+    if let Some(seconds) = seconds_to(&state.error, goal) {
+        let text = format!("about {} to {}", duration(seconds), percent(goal));
+        rows.push(("time left", text, "From the slope of the error over time, both as logarithms"));
+    }
+    rows
+}
+
+/// "40 s", "12 min", "3 h".
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 120.0 => format!("{s:.0} s"),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s if s < 1e7 => format!("{:.0} h", s / 3600.0),
+        _ => "months".to_owned(),
+    }
+}
+
+/// Seconds until the error is at a goal, by a line through the later half of its trace on logarithmic axes; `None` when it is
+/// there already or does not fall.
+fn seconds_to(trace: &Trace, goal: f64) -> Option<f64> {
+    let &[now, error] = trace.points.back()?;
+    let since = now / 4.0;
+    let points = trace.points.iter().filter(|p| p[0] >= since && p[0] > 0.0 && p[1] > 0.0);
+    let logs: Vec<[f64; 2]> = points.map(|p| [p[0].ln(), (p[1] / 100.0).ln()]).collect();
+    if logs.len() < LEAST_POINTS || error <= 100.0 * goal {
+        return None;
+    }
+    let n = logs.len() as f64;
+    let mean = |axis: usize| logs.iter().map(|p| p[axis]).sum::<f64>() / n;
+    let (x, y) = (mean(0), mean(1));
+    let slope = logs.iter().map(|p| (p[0] - x) * (p[1] - y)).sum::<f64>()
+        / logs.iter().map(|p| (p[0] - x).powi(2)).sum::<f64>();
+    let seconds = (x + (goal.ln() - y) / slope).exp() - now;
+    (slope < -0.02 && seconds > 0.0).then_some(seconds)
+}
+
+/// The part of the stop rule that asks for an error.
+pub(super) fn stop_at(ui: &mut egui::Ui, rule: StopRule) -> StopRule {
+    let mut share = rule.error;
+    ui.horizontal(|ui| {
+        let mut on = rule.error.is_some();
+        ui.checkbox(&mut on, "at error");
+        let mut value = 100.0 * rule.error.unwrap_or(USUAL_GOAL);
+        let field = egui::DragValue::new(&mut value).range(0.01..=99.0).speed(0.02).max_decimals(2);
+        ui.add_enabled(on, field.suffix(" %"))
+            .on_hover_text("Pauses once the error is certainly below: its upper end counts, and not before photons are found");
+        share = on.then_some(value / 100.0);
+    });
+    StopRule { error: share, ..rule }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_is_that_of_the_slope() {
+        let mut trace = Trace::default();
+        for i in 1..=40 {
+            let seconds = f64::from(i);
+            trace.push(seconds, 100.0 * 0.2 * seconds.powf(-1.0 / 3.0));
+        }
+        // 0.2 t^(−1/3) = 0.04 at t = 125.
+        let left = seconds_to(&trace, 0.04).expect("it falls");
+        assert!((left - 85.0).abs() < 1e-6, "{left}");
+        assert_eq!(seconds_to(&trace, 0.3), None, "it is there already");
+        let mut flat = Trace::default();
+        (1..40).for_each(|i| flat.push(f64::from(i), 5.0));
+        assert_eq!(seconds_to(&flat, 0.04), None, "it does not fall");
+        assert_eq!(
+            (duration(40.2), duration(720.0), duration(7300.0)),
+            ("40 s".into(), "12 min".into(), "2 h".into())
+        );
+    }
+}
