@@ -97,7 +97,7 @@ fn truth(scene: &Arc<Scene>, seed: u64) -> Truth {
     let cancel = Cancel::default();
     let first = Settings { alpha: Alpha::new(0.2).expect("in range"), ..settings(PHOTONS, seed) };
     let mut ppm = Ppm::start(Arc::clone(scene), first, &mut |_| (), &cancel).expect("not cancelled");
-    let mut advance = |ppm: &mut Ppm| {
+    let advance = |ppm: &mut Ppm| {
         ppm.advance(&mut |_| (), &cancel).expect("not cancelled");
     };
     for _ in 0..SHRINKING {

@@ -36,6 +36,7 @@ fn main() {
         || Settings { photons_per_pass: NonZeroU32::new(1 << 17).expect("above 0"), ..Settings::default() };
     let plain = settings();
     let shadow_rays = Settings { direct_light: DirectLight::ShadowRays, ..settings() };
+    let error = Settings { error: true, ..settings() };
     let layers = Settings { layers: true, ..settings() };
     let rows = [
         ("nothing", none, &plain),
@@ -46,6 +47,7 @@ fn main() {
         ("rough coats", Census { rough_coats: true, ..none }, &plain),
         ("shadow rays", none, &shadow_rays),
         ("light by path class", none, &layers),
+        ("live error", none, &error),
     ];
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let mut best: Vec<Option<Cost>> = rows.iter().map(|_| None).collect();

@@ -25,6 +25,7 @@ fn settings() -> Settings {
         photons_per_pass: number(5000),
         first_pass: number(1000),
         samples_per_pixel: number(2),
+        error: true,
         ..Settings::default()
     }
 }

@@ -8,7 +8,7 @@ use foton_scene::Scene;
 use pulp::Arch;
 
 use crate::cancel::{Cancel, Cancelled};
-use crate::error::{ErrorEstimate, ErrorSums, TileError};
+use crate::error::ErrorSums;
 use crate::eye_pass::EyePass;
 use crate::gather::{Rule, Tally};
 use crate::grid::Grid;
@@ -353,30 +353,6 @@ impl Ppm {
         self.as_image(pixels.collect())
     }
 
-    /// How wrong the image still is; `None` without [`Settings::error`], in the first passes, and in the dark.
-    #[must_use]
-    pub fn error(&self) -> Option<ErrorEstimate> {
-        self.error.as_ref()?.estimate()
-    }
-
-    /// The means of all squares of 8 × 8 pixels with their errors, row by row; none without [`Settings::error`].
-    #[must_use]
-    pub fn error_tiles(&self) -> Vec<TileError> {
-        self.error.as_ref().map_or_else(Vec::new, ErrorSums::tiles)
-    }
-
-    /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`Settings::error`].
-    #[must_use]
-    pub fn error_plane(&self, kind: LayerKind) -> Option<Vec<f32>> {
-        let (noise, bias) = self.light.error_planes(self.error.as_ref()?);
-        match kind {
-            LayerKind::ErrorNoise => Some(noise),
-            LayerKind::ErrorBias => Some(bias),
-            LayerKind::ErrorTotal => Some(noise.iter().zip(&bias).map(|(n, b)| n.hypot(*b)).collect()),
-            _ => None,
-        }
-    }
-
     /// A layer beside the image; `None` for a path class when [`Settings::layers`] is off.
     #[must_use]
     pub fn layer(&self, kind: LayerKind) -> Option<Layer> {
@@ -468,6 +444,14 @@ impl Ppm {
 
     pub(crate) const fn map(&self) -> &PhotonMap {
         &self.map
+    }
+
+    pub(crate) const fn error_sums(&self) -> Option<&ErrorSums> {
+        self.error.as_ref()
+    }
+
+    pub(crate) const fn error_sums_mut(&mut self) -> Option<&mut ErrorSums> {
+        self.error.as_mut()
     }
 
     pub(crate) const fn photons_in_last_pass(&self) -> u64 {

@@ -114,6 +114,10 @@ impl Ppm {
             Light::Whole(sums) => sums.write(&mut out),
             Light::ByClass(sums) => sums.write(&mut out),
         }
+        out.u64(u64::from(self.error_sums().is_some()));
+        if let Some(error) = self.error_sums() {
+            error.write(&mut out);
+        }
         out.0
     }
 
@@ -150,6 +154,11 @@ impl Ppm {
         match self.light_mut() {
             Light::Whole(sums) => sums.read(&mut input)?,
             Light::ByClass(sums) => sums.read(&mut input)?,
+        }
+        let error = self.error_sums_mut();
+        input.expect(usize::from(error.is_some()))?;
+        if let Some(error) = error {
+            error.read(&mut input)?;
         }
         if !input.0.is_empty() {
             return Err(StateError::Length(input.0.len() as i64));

@@ -11,6 +11,7 @@
 
 mod estimate;
 mod moments;
+mod state;
 
 use foton_math::Rgb;
 use rayon::prelude::*;
@@ -18,7 +19,9 @@ use rayon::prelude::*;
 pub use estimate::{ErrorEstimate, TileError};
 
 use crate::hit_point::{HitPoints, Irradiance};
+use crate::layers::LayerKind;
 use crate::packet::LANES;
+use crate::ppm::Ppm;
 use crate::radiance::Radiance;
 use estimate::Sums;
 use moments::{Moments, Scatter, Weights};
@@ -239,6 +242,32 @@ impl ErrorSums {
     pub(crate) const BYTES_PER_HIT_POINT: usize = size_of::<f32>();
     /// Bytes held per pixel, without the tiles' two.
     pub(crate) const BYTES_PER_PIXEL: usize = size_of::<Pixel>();
+}
+
+impl Ppm {
+    /// How wrong the image still is; `None` without [`Settings::error`], in the first passes, and in the dark.
+    #[must_use]
+    pub fn error(&self) -> Option<ErrorEstimate> {
+        self.error_sums()?.estimate()
+    }
+
+    /// The means of all squares of 8 × 8 pixels with their errors, row by row; none without [`Settings::error`].
+    #[must_use]
+    pub fn error_tiles(&self) -> Vec<TileError> {
+        self.error_sums().map_or_else(Vec::new, ErrorSums::tiles)
+    }
+
+    /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`Settings::error`].
+    #[must_use]
+    pub fn error_plane(&self, kind: LayerKind) -> Option<Vec<f32>> {
+        let (noise, bias) = self.light.error_planes(self.error_sums()?);
+        match kind {
+            LayerKind::ErrorNoise => Some(noise),
+            LayerKind::ErrorBias => Some(bias),
+            LayerKind::ErrorTotal => Some(noise.iter().zip(&bias).map(|(n, b)| n.hypot(*b)).collect()),
+            _ => None,
+        }
+    }
 }
 
 impl Pixel {

@@ -13,6 +13,14 @@ pub(crate) struct Weights {
 }
 
 impl Weights {
+    pub(super) const fn numbers(&self) -> [f64; 2] {
+        [self.photons, self.squares]
+    }
+
+    pub(super) const fn of([photons, squares]: [f64; 2]) -> Self {
+        Self { photons, squares }
+    }
+
     pub(crate) fn add(&mut self, photons: f64) {
         self.photons += photons;
         self.squares += photons * photons;
@@ -49,6 +57,14 @@ pub(crate) struct Moments {
 }
 
 impl Moments {
+    pub(super) const fn numbers(&self) -> [f64; 3] {
+        [self.sum, self.squares, self.cross]
+    }
+
+    pub(super) const fn of([sum, squares, cross]: [f64; 3]) -> Self {
+        Self { sum, squares, cross }
+    }
+
     /// Takes a pass of `photons` whose estimate, times its photons, is `addend`.
     pub(crate) fn add(&mut self, addend: f64, photons: f64) {
         self.sum += addend;
@@ -73,6 +89,15 @@ pub(crate) struct Scatter {
 }
 
 impl Scatter {
+    /// There is a last value once any were counted.
+    pub(super) fn numbers(&self) -> [f64; 4] {
+        [self.last.unwrap_or(0.0), self.count, self.sum, self.differences]
+    }
+
+    pub(super) fn of([last, count, sum, differences]: [f64; 4]) -> Self {
+        Self { last: (count > 0.0).then_some(last), count, sum, differences }
+    }
+
     /// Takes nⱼ times the mean squared deviation of a pass from the image, which about stays the same from pass to pass.
     pub(crate) fn add(&mut self, deviation: f64) {
         if let Some(last) = self.last {

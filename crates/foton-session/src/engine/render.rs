@@ -111,12 +111,8 @@ impl Render {
         }
         let settings = Settings {
             samples_per_pixel: NonZeroU32::MIN,
-<<<<<<< HEAD
             photons_per_pass: settings.photons_per_pass.min(level.photons()),
-=======
-            photons_per_pass: settings.photons_per_pass.min(SMALL_PASS),
             error: false,
->>>>>>> e8bc942 (integrator: how wrong the image is, live, split into noise and blur; foton: --error; preview: its figure, plot and pictures)
             ..settings.clone()
         };
         // Sensors that made a scene once make one at any size.

@@ -1,0 +1,66 @@
+//! The sums behind the error as numbers, for checkpoints.
+
+use super::estimate::ErrorEstimate;
+use super::moments::{Moments, Scatter, Weights};
+use super::{ErrorSums, Pixel, Tile};
+use crate::state::{Reader, StateError, Writer};
+
+impl ErrorSums {
+    pub(crate) fn write(&self, out: &mut Writer) {
+        let mut put = |numbers: &[f64]| numbers.iter().for_each(|&n| out.f64(n));
+        put(&self.weights.numbers());
+        put(&self.scatter.numbers());
+        let e = self.estimate;
+        put(&[f64::from(u8::from(e.is_some()))]);
+        if let Some(e) = e {
+            put(&[e.total, e.noise, e.bias, e.low, e.high]);
+            put(&[e.unknown_share, e.effective_passes, e.mean_luminance]);
+        }
+        for p in &self.pixels {
+            put(&[p.squares, p.cross, p.bias, p.bias_squares.into(), p.bias_cross.into()]);
+        }
+        for t in &self.tiles {
+            put(&t.light.numbers());
+            put(&t.bias.numbers());
+        }
+    }
+
+    pub(crate) fn read(&mut self, input: &mut Reader<'_>) -> Result<(), StateError> {
+        self.weights = Weights::of(numbers(input)?);
+        self.scatter = Scatter::of(numbers(input)?);
+        let [is_known] = numbers(input)?;
+        self.estimate = None;
+        if is_known > 0.0 {
+            let [total, noise, bias, low, high, unknown_share, effective_passes, mean_luminance] =
+                numbers(input)?;
+            self.estimate = Some(ErrorEstimate {
+                total,
+                noise,
+                bias,
+                low,
+                high,
+                unknown_share,
+                effective_passes,
+                mean_luminance,
+            });
+        }
+        for pixel in &mut self.pixels {
+            let [squares, cross, bias, bias_squares, bias_cross] = numbers(input)?;
+            let (bias_squares, bias_cross) = (bias_squares as f32, bias_cross as f32);
+            *pixel = Pixel { squares, cross, bias, bias_squares, bias_cross };
+        }
+        for tile in &mut self.tiles {
+            let (light, bias) = (Moments::of(numbers(input)?), Moments::of(numbers(input)?));
+            *tile = Tile { light, bias, ..*tile };
+        }
+        Ok(())
+    }
+}
+
+fn numbers<const N: usize>(input: &mut Reader<'_>) -> Result<[f64; N], StateError> {
+    let mut numbers = [0.0; N];
+    for number in &mut numbers {
+        *number = input.f64()?;
+    }
+    Ok(numbers)
+}
