@@ -164,6 +164,19 @@ fn json_has_a_line_for_each_pass_and_one_for_the_end() {
 }
 
 #[test]
+fn a_render_stops_at_the_error_asked_for_and_not_before_it_is_known() {
+    let folder = Folder::new("error");
+    let output = folder.done("render scene.xml -o x.exr --error 20% --photons 20000 --passes 400 --json");
+    let events = events(&output.stdout);
+    let done = events.last().expect("a line for the end");
+    let passes = number(done, "passes");
+    assert!((8.0..400.0).contains(&passes), "{done}");
+    assert!(events[0]["error"].is_null() && number(done, "error_high") <= 0.2, "{done}");
+    assert!(number(&events[events.len() - 3], "error_high") > 0.2 || passes < 10.0, "{passes}");
+    assert!(folder.exr("x.exr").1.get("foton:error").is_some_and(|e| e.contains("noise=")));
+}
+
+#[test]
 fn an_image_carries_what_it_takes_to_make_it_again() {
     let folder = Folder::new("metadata");
     folder.done("render scene.xml -o x.exr --passes 3 --photons 2000 --seed 7 --alpha 0.75 --spp 2");

@@ -260,7 +260,7 @@ impl Ppm {
     /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`Settings::error`].
     #[must_use]
     pub fn error_plane(&self, kind: LayerKind) -> Option<Vec<f32>> {
-        let (noise, bias) = self.light.error_planes(self.error_sums()?);
+        let (noise, bias) = self.light().error_planes(self.error_sums()?);
         match kind {
             LayerKind::ErrorNoise => Some(noise),
             LayerKind::ErrorBias => Some(bias),
