@@ -113,7 +113,7 @@ fn a_field_that_is_dragged_is_one_step_and_a_saved_scene_is_unedited() {
     assert!(is(ior(&after), 2.4), "{:?}", ior(&after));
     let path = folder.0.join("edited.xml");
     rig.send(Command::SaveScene(path.clone()));
-    assert_eq!(rig.saved(), [path.clone()]);
+    assert_eq!(rig.saved(), std::slice::from_ref(&path));
     rig.until("it saved", |f| !f.scene.is_edited);
     assert_eq!(std::fs::read_to_string(&path).expect("written"), "Some(42) 2");
     edit(&rig, Change::Undo);

@@ -185,7 +185,7 @@ fn every_control_has_an_accessible_name() {
             if with_everything {
                 state.frame.as_mut().expect("there").selection = Some(selection());
                 state.frame.as_mut().expect("there").opening = Some("slow.xml".into());
-                state.frame.as_mut().expect("there").stop = StopRule { passes: Some(9), time: None };
+                state.frame.as_mut().expect("there").stop = StopRule::passes(9);
                 state.error("room.xml:1:1: wrong");
                 state.changed_on_disk = true;
                 state.show_help = true;
