@@ -49,7 +49,7 @@ pub struct Progress<'a> {
 /// A render under way.
 pub struct Session {
     ppm: Ppm,
-    pool: ThreadPool,
+    pool: Arc<ThreadPool>,
     stages: StageTimes,
     elapsed: Duration,
     rays: u64,
@@ -72,7 +72,21 @@ impl Session {
         threads: Option<usize>,
         cancel: &Cancel,
     ) -> Result<Self, StartError> {
-        let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build()?;
+        Ok(Self::start_on(Self::pool(threads)?, scene, settings, cancel)?)
+    }
+
+    /// Threads to render on; one pool serves any number of renders, one at a time.
+    pub(crate) fn pool(threads: Option<usize>) -> Result<Arc<ThreadPool>, ThreadPoolBuildError> {
+        ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build().map(Arc::new)
+    }
+
+    /// Collects hit points on the threads of `pool`.
+    pub(crate) fn start_on(
+        pool: Arc<ThreadPool>,
+        scene: Arc<Scene>,
+        settings: Settings,
+        cancel: &Cancel,
+    ) -> Result<Self, Cancelled> {
         let mut stages = StageTimes::default();
         let begin = Instant::now();
         let ppm = {

@@ -1,6 +1,6 @@
 //! The colour map of false colour: from dark blue over teal to bright yellow, made by a formula, not a table.
 //!
-//! It runs along a parabola in Oklab [OTT20] at constant speed, so that equal steps look equal. Lightness only rises, and blue
+//! It runs along a parabola in Oklab `[OTT20]` at constant speed, so that equal steps look equal. Lightness only rises, and blue
 //! against yellow is the pair that most colour-blind people tell apart: the order can be read without seeing hue at all.
 
 use std::sync::LazyLock;
@@ -50,7 +50,7 @@ fn even_parameters() -> [f64; ENTRIES] {
     })
 }
 
-/// From Oklab to encoded sRGB, with the matrices of [OTT20]. In [0, 1] for the colours of this map.
+/// From Oklab to encoded sRGB, with the matrices of `[OTT20]`. In [0, 1] for the colours of this map.
 fn oklab_to_srgb([lightness, a, b]: [f64; 3]) -> [f64; 3] {
     let l = (lightness + 0.396_337_777_4 * a + 0.215_803_757_3 * b).powi(3);
     let m = (lightness - 0.105_561_345_8 * a - 0.063_854_172_8 * b).powi(3);

@@ -9,10 +9,11 @@ use foton_integrator::{Cancel, Cancelled, LayerKind, Ppm, Radii, Settings};
 use foton_math::Rgb;
 use foton_scene::Scene;
 use foton_scene::description::SensorDescription;
+use rayon::ThreadPool;
 
 use super::command::{ErrorPart, Shown};
 use super::frame::{Numbers, Picture};
-use crate::session::{Session, StartError};
+use crate::session::Session;
 
 /// How much of the whole picture is rendered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -95,11 +96,11 @@ impl Render {
         scene: &Arc<Scene>,
         sensors: &[SensorDescription],
         settings: &Settings,
-        threads: Option<usize>,
+        pool: &Arc<ThreadPool>,
         cancel: &Cancel,
-    ) -> Result<Self, StartError> {
+    ) -> Result<Self, Cancelled> {
         if level == Level::Whole {
-            let session = Session::start(Arc::clone(scene), settings.clone(), threads, cancel)?;
+            let session = Session::start_on(Arc::clone(pool), Arc::clone(scene), settings.clone(), cancel)?;
             return Ok(Self::over(session, level));
         }
         let mut sensors = sensors.to_vec();
@@ -117,7 +118,7 @@ impl Render {
         };
         // Sensors that made a scene once make one at any size.
         let scene = Arc::new(scene.with_sensors(&sensors).map_err(|_| Cancelled)?);
-        Ok(Self::over(Session::start(scene, settings, threads, cancel)?, level))
+        Ok(Self::over(Session::start_on(Arc::clone(pool), scene, settings, cancel)?, level))
     }
 
     fn over(session: Session, level: Level) -> Self {

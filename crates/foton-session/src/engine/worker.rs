@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use crossbeam_channel::{Receiver, Sender, never, select};
 use foton_integrator::{Cancel, Settings};
 use foton_scene::Scene;
+use rayon::ThreadPool;
 
 use super::Setup;
 use super::command::{Change, Command, Configuration, Event, Shown};
@@ -17,7 +18,7 @@ use super::probe;
 use super::render::{Level, Render};
 use super::slot::NewestSender;
 use super::stage::{Effect, Stage};
-use crate::session::{Session, StartError};
+use crate::session::Session;
 use crate::stop::StopRule;
 
 /// Frames are at least this far apart unless a person is waiting for one.
@@ -49,6 +50,8 @@ pub(super) struct Worker {
     opening: Option<Opening>,
     settings: Settings,
     threads: Option<usize>,
+    /// Kept from render to render: threads that come and go leave memory behind that the system's allocator does not give back.
+    pool: Option<Arc<ThreadPool>>,
     stop: StopRule,
     flow: Flow,
     pub(super) render: Option<Render>,
@@ -82,6 +85,7 @@ impl Worker {
             opening: None,
             settings: Settings::default(),
             threads: None,
+            pool: None,
             stop: StopRule::default(),
             flow: Flow::Run,
             render: None,
@@ -203,7 +207,10 @@ impl Worker {
         if let Some(stage) = &self.stage {
             self.settings.sensor = self.settings.sensor.min(stage.sensors().len() - 1);
         }
-        self.threads = configuration.threads;
+        if self.threads != configuration.threads {
+            self.threads = configuration.threads;
+            self.pool = None;
+        }
         self.restart();
     }
 
@@ -316,11 +323,11 @@ impl Worker {
                 return Err(message);
             }
             let Some(stage) = &self.stage else { return Ok(None) };
-            match Render::start(level, &scene, stage.sensors(), &self.settings, self.threads, &cancel) {
-                Ok(render) => Ok(Some(render)),
-                Err(StartError::Cancelled(_)) => Ok(None),
-                Err(error) => Err(error.to_string()),
-            }
+            let pool = match &self.pool {
+                Some(pool) => pool,
+                None => self.pool.insert(Session::pool(self.threads).map_err(|error| error.to_string())?),
+            };
+            Ok(Render::start(level, &scene, stage.sensors(), &self.settings, pool, &cancel).ok())
         });
         match started {
             Some(Ok(Some(render))) => {
