@@ -245,19 +245,19 @@ impl ErrorSums {
 }
 
 impl Ppm {
-    /// How wrong the image still is; `None` without [`Settings::error`], in the first passes, and in the dark.
+    /// How wrong the image still is; `None` without [`Settings::error`](crate::Settings::error), in the first passes, and in the dark.
     #[must_use]
     pub fn error(&self) -> Option<ErrorEstimate> {
         self.error_sums()?.estimate()
     }
 
-    /// The means of all squares of 8 × 8 pixels with their errors, row by row; none without [`Settings::error`].
+    /// The means of all squares of 8 × 8 pixels with their errors, row by row; none without [`Settings::error`](crate::Settings::error).
     #[must_use]
     pub fn error_tiles(&self) -> Vec<TileError> {
         self.error_sums().map_or_else(Vec::new, ErrorSums::tiles)
     }
 
-    /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`Settings::error`].
+    /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`Settings::error`](crate::Settings::error).
     #[must_use]
     pub fn error_plane(&self, kind: LayerKind) -> Option<Vec<f32>> {
         let (noise, bias) = self.light().error_planes(self.error_sums()?);
