@@ -26,14 +26,18 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
 }
 
 fn steer(ui: &mut egui::Ui, state: &mut State, settings: &Settings) {
-    let mut alpha = settings.alpha.get();
+    let before = settings.alpha.get();
+    let mut alpha = before;
     let response = ui.add(slider(&mut alpha, 0.01..=1.0).text("α").max_decimals(3).smart_aim(false));
     state.place("alpha", &response);
     let response = response.on_hover_text(
         "Share of new photons that each hit point keeps, from above 0 to 1. Small: radii shrink fast, so blur goes and noise stays. \
          Large: smooth, but the blur of the radius stays longer. 2/3 lets both fall together. Costs no time.",
     );
+    // A text that was opened and left says the old value in fewer digits: nobody asked for that one.
+    let is_old = !response.dragged() && (alpha - before).abs() < 0.5e-3;
     if response.changed()
+        && !is_old
         && let Some(alpha) = Alpha::new(alpha)
     {
         state.steer(Change::Alpha(alpha));
