@@ -14,9 +14,7 @@ fn main() {
     let arguments: Vec<PathBuf> = env::args_os().skip(1).map(PathBuf::from).collect();
     let [foton, target] = arguments.as_slice() else { panic!("usage: window_pictures FOTON FOLDER") };
     let folder = env::temp_dir().join(format!("foton-pictures-{}", std::process::id()));
-    for (name, is_dark, click) in
-        [("window", true, None), ("window-inspector", true, Some([0.2, 0.73])), ("window-light", false, None)]
-    {
+    for (name, is_dark, click) in [("window", true, None), ("window-inspector", true, Some([0.806, 0.82]))] {
         std::fs::create_dir_all(&folder).expect("a folder");
         let display = Display::start(WINDOW);
         let opening = Opening { foton, scene: None, folder: &folder, size: WINDOW, is_dark };
