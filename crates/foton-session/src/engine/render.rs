@@ -168,13 +168,10 @@ impl Render {
 
     pub(super) fn numbers(&mut self) -> Numbers {
         let ppm = self.session.ppm();
-        let radii = match self.radii {
-            Some((when, radii)) if when.elapsed() < RADII_EVERY => radii,
-            _ => ppm.radii(),
+        let (_, radii) = match self.radii {
+            Some(fresh) if fresh.0.elapsed() < RADII_EVERY => fresh,
+            _ => *self.radii.insert((Instant::now(), ppm.radii())),
         };
-        if self.radii.is_none_or(|(when, _)| when.elapsed() >= RADII_EVERY) {
-            self.radii = Some((Instant::now(), radii));
-        }
         let (photons_per_s, rays_per_s) = self.rates();
         Numbers {
             passes: ppm.passes(),

@@ -37,6 +37,12 @@ struct Chosen {
     drag: Option<(DragPlane, [f64; 2])>,
 }
 
+/// Whether any camera stands, or spans, otherwise.
+fn are_elsewhere(sensors: &[SensorDescription], others: &[SensorDescription]) -> bool {
+    let place = |s: &SensorDescription| (s.to_world, s.fov_degrees);
+    sensors.iter().map(place).ne(others.iter().map(place))
+}
+
 /// A scene under edit.
 pub(super) struct Stage {
     source: Source,
@@ -46,7 +52,10 @@ pub(super) struct Stage {
     history: History,
     /// Cameras are no steps of the history: undoing a move does not turn the head.
     sensors: Vec<SensorDescription>,
-    original: Vec<SensorDescription>,
+    /// The description as it was opened: what the identity's hash is of, and where cameras are reset to.
+    opened: Arc<SceneDescription>,
+    /// The sensors of the file that was opened or saved last.
+    saved_sensors: Vec<SensorDescription>,
     /// The camera of a sensor, once it was moved.
     camera: Option<(usize, Camera)>,
     chosen: Option<Chosen>,
@@ -66,7 +75,8 @@ impl Stage {
             identity: loaded.identity,
             origin: loaded.origin,
             history: History::new(Arc::clone(&description)),
-            original: sensors.clone(),
+            opened: Arc::clone(&description),
+            saved_sensors: sensors.clone(),
             sensors,
             camera: None,
             chosen: None,
@@ -94,28 +104,25 @@ impl Stage {
         &self.description
     }
 
-    /// The scene's name and hash; the name says if it is not as in its file.
+    /// The scene's name and hash; the name says if it is not as in the file that was opened, saved elsewhere or not.
     pub(super) fn identity(&self) -> SceneIdentity {
         let mut identity = self.identity.clone();
-        if self.is_edited() {
+        let is_as_opened = Arc::ptr_eq(self.history.current(), &self.opened);
+        if !is_as_opened || are_elsewhere(&self.sensors, &self.opened.sensors) {
             identity.name.push_str(" (edited)");
         }
         identity
     }
 
+    /// Whether there is something that no file holds.
     fn is_edited(&self) -> bool {
-        self.history.is_changed() || self.camera_is_moved()
-    }
-
-    fn camera_is_moved(&self) -> bool {
-        let place = |s: &SensorDescription| (s.to_world, s.fov_degrees);
-        self.sensors.iter().map(place).ne(self.original.iter().map(place))
+        self.history.is_changed() || are_elsewhere(&self.sensors, &self.saved_sensors)
     }
 
     /// What was saved counts as unedited from here on.
     pub(super) fn saved(&mut self) {
         self.history.mark_saved();
-        self.original.clone_from(&self.sensors);
+        self.saved_sensors.clone_from(&self.sensors);
         self.refresh_facts();
     }
 
@@ -150,7 +157,7 @@ impl Stage {
     /// Puts the camera back where the file has it.
     pub(super) fn reset_camera(&mut self, sensor: usize) -> Result<Effect, String> {
         self.camera = None;
-        self.sensors[sensor].clone_from(&self.original[sensor]);
+        self.sensors[sensor].clone_from(&self.opened.sensors[sensor]);
         self.see_anew()
     }
 
@@ -296,7 +303,6 @@ impl Stage {
         if let Some(chosen) = &mut self.chosen {
             chosen.outline = Outline::new(&self.description, chosen.target);
         }
-        self.refresh_facts();
         Ok(Effect::Anew)
     }
 

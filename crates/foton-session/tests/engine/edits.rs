@@ -116,11 +116,22 @@ fn a_field_that_is_dragged_is_one_step_and_a_saved_scene_is_unedited() {
     assert_eq!(rig.saved(), std::slice::from_ref(&path));
     rig.until("it saved", |f| !f.scene.is_edited);
     assert_eq!(std::fs::read_to_string(&path).expect("written"), "Some(42) 2");
+    // Saved elsewhere or not: the hash in a picture is that of the scene that was opened.
+    rig.send(Command::Snapshot(folder.0.clone()));
+    assert_eq!(named(&rig.saved()[0]), "room.xml (edited)");
     edit(&rig, Change::Undo);
     edit(&rig, Change::Undo);
     let undone = rig.until("two steps back", |f| f.scene.undo.is_none() && f.activity == Activity::Done);
     assert!(is(ior(&undone), 1.5), "{:?}", ior(&undone));
     assert_eq!(image(&undone), image(&before));
+    rig.send(Command::Snapshot(folder.0.clone()));
+    assert_eq!(named(&rig.saved()[0]), "room.xml");
+}
+
+/// The scene that an EXR says it is of.
+fn named(path: &std::path::Path) -> String {
+    let (_, metadata) = foton_film::read_exr(path).expect("an EXR");
+    metadata.get("foton:scene").expect("a name").to_owned()
 }
 
 #[test]
