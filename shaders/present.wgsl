@@ -3,6 +3,18 @@
 // The same as foton_film::tone_map::display, to 1/255; a test compares them. Written for a target of gamma-encoded bytes.
 // Not here: overlays (photons, discs, outlines), which the panels draw over it.
 
+// What is seen only changes with a pass or a hand on it, the window around it far more often: `shade` draws into a texture when
+// the view has changed, and `copy` brings that to the screen in every frame.
+
+/// Of these a pipeline is made for each combination that is asked for: adapters in software run both sides of every branch
+/// that is left in.
+override MODE: u32;
+override TONE_MAP: u32;
+/// Whether there is a second image.
+override COMPARES: bool;
+/// Whether a pixel may hold more than one texel.
+override SHRINKS: bool;
+
 /// Radiance through exposure and tone map, or the luminance as a position in the range, by value or by logarithm.
 const RADIANCE: u32 = 0u;
 const FALSE_COLOUR: u32 = 1u;
@@ -32,10 +44,9 @@ struct View {
     /// The ends of the colour map: values, or their base-2 logarithms.
     low: f32,
     high: f32,
-    mode: u32,
-    tone_map: u32,
-    /// Where the first image ends and the second begins, as a part of the width of the view; far beyond it
-    /// where there is no second.
+    /// Where the view lies, in pixels of the target.
+    origin: vec2f,
+    /// Where the first image ends and the second begins, as a part of the width of the view.
     wipe: f32,
 }
 
@@ -60,6 +71,14 @@ fn cover(@builtin(vertex_index) i: u32) -> Corner {
 
 @fragment
 fn shade(corner: Corner) -> @location(0) vec4f {
+    if COMPARES {
+        return compare(corner);
+    }
+    return vec4f(seen(image_a, view.extent_a, corner.position.xy), 1.0);
+}
+
+/// The first image left of the wipe's line and the second right of it.
+fn compare(corner: Corner) -> vec4f {
     // The distance from the wipe's line in pixels.
     let from_wipe = (corner.across - view.wipe) / dpdx(corner.across);
     if abs(from_wipe) < 0.75 {
@@ -68,17 +87,19 @@ fn shade(corner: Corner) -> @location(0) vec4f {
     if abs(from_wipe) < 1.75 {
         return vec4f(0.0, 0.0, 0.0, 1.0);
     }
-    let uv = (corner.position.xy - view.image_min) / view.image_size;
-    if any(uv < vec2f(0.0)) || any(uv >= vec2f(1.0)) {
-        return vec4f(view.background, 1.0);
-    }
-    var found: vec4f;
     if from_wipe < 0.0 {
-        found = look_up(image_a, view.extent_a, uv);
-    } else {
-        found = look_up(image_b, view.extent_b, uv);
+        return vec4f(seen(image_a, view.extent_a, corner.position.xy), 1.0);
     }
-    return vec4f(colour(found), 1.0);
+    return vec4f(seen(image_b, view.extent_b, corner.position.xy), 1.0);
+}
+
+/// The encoded colour of an image at a pixel of the view.
+fn seen(image: texture_2d<f32>, extent: vec2f, pixel: vec2f) -> vec3f {
+    let uv = (pixel + view.origin - view.image_min) / view.image_size;
+    if any(uv < vec2f(0.0)) || any(uv >= vec2f(1.0)) {
+        return view.background;
+    }
+    return colour(look_up(image, extent, uv));
 }
 
 /// The texel below `uv` where texels are larger than pixels, else the mean over the pixel's box.
@@ -87,7 +108,7 @@ fn look_up(image: texture_2d<f32>, extent: vec2f, uv: vec2f) -> vec4f {
     let at = uv * extent;
     let footprint = extent / view.image_size;
     // A little more than one: at scale 1 rounding must not start to blur.
-    if all(footprint <= vec2f(1.001)) {
+    if !SHRINKS || all(footprint <= vec2f(1.001)) {
         return textureLoad(image, min(vec2u(at), last), 0);
     }
     let low = max(at - 0.5 * footprint, vec2f(0.0));
@@ -112,7 +133,7 @@ fn look_up(image: texture_2d<f32>, extent: vec2f, uv: vec2f) -> vec4f {
 
 /// Keeps a sum of pixels finite: what is brighter than the brightest white counts as that. Measures are left alone.
 fn limit(c: vec3f) -> vec3f {
-    if view.mode != RADIANCE {
+    if MODE != RADIANCE {
         return c;
     }
     return clamp(c, vec3f(0.0), vec3f(BRIGHTEST / view.exposure));
@@ -123,11 +144,11 @@ fn colour(found: vec4f) -> vec3f {
     if found.a < 0.5 {
         return NOT_FINITE;
     }
-    if view.mode == RADIANCE {
+    if MODE == RADIANCE {
         return encode(tone_mapped(limit(found.rgb) * view.exposure));
     }
     var v = dot(found.rgb, vec3f(0.2126, 0.7152, 0.0722));
-    if view.mode == FALSE_COLOUR_LOG {
+    if MODE == FALSE_COLOUR_LOG {
         v = log2(max(v, 1e-37));
     }
     let entries = textureDimensions(colour_map).x;
@@ -136,7 +157,7 @@ fn colour(found: vec4f) -> vec3f {
 }
 
 fn tone_mapped(c: vec3f) -> vec3f {
-    switch view.tone_map {
+    switch TONE_MAP {
         case LINEAR: { return clamp(c, vec3f(0.0), vec3f(1.0)); }
         case PBR_NEUTRAL: { return pbr_neutral(c); }
         default: { return agx(c); }
@@ -180,4 +201,13 @@ fn agx_curve(x: vec3f) -> vec3f {
 /// The transfer function of sRGB.
 fn encode(c: vec3f) -> vec3f {
     return select(1.055 * pow(c, vec3f(1.0 / 2.4)) - 0.055, 12.92 * c, c <= vec3f(0.0031308));
+}
+
+/// What `shade` drew.
+@group(0) @binding(4) var shaded: texture_2d<f32>;
+
+@fragment
+fn copy(corner: Corner) -> @location(0) vec4f {
+    let last = textureDimensions(shaded) - 1u;
+    return textureLoad(shaded, min(vec2u(corner.position.xy - view.origin), last), 0);
 }

@@ -27,6 +27,7 @@ mod metadata;
 mod session;
 pub mod snapshot;
 mod stop;
+mod threads;
 
 pub use clock::StageTimes;
 pub use engine::Engine;

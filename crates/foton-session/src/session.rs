@@ -5,12 +5,13 @@ use std::time::{Duration, Instant};
 
 use foton_integrator::{Cancel, Cancelled, MemoryEstimate, PassReport, Ppm, Settings, StateError};
 use foton_scene::Scene;
-use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use rayon::{ThreadPool, ThreadPoolBuildError};
 use thiserror::Error;
 
 use crate::clock::{StageClock, StageTimes};
 use crate::interrupt::Interrupt;
 use crate::stop::StopRule;
+use crate::threads::{self, Rank};
 
 /// Why a render did not start.
 #[derive(Debug, Error)]
@@ -72,12 +73,7 @@ impl Session {
         threads: Option<usize>,
         cancel: &Cancel,
     ) -> Result<Self, StartError> {
-        Ok(Self::start_on(Self::pool(threads)?, scene, settings, cancel)?)
-    }
-
-    /// Threads to render on; one pool serves any number of renders, one at a time.
-    pub(crate) fn pool(threads: Option<usize>) -> Result<Arc<ThreadPool>, ThreadPoolBuildError> {
-        ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build().map(Arc::new)
+        Ok(Self::start_on(threads::pool(threads, Rank::Equal)?, scene, settings, cancel)?)
     }
 
     /// Collects hit points on the threads of `pool`.

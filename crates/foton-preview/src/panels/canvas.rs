@@ -144,7 +144,7 @@ fn paint(ui: &egui::Ui, state: &State, rect: Rect, image: Rect, picture: &Engine
         },
     };
     let pinned = state.pinned.as_ref().map(|p| shared(&p.picture));
-    let callback = PresentCallback { view, picture: shared(picture), pinned };
+    let callback = PresentCallback { view, picture: shared(picture), pinned, rect };
     ui.painter().add(egui_wgpu::Callback::new_paint_callback(rect, callback));
 }
 

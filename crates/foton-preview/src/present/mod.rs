@@ -13,6 +13,7 @@ mod tests;
 
 use std::sync::Arc;
 
+use egui::epaint::ViewportInPixels;
 use egui_wgpu::{CallbackResources, CallbackTrait, ScreenDescriptor};
 use foton_film::{Image, Plane, ToneMap};
 
@@ -90,6 +91,17 @@ pub(crate) struct PresentCallback {
     pub(crate) picture: Picture,
     /// What it is compared with, right of the wipe.
     pub(crate) pinned: Option<Picture>,
+    /// The rectangle of the callback, in points.
+    pub(crate) rect: egui::Rect,
+}
+
+/// A part of the target in whole pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Area {
+    /// The left and the upper edge.
+    pub(crate) origin: [u32; 2],
+    /// Width and height.
+    pub(crate) size: [u32; 2],
 }
 
 impl CallbackTrait for PresentCallback {
@@ -97,14 +109,22 @@ impl CallbackTrait for PresentCallback {
         &self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        _screen: &ScreenDescriptor,
-        _encoder: &mut wgpu::CommandEncoder,
+        screen: &ScreenDescriptor,
+        encoder: &mut wgpu::CommandEncoder,
         resources: &mut CallbackResources,
     ) -> Vec<wgpu::CommandBuffer> {
         let presenter =
             resources.get_mut::<Presenter>().expect("the window puts a Presenter beside egui's renderer");
-        presenter.show(device, queue, &self.picture, self.pinned.as_ref());
-        presenter.set_view(queue, &self.view);
+        // As egui rounds the viewport that it sets for us.
+        let viewport =
+            ViewportInPixels::from_points(&self.rect, screen.pixels_per_point, screen.size_in_pixels);
+        let pixels = |a: i32, b: i32| [a, b].map(|v| v.max(0) as u32);
+        let area = Area {
+            origin: pixels(viewport.left_px, viewport.top_px),
+            size: pixels(viewport.width_px, viewport.height_px),
+        };
+        presenter.upload(device, queue, &self.picture, self.pinned.as_ref());
+        presenter.shade(device, queue, encoder, &self.view, area);
         Vec::new()
     }
 

@@ -37,7 +37,10 @@ impl Shown {
         let fits = |shown: &Self| (shown.texture.width(), shown.texture.height()) == (width, height);
         let texture = match last {
             Some(last) if fits(&last) => last.texture,
-            _ => create_texture(device, wgpu::TextureFormat::Rgba32Float, width, height),
+            _ => {
+                let usage = wgpu::TextureUsages::COPY_DST;
+                create_texture(device, wgpu::TextureFormat::Rgba32Float, [width, height], usage)
+            }
         };
         let rows_in_band = (BAND_BYTES / (TEXEL_BYTES * width as usize)).clamp(1, height as usize) as u32;
         let mut band = Vec::with_capacity((rows_in_band * width) as usize);
@@ -103,8 +106,8 @@ impl Picture {
 pub(super) fn create_texture(
     device: &wgpu::Device,
     format: wgpu::TextureFormat,
-    width: u32,
-    height: u32,
+    [width, height]: [u32; 2],
+    filled_by: wgpu::TextureUsages,
 ) -> wgpu::Texture {
     device.create_texture(&wgpu::TextureDescriptor {
         label: Some("picture"),
@@ -113,7 +116,7 @@ pub(super) fn create_texture(
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | filled_by,
         view_formats: &[],
     })
 }

@@ -1,4 +1,4 @@
-//! A view as the bytes that the shader reads.
+//! A view as the shader takes it: the bytes of its uniform buffer, and what a pipeline is made for.
 
 use foton_film::ToneMap;
 
@@ -10,27 +10,24 @@ const WORDS: usize = 20;
 /// The size of it in bytes.
 pub(super) const BYTES: u64 = 4 * WORDS as u64;
 
-/// What the shader's `View` holds for `view`; `extents` are those of the picture and of the pinned one, if there is one.
-pub(super) fn pack(view: &View, extents: [Option<[f32; 2]>; 2]) -> [u32; WORDS] {
+/// The extents in texels of the picture and of the pinned one, if there is one.
+pub(super) type Extents = [Option<[f32; 2]>; 2];
+
+/// What the shader's `View` holds for `view` in an area that begins at the pixel `origin`.
+pub(super) fn pack(view: &View, origin: [u32; 2], extents: Extents) -> [u32; WORDS] {
     let [picture, pinned] = extents.map(Option::unwrap_or_default);
     let [red, green, blue, _] = view.background.to_normalized_gamma_f32();
     // So that the shader never divides by zero.
     let size = view.image_rect.size().max(egui::Vec2::splat(1e-3));
-    let (low, high, mode) = match view.mode {
-        Mode::Radiance => (0.0, 1.0, 0),
-        Mode::FalseColour { low, high, logarithmic: false } => (low, above(low, high), 1),
+    let (low, high) = match view.mode {
+        Mode::Radiance => (0.0, 1.0),
+        Mode::FalseColour { low, high, logarithmic: false } => (low, above(low, high)),
         Mode::FalseColour { low, high, logarithmic: true } => {
             let [low, high] = [low, high].map(|v| v.max(f32::MIN_POSITIVE).log2());
-            (low, above(low, high), 2)
+            (low, above(low, high))
         }
     };
-    let tone_map = match view.tone_map {
-        ToneMap::Linear => 0,
-        ToneMap::PbrNeutral => 1,
-        ToneMap::AgX => 2,
-    };
-    // Without a second picture the line is far outside of the narrowest view.
-    let wipe = view.wipe.filter(|_| extents[1].is_some()).unwrap_or(1e6);
+    let wipe = view.wipe.unwrap_or_default();
     let min = view.image_rect.min;
     let exposure = view.exposure_stops.clamp(-60.0, 60.0).exp2();
     let floats = |values: [f32; 4]| values.map(f32::to_bits);
@@ -38,10 +35,49 @@ pub(super) fn pack(view: &View, extents: [Option<[f32; 2]>; 2]) -> [u32; WORDS] 
         floats([min.x, min.y, size.x, size.y]),
         floats([picture[0], picture[1], pinned[0], pinned[1]]),
         floats([red, green, blue, exposure]),
-        [low.to_bits(), high.to_bits(), mode, tone_map],
+        floats([low, high, origin[0] as f32, origin[1] as f32]),
         floats([wipe, 0.0, 0.0, 0.0]),
     ];
     std::array::from_fn(|i| rows[i / 4][i % 4])
+}
+
+/// What the shader's pipeline is made for: the values of its overrides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Kind {
+    mode: u8,
+    tone_map: u8,
+    compares: bool,
+    shrinks: bool,
+}
+
+impl Kind {
+    pub(super) fn of(view: &View, extents: Extents) -> Self {
+        let mode = match view.mode {
+            Mode::Radiance => 0,
+            Mode::FalseColour { logarithmic: false, .. } => 1,
+            Mode::FalseColour { logarithmic: true, .. } => 2,
+        };
+        let tone_map = match view.tone_map {
+            // False colours know none.
+            _ if mode != 0 => 0,
+            ToneMap::Linear => 0,
+            ToneMap::PbrNeutral => 1,
+            ToneMap::AgX => 2,
+        };
+        let size = view.image_rect.size();
+        let shrinks = extents.into_iter().flatten().any(|[width, height]| width > size.x || height > size.y);
+        Self { mode, tone_map, compares: view.wipe.is_some() && extents[1].is_some(), shrinks }
+    }
+
+    /// By the names of the shader.
+    pub(super) fn constants(self) -> [(&'static str, f64); 4] {
+        [
+            ("MODE", self.mode.into()),
+            ("TONE_MAP", self.tone_map.into()),
+            ("COMPARES", self.compares.into()),
+            ("SHRINKS", self.shrinks.into()),
+        ]
+    }
 }
 
 /// `high`, or what is a little above `low` where it is not.

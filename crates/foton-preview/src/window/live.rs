@@ -120,11 +120,12 @@ impl Live {
         let platform = std::mem::take(&mut output.platform_output);
         self.egui.handle_platform_output(&self.window, platform);
         let shapes = std::mem::take(&mut output.shapes);
+        let ground = panels::ground(&self.context.style_of(theme).visuals);
         let primitives = self.context.tessellate(shapes, output.pixels_per_point);
         self.painter.paint_and_update_textures(
             ViewportId::ROOT,
             output.pixels_per_point,
-            [0.0, 0.0, 0.0, 1.0],
+            ground.to_normalized_gamma_f32(),
             &primitives,
             &mut output.textures_delta,
             Vec::new(),

@@ -20,6 +20,7 @@ use super::slot::NewestSender;
 use super::stage::{Effect, Stage};
 use crate::session::Session;
 use crate::stop::StopRule;
+use crate::threads::{self, Rank};
 
 /// Frames are at least this far apart unless a person is waiting for one.
 const FRAME_GAP: Duration = Duration::from_millis(30);
@@ -325,7 +326,10 @@ impl Worker {
             let Some(stage) = &self.stage else { return Ok(None) };
             let pool = match &self.pool {
                 Some(pool) => pool,
-                None => self.pool.insert(Session::pool(self.threads).map_err(|error| error.to_string())?),
+                None => {
+                    let pool = threads::pool(self.threads, Rank::Behind);
+                    self.pool.insert(pool.map_err(|error| error.to_string())?)
+                }
             };
             Ok(Render::start(level, &scene, stage.sensors(), &self.settings, pool, &cancel).ok())
         });

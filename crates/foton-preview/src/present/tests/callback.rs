@@ -20,7 +20,8 @@ fn a_frame_of_egui_shows_the_picture_where_the_panel_put_it() {
             // The view lies 10 to 50 points across, the image 20 to 100 pixels: twice two points to the pixel.
             let area = rect(10.0, 10.0, 40.0, 20.0);
             let view = View { image_rect: rect(20.0, 20.0, 80.0, 40.0), wipe: Some(0.75), ..plain(2, 1) };
-            let callback = PresentCallback { view, picture: picture.clone(), pinned: Some(pinned.clone()) };
+            let pinned = Some(pinned.clone());
+            let callback = PresentCallback { view, picture: picture.clone(), pinned, rect: area };
             ui.painter_at(area).add(egui_wgpu::Callback::new_paint_callback(area, callback));
         });
     harness.run_steps(2);

@@ -57,9 +57,10 @@ impl Screen {
 
     /// The pixels of the whole target, row by row.
     pub(super) fn draw(&mut self, view: &View, picture: &Picture, pinned: Option<&Picture>) -> Vec<[u8; 3]> {
-        self.presenter.show(&self.device, &self.queue, picture, pinned);
-        self.presenter.set_view(&self.queue, view);
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let area = Area { origin: [0, 0], size: [self.target.width(), self.target.height()] };
+        self.presenter.upload(&self.device, &self.queue, picture, pinned);
+        self.presenter.shade(&self.device, &self.queue, &mut encoder, view, area);
         let attachment = wgpu::RenderPassColorAttachment {
             view: &self.target.create_view(&wgpu::TextureViewDescriptor::default()),
             depth_slice: None,
