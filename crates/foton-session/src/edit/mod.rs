@@ -29,6 +29,7 @@ pub use field::{Control, Field, FieldId, Property, Side, Value};
 pub use history::{History, MOST_STEPS};
 pub use inspect::{Inspection, MaterialUse, inspect};
 pub use outline::{Outline, Segment, markers};
+pub(crate) use pick::middle;
 pub use pick::{MARKER_REACH, Picked, focus_distance, pick, pick_any, pick_light};
 
 /// Something that can be chosen.

@@ -280,12 +280,12 @@ fn drags_are_bounded_wherever_the_pointer_and_the_camera_are() {
 fn moves_change_one_place_and_leave_the_rest_shared() {
     let before = scene();
     for target in [BALL, CUBE, Target::Emitter(0), Target::Emitter(1)] {
-        let old = pick::middle(&before, target).unwrap();
+        let old = middle(&before, target).unwrap();
         let after = Edit::Move { target, by: [0.5, -0.25, 2.0] }.apply(&before).unwrap();
-        let new = pick::middle(&after, target).unwrap();
+        let new = middle(&after, target).unwrap();
         assert!(new.distance(old + DVec3::new(0.5, -0.25, 2.0)) < 1e-12);
         let same = set(&before, target, FieldId::Position(2), Value::Number(old.z + 2.0));
-        assert!(close(pick::middle(&same, target).unwrap().z, new.z));
+        assert!(close(middle(&same, target).unwrap().z, new.z));
         let meshes = [&before, &after].map(|d| match &d.shapes[2].geometry {
             Geometry::Mesh(mesh) => Arc::as_ptr(mesh),
             _ => panic!("a mesh"),
@@ -331,10 +331,10 @@ fn a_lights_size_keeps_its_power_and_its_place() {
     assert!(close(number(&small, LAMP, FieldId::Radius), 0.25));
     assert!(close(number(&small, LAMP, FieldId::Power), number(&description, LAMP, FieldId::Power)));
     assert!(close(number(&small, LAMP, FieldId::Brightness), 32.0));
-    assert_eq!(pick::middle(&small, LAMP), pick::middle(&description, LAMP));
+    assert_eq!(middle(&small, LAMP), middle(&description, LAMP));
     let cube = set(&description, CUBE, FieldId::Size, Value::Number(4.0));
     assert!(close(number(&cube, CUBE, FieldId::Size), 4.0));
-    let middles = [&cube, &description].map(|d| pick::middle(d, CUBE).unwrap());
+    let middles = [&cube, &description].map(|d| middle(d, CUBE).unwrap());
     assert!(middles[0].distance(middles[1]) < 1e-12);
 }
 
@@ -346,7 +346,7 @@ fn a_light_turns_to_where_its_angles_say() {
         let turned = set(&turned, target, FieldId::Azimuth, Value::Number(-30.0));
         assert!(close(number(&turned, target, FieldId::Elevation), 60.0));
         assert!(close(number(&turned, target, FieldId::Azimuth), -30.0));
-        assert_eq!(pick::middle(&turned, target), pick::middle(&description, target));
+        assert_eq!(middle(&turned, target), middle(&description, target));
     }
 }
 

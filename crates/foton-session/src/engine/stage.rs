@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use foton_math::glam::DVec2;
+use foton_math::glam::{DVec2, DVec3};
 use foton_scene::Scene;
 use foton_scene::description::{SceneDescription, SensorDescription};
 
@@ -12,12 +12,16 @@ use super::frame::{SceneFacts, Selection, SensorFacts};
 use super::loader::Ready;
 use crate::edit::{
     Camera, DragMode, DragPlane, Edit, FieldId, History, Outline, Segment, Target, UpAxis, Value, camera_xml,
-    focus_distance, inspect, markers, pick_any,
+    focus_distance, inspect, markers, middle, pick_any,
 };
 use crate::metadata::SceneIdentity;
 
 /// A step of an arrow key, in pixels at the distance of what is chosen.
 const NUDGE: f64 = 4.0;
+
+/// Scenes of more triangles take too long to be built for every move of a hand: the outline goes with it, and the picture
+/// follows when it lets go.
+const MOST_LIVE_TRIANGLES: u64 = 100_000;
 
 /// What a change asks of the render.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,9 +36,16 @@ pub(super) enum Effect {
 struct Chosen {
     target: Target,
     outline: Outline,
-    /// Where it was picked, in world units.
-    picked: [f64; 3],
+    /// From its middle to where it was picked, in world units: whatever moves it, a step back too, moves both.
+    grip: DVec3,
     drag: Option<(DragPlane, [f64; 2])>,
+}
+
+impl Chosen {
+    /// Where it was picked, now that the scene is as described.
+    fn picked(&self, description: &SceneDescription) -> DVec3 {
+        middle(description, self.target).unwrap_or_default() + self.grip
+    }
 }
 
 /// Whether any camera stands, or spans, otherwise.
@@ -175,7 +186,7 @@ impl Stage {
         self.chosen = picked.map(|picked| Chosen {
             target: picked.target,
             outline: Outline::new(&self.description, picked.target),
-            picked: picked.position,
+            grip: DVec3::from(picked.position) - middle(&self.description, picked.target).unwrap_or_default(),
             drag: None,
         });
     }
@@ -184,31 +195,46 @@ impl Stage {
     pub(super) fn begin_drag(&mut self, sensor: usize, film: [f64; 2], mode: DragMode) {
         let up = UpAxis::guess(&self.sensors[sensor]);
         let Some(chosen) = &mut self.chosen else { return };
-        let plane = DragPlane::new(&self.sensors[sensor], up, chosen.picked, mode);
+        let picked = chosen.picked(&self.description).to_array();
+        let plane = DragPlane::new(&self.sensors[sensor], up, picked, mode);
         chosen.drag = Some((plane, film));
         let name = Edit::Move { target: chosen.target, by: [0.0; 3] }.name(&self.description);
         self.history.begin(name);
     }
 
-    /// Moves what is held to a film position.
+    /// Moves what is held to a film position, or the outline alone where the scene is large.
     pub(super) fn drag_to(&mut self, film: [f64; 2]) -> Result<Effect, String> {
-        let Some(chosen) = &self.chosen else { return Ok(Effect::None) };
-        let Some((plane, from)) = &chosen.drag else { return Ok(Effect::None) };
-        let edit = Edit::Move { target: chosen.target, by: plane.translation(*from, film) };
-        let next = edit.apply(self.history.base()).map_err(|cause| cause.to_string())?;
-        self.take(next)
+        let Some(next) = self.dragged(film)? else { return Ok(Effect::None) };
+        if self.scene.census().triangles <= MOST_LIVE_TRIANGLES {
+            return self.take(next);
+        }
+        self.history.proceed(next);
+        self.refresh();
+        Ok(Effect::None)
     }
 
-    /// Lets go; what is chosen was picked where it now is.
-    pub(super) fn end_drag(&mut self, film: [f64; 2]) {
+    /// Lets go at a film position; where no scene can be made of that, all is as it was.
+    pub(super) fn end_drag(&mut self, film: [f64; 2]) -> Result<Effect, String> {
+        let Some(next) = self.dragged(film)? else { return Ok(Effect::None) };
+        let effect = self.take(next);
+        if effect.is_err() {
+            self.history.cancel();
+            self.refresh();
+        }
         self.history.commit();
-        if let Some(chosen) = &mut self.chosen
-            && let Some((plane, from)) = chosen.drag.take()
-        {
-            let by = plane.translation(from, film);
-            chosen.picked.iter_mut().zip(by).for_each(|(p, by)| *p += by);
+        if let Some(chosen) = &mut self.chosen {
+            chosen.drag = None;
         }
         self.refresh_facts();
+        effect
+    }
+
+    /// The description with what is held at a film position.
+    fn dragged(&self, film: [f64; 2]) -> Result<Option<SceneDescription>, String> {
+        let Some(chosen) = &self.chosen else { return Ok(None) };
+        let Some((plane, from)) = &chosen.drag else { return Ok(None) };
+        let edit = Edit::Move { target: chosen.target, by: plane.translation(*from, film) };
+        edit.apply(self.history.base()).map(Some).map_err(|cause| cause.to_string())
     }
 
     /// Puts what is held back.
@@ -223,19 +249,16 @@ impl Stage {
     /// Moves what is chosen by steps of a few pixels, in the plane that `mode` says.
     pub(super) fn nudge(&mut self, sensor: usize, steps: [f64; 2], mode: DragMode) -> Result<Effect, String> {
         let Some(chosen) = &self.chosen else { return Ok(Effect::None) };
+        let picked = chosen.picked(&self.description);
         let s = &self.sensors[sensor];
-        let middle = DVec2::new(f64::from(s.width), f64::from(s.height)) * 0.5;
+        let centre = DVec2::new(f64::from(s.width), f64::from(s.height)) * 0.5;
         let film = self.scene.sensors()[sensor]
-            .project(self.scene.normalisation().point(chosen.picked.into()))
-            .map_or(middle, |(film, _)| film.as_dvec2());
-        let plane = DragPlane::new(s, UpAxis::guess(s), chosen.picked, mode);
+            .project(self.scene.normalisation().point(picked))
+            .map_or(centre, |(film, _)| film.as_dvec2());
+        let plane = DragPlane::new(s, UpAxis::guess(s), picked.to_array(), mode);
         let by = plane.translation(film.to_array(), (film + DVec2::from(steps) * NUDGE).to_array());
         let edit = Edit::Move { target: chosen.target, by };
-        let effect = self.edit(&edit)?;
-        if let Some(chosen) = &mut self.chosen {
-            chosen.picked.iter_mut().zip(by).for_each(|(p, by)| *p += by);
-        }
-        Ok(effect)
+        self.edit(&edit)
     }
 
     /// Sets a field of what is chosen. A control that is still being dragged is not `done`: all of it is one step.

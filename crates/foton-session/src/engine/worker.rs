@@ -249,11 +249,7 @@ impl Worker {
                 Ok(Effect::None)
             }
             Change::DragTo(film) => stage.drag_to(film),
-            Change::EndDrag(film) => {
-                let effect = stage.drag_to(film);
-                stage.end_drag(film);
-                effect
-            }
+            Change::EndDrag(film) => stage.end_drag(film),
             Change::CancelDrag => stage.cancel_drag(),
             Change::Nudge { steps, mode } => stage.nudge(sensor, steps, mode),
             Change::SetField { field, value, done } => stage.set_field(field, value, done),

@@ -82,6 +82,55 @@ fn a_drag_changes_the_picture_and_undoing_it_brings_the_same_bits_back() {
 }
 
 #[test]
+fn in_a_large_scene_the_outline_is_dragged_and_the_picture_follows_when_it_is_let_go() {
+    let rig = Rig::new(crate::rig::settings(), None);
+    rig.open("heap");
+    rig.send(Command::StopAt(StopRule::passes(2)));
+    let before = rig.done(2);
+    rig.send(Command::Choose(Some(BALL)));
+    let chosen = rig.until("a choice", |f| f.selection.is_some()).selection.expect("just seen");
+    let to = [BALL[0] + 25.0, BALL[1]];
+    edit(&rig, Change::BeginDrag { film: BALL, mode: DragMode::Horizontal });
+    edit(&rig, Change::DragTo(to));
+    let is_elsewhere = |f: &Frame| f.selection.as_ref().is_some_and(|s| s.outline != chosen.outline);
+    let moving = rig.until("the outline", is_elsewhere);
+    assert_eq!(moving.render, before.render, "no other scene yet");
+    assert_eq!(image(&moving), image(&before));
+    edit(&rig, Change::EndDrag(to));
+    let after = whole(&rig, &before);
+    assert!(differing(&image(&before), &image(&after)) > 500);
+    let outline = |f: &Frame| f.selection.as_ref().map(|s| s.outline.clone());
+    assert_eq!(outline(&after), outline(&moving));
+
+    // Called off, everything is where it was.
+    edit(&rig, Change::BeginDrag { film: to, mode: DragMode::Horizontal });
+    edit(&rig, Change::DragTo([to[0] - 40.0, to[1]]));
+    edit(&rig, Change::CancelDrag);
+    let back = rig.until("it back", |f| f.render != after.render && f.activity == Activity::Done);
+    assert_eq!(image(&back), image(&after));
+}
+
+#[test]
+fn what_is_undone_is_held_where_it_is() {
+    let (rig, before) = Rig::at_pass(1);
+    rig.send(Command::Choose(Some(BALL)));
+    let far = Change::Nudge { steps: [20.0, 0.0], mode: DragMode::Horizontal };
+    let near = Change::Nudge { steps: [1.0, 0.0], mode: DragMode::Horizontal };
+    let outline = |f: &Frame| f.selection.as_ref().map(|s| s.outline.clone());
+    edit(&rig, near);
+    let once = whole(&rig, &before);
+    edit(&rig, Change::Undo);
+    edit(&rig, far);
+    edit(&rig, Change::Undo);
+    edit(&rig, near);
+    // A step is so many pixels at the place of the grip: at another place it would be another way.
+    let again = rig.until("the same step", |f| {
+        f.scene.undo.is_some() && f.activity == Activity::Done && f.render > once.render + 3
+    });
+    assert_eq!(outline(&again), outline(&once));
+}
+
+#[test]
 fn a_drag_that_is_called_off_leaves_no_step() {
     let (rig, before) = Rig::at_pass(2);
     rig.send(Command::Choose(Some(BALL)));

@@ -80,6 +80,28 @@ pub(crate) fn room() -> SceneDescription {
     }
 }
 
+/// The same with a heap of flat triangles beside it, more than are moved live.
+fn heap() -> SceneDescription {
+    let corner = |i: u32| {
+        let [x, z] = [[0.0, 0.0], [0.0, 0.3], [0.3, 0.0]][i as usize % 3];
+        DVec3::new(2.0 + x, 0.01, 2.0 + z + f64::from(i / 3) * 1e-6)
+    };
+    let mesh = Mesh {
+        positions: (0..330_000).map(corner).collect(),
+        normals: Vec::new(),
+        texture_coordinates: Vec::new(),
+        triangles: (0..110_000).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+    };
+    let mut description = room();
+    let heap = ShapeDescription {
+        name: "heap".into(),
+        geometry: Geometry::Mesh(Arc::new(mesh)),
+        ..description.shapes[0].clone()
+    };
+    description.shapes.push(ShapeDescription { to_world: DAffine3::IDENTITY, ..heap });
+    description
+}
+
 /// Small passes that grow once.
 pub(crate) fn settings() -> Settings {
     let n = |n| std::num::NonZeroU32::new(n).expect("not zero");
@@ -111,7 +133,7 @@ pub(crate) fn headless(
     session
 }
 
-/// Opens "room" and "slow", which waits until it is let go; nothing else.
+/// Opens "room", "heap" and "slow", which waits until it is let go; nothing else.
 pub(crate) struct Shelf {
     settings: Settings,
     go: Mutex<Receiver<()>>,
@@ -121,14 +143,14 @@ impl Loader for Shelf {
     fn open(&self, source: &Source) -> Result<Loaded, String> {
         let name = source.to_string();
         match name.as_str() {
-            "room" => {}
+            "room" | "heap" => {}
             "slow" => {
                 let _ = self.go.lock().expect("whole").recv_timeout(PATIENCE);
             }
             _ => return Err(format!("{name}:3:7: there is no such scene")),
         }
         Ok(Loaded {
-            description: room(),
+            description: if name == "heap" { heap() } else { room() },
             identity: identity(),
             settings: self.settings.clone(),
             warnings: vec!["room.xml:1:1: a warning".into()],
