@@ -60,6 +60,8 @@ impl Placement {
 pub(crate) enum DialogPurpose {
     OpenScene,
     SaveScene,
+    KeepCheckpoint,
+    TakeUpCheckpoint,
 }
 
 /// What the pointer does with the scene.

@@ -16,6 +16,9 @@ use listing::Entry;
 /// What scenes and meshes end in.
 pub(crate) const SCENES: &[&str] = &["xml", "obj", "ply", "stl"];
 
+/// What checkpoints end in.
+pub(crate) const CHECKPOINTS: &[&str] = &["checkpoint"];
+
 /// What the picked path is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Purpose {

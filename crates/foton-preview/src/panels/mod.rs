@@ -65,6 +65,8 @@ fn dialog(ctx: &egui::Context, state: &mut State) {
             match purpose {
                 DialogPurpose::OpenScene => state.open(path),
                 DialogPurpose::SaveScene => state.ask(Command::SaveScene(path)),
+                DialogPurpose::KeepCheckpoint => state.ask(Command::KeepCheckpoint(path)),
+                DialogPurpose::TakeUpCheckpoint => state.ask(Command::TakeUpCheckpoint(path)),
             }
         }
     }

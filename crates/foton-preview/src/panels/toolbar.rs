@@ -3,7 +3,7 @@
 use foton_film::ToneMap;
 use foton_session::engine::{Activity, Command, Configuration, ErrorPart, Shown, Source};
 
-use crate::files::{FileDialog, SCENES};
+use crate::files::{CHECKPOINTS, FileDialog, SCENES};
 use crate::state::{DialogPurpose, Pinned, Placement, State};
 
 pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
@@ -37,6 +37,7 @@ fn scene_menu(ui: &mut egui::Ui, state: &mut State) {
         if ui.button("Save edited scene…").clicked() {
             save_dialog(state);
         }
+        checkpoints(ui, state);
         let xml =
             state.frame.as_ref().and_then(|f| f.scene.sensors.get(f.settings.sensor)).map(|s| s.xml.clone());
         let copy = ui.add_enabled(xml.is_some(), egui::Button::new("Copy camera as XML"));
@@ -75,6 +76,26 @@ pub(super) fn save_dialog(state: &mut State) {
     let stem = name.strip_suffix(".xml").unwrap_or(name);
     let path = state.preferences.scene_folder.join(format!("{stem}-edited.xml"));
     state.dialog = Some((DialogPurpose::SaveScene, FileDialog::save(&path, &["xml"])));
+}
+
+fn checkpoints(ui: &mut egui::Ui, state: &mut State) {
+    let keep = ui.button("Keep a checkpoint…").on_hover_text(
+        "The state of this render in a file, brought up to date every 30 s and at the end, until it starts anew; \
+         `foton render --resume` takes it up as well",
+    );
+    let name = state.frame.as_ref().map_or("scene", |f| f.scene.name.as_str());
+    let stem = name.strip_suffix(".xml").unwrap_or(name);
+    if keep.clicked() {
+        let path = state.preferences.scene_folder.join(format!("{stem}.checkpoint"));
+        state.dialog = Some((DialogPurpose::KeepCheckpoint, FileDialog::save(&path, CHECKPOINTS)));
+    }
+    let take_up = ui.button("Go on from a checkpoint…").on_hover_text(
+        "Of this scene, with this radius, direct light, hit points a pixel and seed: with the bits that it would have had",
+    );
+    if take_up.clicked() {
+        let dialog = FileDialog::open(&state.preferences.scene_folder, CHECKPOINTS);
+        state.dialog = Some((DialogPurpose::TakeUpCheckpoint, dialog));
+    }
 }
 
 fn run(ui: &mut egui::Ui, state: &mut State) {

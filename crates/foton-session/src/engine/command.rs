@@ -227,6 +227,10 @@ pub enum Command {
     AutoSnapshots(Option<PathBuf>),
     /// Writes the scene with its edits to a file.
     SaveScene(PathBuf),
+    /// Writes the render to a checkpoint, and again every half minute and at the end, until it starts anew.
+    KeepCheckpoint(PathBuf),
+    /// Goes on from a checkpoint of this scene and configuration, whole or by `foton render`.
+    TakeUpCheckpoint(PathBuf),
     /// Ends the engine's thread.
     Quit,
 }
@@ -234,7 +238,7 @@ pub enum Command {
 impl Command {
     /// Whether it ends with files on the disk.
     pub(super) const fn writes(&self) -> bool {
-        matches!(self, Self::Snapshot(_) | Self::SaveScene(_))
+        matches!(self, Self::Snapshot(_) | Self::SaveScene(_) | Self::KeepCheckpoint(_))
     }
 
     /// Whether the pass under way would be for nothing.
@@ -243,6 +247,7 @@ impl Command {
             self,
             Self::Configure(_)
                 | Self::Restart
+                | Self::TakeUpCheckpoint(_)
                 | Self::Camera { .. }
                 | Self::ResetCamera
                 | Self::Choose(_)

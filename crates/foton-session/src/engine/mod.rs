@@ -5,6 +5,7 @@
 
 mod command;
 mod frame;
+mod keeping;
 mod loader;
 mod probe;
 mod render;

@@ -144,6 +144,10 @@ impl Render {
         self.session.ppm()
     }
 
+    pub(super) const fn session(&self) -> &Session {
+        &self.session
+    }
+
     pub(super) const fn session_mut(&mut self) -> &mut Session {
         &mut self.session
     }

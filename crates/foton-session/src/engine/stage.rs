@@ -118,11 +118,16 @@ impl Stage {
     /// The scene's name and hash; the name says if it is not as in the file that was opened, saved elsewhere or not.
     pub(super) fn identity(&self) -> SceneIdentity {
         let mut identity = self.identity.clone();
-        let is_as_opened = Arc::ptr_eq(self.history.current(), &self.opened);
-        if !is_as_opened || are_elsewhere(&self.sensors, &self.opened.sensors) {
+        if !self.is_as_opened() {
             identity.name.push_str(" (edited)");
         }
         identity
+    }
+
+    /// Whether what is seen is what the file that was opened says.
+    pub(super) fn is_as_opened(&self) -> bool {
+        let is_same = Arc::ptr_eq(self.history.current(), &self.opened);
+        is_same && !are_elsewhere(&self.sensors, &self.opened.sensors)
     }
 
     /// Whether there is something that no file holds.

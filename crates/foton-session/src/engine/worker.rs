@@ -13,6 +13,7 @@ use rayon::ThreadPool;
 use super::Setup;
 use super::command::{Change, Command, Configuration, Event, Shown};
 use super::frame::{Activity, Frame, Numbers, Picture};
+use super::keeping::Kept;
 use super::loader::{Opening, Ready};
 use super::probe;
 use super::render::{Level, Render};
@@ -46,10 +47,10 @@ pub(super) struct Worker {
     pub(super) setup: Setup,
     channels: Channels,
     cancel: Cancel,
-    unwritten: Arc<AtomicUsize>,
+    pub(super) unwritten: Arc<AtomicUsize>,
     pub(super) stage: Option<Stage>,
     opening: Option<Opening>,
-    settings: Settings,
+    pub(super) settings: Settings,
     threads: Option<usize>,
     /// Kept from render to render: threads that come and go leave memory behind that the system's allocator does not give back.
     pool: Option<Arc<ThreadPool>>,
@@ -67,6 +68,9 @@ pub(super) struct Worker {
     show_photons: bool,
     probed: Option<[u32; 2]>,
     auto_snapshots: Option<PathBuf>,
+    pub(super) kept: Option<Kept>,
+    /// The checkpoint that the next whole render goes on from.
+    pub(super) taking_up: Option<PathBuf>,
     frames: u64,
     /// The whole picture as it last was: kept while the next render has none.
     picture: Option<Picture>,
@@ -98,6 +102,8 @@ impl Worker {
             show_photons: false,
             probed: None,
             auto_snapshots: None,
+            kept: None,
+            taking_up: None,
             frames: 0,
             picture: None,
             last_frame: Instant::now(),
@@ -113,6 +119,7 @@ impl Worker {
             let Some(commands) = self.wait_for_commands() else { return };
             for command in commands {
                 if matches!(command, Command::Quit) {
+                    self.keep_the_last();
                     return;
                 }
                 let writes = command.writes();
@@ -199,6 +206,11 @@ impl Worker {
             Command::Snapshot(folder) => self.snapshot(&folder),
             Command::AutoSnapshots(folder) => self.auto_snapshots = folder,
             Command::SaveScene(path) => self.save_scene(&path),
+            Command::KeepCheckpoint(path) => self.keep(&path),
+            Command::TakeUpCheckpoint(path) => {
+                self.restart();
+                self.taking_up = Some(path);
+            }
             Command::Quit => {}
         }
     }
@@ -216,6 +228,8 @@ impl Worker {
     }
 
     fn restart(&mut self) {
+        self.let_go();
+        self.taking_up = None;
         self.render = None;
         self.render_number += 1;
         self.refused = false;
@@ -331,8 +345,8 @@ impl Worker {
         });
         match started {
             Some(Ok(Some(render))) => {
-                self.render = Some(render);
                 self.unseen = true;
+                self.render = if render.is_whole() { self.take_up(render) } else { Some(render) };
             }
             Some(Ok(None)) => return,
             Some(Err(message)) => return self.refuse(message),
@@ -360,6 +374,7 @@ impl Worker {
             *left = left.saturating_sub(1);
         }
         let due = render.ppm().passes().is_power_of_two();
+        self.keep_up();
         if let Some(folder) = self.auto_snapshots.clone().filter(|_| due) {
             self.auto_snapshot(&folder);
         }

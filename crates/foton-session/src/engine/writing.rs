@@ -12,7 +12,7 @@ use crate::snapshot::{self, Format};
 
 impl Worker {
     /// The whole render, once it has a pass.
-    fn rendered(&self) -> Option<(&Render, &Stage)> {
+    pub(super) fn rendered(&self) -> Option<(&Render, &Stage)> {
         let render = self.render.as_ref().filter(|r| r.is_whole() && r.ppm().passes() > 0)?;
         Some((render, self.stage.as_ref()?))
     }

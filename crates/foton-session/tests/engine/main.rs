@@ -1,5 +1,6 @@
 //! The engine as a window steers it: commands in, frames and events out. Scenes are made in code; what is compared is bits.
 
+mod checkpoints;
 mod edits;
 mod rig;
 

@@ -1,0 +1,113 @@
+//! Checkpoints of the engine: one file, kept up to date while its render goes on, and taken up again.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use foton_film::check_writable;
+
+use super::command::Event;
+use super::render::Render;
+use super::worker::Worker;
+use crate::checkpoint;
+use crate::metadata::SceneIdentity;
+
+/// Seconds of rendering between two writings, as of `foton render` by default.
+const EVERY: Duration = Duration::from_secs(30);
+
+/// A checkpoint that is kept.
+pub(super) struct Kept {
+    path: PathBuf,
+    /// The scene that it is of, whatever is opened or edited next.
+    scene: SceneIdentity,
+    /// How long the render had taken when it was last written.
+    written: Duration,
+}
+
+impl Worker {
+    /// Writes the render to a file, and again every half minute and at the end.
+    pub(super) fn keep(&mut self, path: &Path) {
+        self.keep_the_last();
+        let scene = self.named_by_its_file();
+        let written = scene.and_then(|scene| self.write_checkpoint(path, &scene).map(|()| scene));
+        let scene = match written {
+            Ok(scene) => scene,
+            Err(message) => return self.event(Event::Failed(message)),
+        };
+        self.event(Event::Saved(vec![path.to_owned()]));
+        self.kept = Some(Kept { path: path.to_owned(), scene, written: self.elapsed() });
+        // The last state is owed from now on, so that the end waits for it.
+        self.unwritten.fetch_add(1, Ordering::SeqCst);
+    }
+
+    /// Ends the keeping, for the render ends, and another has no business in the file.
+    pub(super) fn let_go(&mut self) {
+        if let Some(kept) = &self.kept {
+            let name = kept.path.display();
+            self.event(Event::Notice(format!("{name} keeps the render before; this one is not kept")));
+        }
+        self.keep_the_last();
+    }
+
+    /// Writes what is kept when it is due.
+    pub(super) fn keep_up(&mut self) {
+        let elapsed = self.elapsed();
+        let Some(kept) = self.kept.as_mut().filter(|kept| elapsed >= kept.written + EVERY) else { return };
+        kept.written = elapsed;
+        let (path, scene) = (kept.path.clone(), kept.scene.clone());
+        if let Err(message) = self.write_checkpoint(&path, &scene) {
+            self.event(Event::Failed(format!("{message}; the file has the state before")));
+        }
+    }
+
+    /// Writes what is kept for the last time.
+    pub(super) fn keep_the_last(&mut self) {
+        let Some(kept) = self.kept.take() else { return };
+        if self.elapsed() > kept.written
+            && let Err(message) = self.write_checkpoint(&kept.path, &kept.scene)
+        {
+            self.event(Event::Failed(message));
+        }
+        self.unwritten.fetch_sub(1, Ordering::SeqCst);
+    }
+
+    /// Takes up the checkpoint that was asked for in a render that has just started whole. One that does not fit is not taken:
+    /// the render then begins at its first pass.
+    pub(super) fn take_up(&mut self, mut render: Render) -> Option<Render> {
+        let Some(path) = self.taking_up.take() else { return Some(render) };
+        let taken = self.named_by_its_file().and_then(|scene| {
+            checkpoint::resume(&path, render.session_mut(), &scene).map_err(|error| error.to_string())
+        });
+        if let Err(message) = taken {
+            // What it left behind is not to be used.
+            self.event(Event::Failed(message));
+            return None;
+        }
+        let settings = render.ppm().settings();
+        self.settings.alpha = settings.alpha;
+        self.settings.photons_per_pass = settings.photons_per_pass;
+        self.event(Event::Notice(format!("Going on after {} passes", render.ppm().passes())));
+        Some(render)
+    }
+
+    /// What is rendered, if the hash of its file says so.
+    fn named_by_its_file(&self) -> Result<SceneIdentity, String> {
+        let stage = self.stage.as_ref().ok_or("there is no render to keep")?;
+        if stage.is_as_opened() {
+            return Ok(stage.identity());
+        }
+        Err("a checkpoint belongs to a scene file, and this scene has edits: save it, open the saved file, and keep that".into())
+    }
+
+    fn elapsed(&self) -> Duration {
+        self.render.as_ref().map_or(Duration::ZERO, Render::elapsed)
+    }
+
+    fn write_checkpoint(&self, path: &Path, scene: &SceneIdentity) -> Result<(), String> {
+        let Some((render, _)) = self.rendered() else { return Err("there is no pass to keep yet".into()) };
+        let session = render.session();
+        check_writable(path)
+            .and_then(|()| checkpoint::write(path, session.ppm(), session.elapsed(), session.rays(), scene))
+            .map_err(|error| error.to_string())
+    }
+}

@@ -1,0 +1,85 @@
+//! A render that is kept in a file goes on from there, in another window or in none.
+
+use foton_session::edit::DragMode;
+use foton_session::engine::{Change, Command, Event, Frame, Gesture};
+use foton_session::{StopRule, checkpoint};
+
+use crate::rig::{BALL, Folder, Rig, headless, identity, image, settings};
+
+/// What went wrong.
+fn failure(rig: &Rig) -> String {
+    rig.hear("of a failure", |event| match event {
+        Event::Failed(message) => Some(message.clone()),
+        _ => None,
+    })
+}
+
+fn passes(path: &std::path::Path) -> u64 {
+    let mut session = headless(0, settings(), |_, _| ());
+    checkpoint::resume(path, &mut session, &identity()).expect("of the room");
+    session.ppm().passes()
+}
+
+#[test]
+fn what_is_kept_is_taken_up_with_the_same_bits_and_written_at_the_end() {
+    let folder = Folder::new("keep");
+    let path = folder.0.join("room.checkpoint");
+    let (rig, _) = Rig::at_pass(2);
+    rig.send(Command::KeepCheckpoint(path.clone()));
+    assert_eq!(rig.saved(), std::slice::from_ref(&path));
+    assert_eq!(passes(&path), 2);
+    rig.send(Command::StopAt(StopRule::passes(3)));
+    rig.done(3);
+    rig.engine.finish_writing();
+    assert_eq!(passes(&path), 3);
+
+    let (other, first) = Rig::at_pass(1);
+    other.send(Command::StopAt(StopRule::passes(5)));
+    other.done(5);
+    other.send(Command::TakeUpCheckpoint(path));
+    let after = other.until("the rest", |f: &Frame| f.render != first.render && f.numbers.passes == 5);
+    let straight = headless(5, settings(), |_, _| ());
+    assert_eq!(*image(&after), straight.ppm().image());
+    assert_eq!(after.numbers.photons, straight.ppm().photons_emitted());
+}
+
+#[test]
+fn a_render_that_starts_anew_leaves_what_was_kept_of_the_one_before() {
+    let folder = Folder::new("leave");
+    let path = folder.0.join("room.checkpoint");
+    let (rig, _) = Rig::at_pass(1);
+    rig.send(Command::KeepCheckpoint(path.clone()));
+    rig.saved();
+    rig.send(Command::StopAt(StopRule::passes(4)));
+    let before = rig.done(4);
+    rig.send(Command::Restart);
+    rig.hear("of the end of keeping", |event| {
+        matches!(event, Event::Notice(text) if text.contains("room.checkpoint")).then_some(())
+    });
+    rig.until("the next render", |f| f.render != before.render && f.numbers.passes == 4);
+    assert_eq!(passes(&path), 4);
+}
+
+#[test]
+fn edited_scenes_and_other_files_are_refused_and_the_render_goes_on() {
+    let folder = Folder::new("refuse");
+    let path = folder.0.join("room.checkpoint");
+    std::fs::write(&path, "not one").expect("written");
+    let (rig, before) = Rig::at_pass(2);
+    rig.send(Command::TakeUpCheckpoint(path.clone()));
+    assert!(failure(&rig).contains("this is no checkpoint"));
+    let after = rig.until("a render all the same", |f| f.render != before.render && f.numbers.passes == 2);
+    assert_eq!(image(&after), image(&before));
+
+    rig.send(Command::Choose(Some(BALL)));
+    rig.send(Command::Edit(Change::Nudge { steps: [3.0, 0.0], mode: DragMode::Horizontal }));
+    rig.until("the edit", |f| f.scene.is_edited && f.numbers.passes == 2);
+    rig.send(Command::KeepCheckpoint(path.clone()));
+    assert!(failure(&rig).contains("save it"));
+    rig.send(Command::Edit(Change::Undo));
+    rig.send(Command::Camera { gesture: Gesture::Zoom(1.1), moving: false });
+    rig.until("the camera", |f| f.scene.is_edited && f.numbers.passes == 2);
+    rig.send(Command::KeepCheckpoint(path.clone()));
+    assert!(failure(&rig).contains("save it"));
+    assert_eq!(std::fs::read_to_string(&path).expect("still there"), "not one");
+}
