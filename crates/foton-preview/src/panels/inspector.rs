@@ -32,9 +32,13 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
         });
     }
     heading(ui, "Properties");
-    for field in &inspection.fields {
-        show_field(ui, state, field);
-    }
+    ui.spacing_mut().slider_width = 64.0;
+    egui::Grid::new("fields").num_columns(2).min_col_width(112.0).show(ui, |ui| {
+        for field in &inspection.fields {
+            show_field(ui, state, field);
+            ui.end_row();
+        }
+    });
     for note in &inspection.notes {
         ui.weak(note);
     }
@@ -59,7 +63,9 @@ fn history(ui: &mut egui::Ui, state: &mut State) {
     });
 }
 
+/// A row: the label, then the control that it names.
 fn show_field(ui: &mut egui::Ui, state: &mut State, field: &Field) {
+    let label = ui.label(field.label).on_hover_text(field.help).id;
     let mut set = |value: Value, done: bool| {
         state.ask(Command::Edit(Change::SetField { field: field.id, value, done }));
     };
@@ -67,21 +73,21 @@ fn show_field(ui: &mut egui::Ui, state: &mut State, field: &Field) {
         (Control::Number { min, max, logarithmic }, Value::Number(value)) => {
             // What is nothing but rounding is no negative number.
             let mut number = if value.abs() < 1e-12 { 0.0 } else { value };
-            let unit = if field.unit.is_empty() { String::new() } else { format!(" {}", field.unit) };
-            let response = if *logarithmic {
-                ui.add(slider(&mut number, *min..=*max).logarithmic(true).suffix(unit).text(field.label))
-            } else if max - min <= 1000.0 {
-                ui.add(slider(&mut number, *min..=*max).suffix(unit).text(field.label))
-            } else {
-                let response = ui.horizontal(|ui| {
-                    let label = ui.label(field.label);
-                    let speed = (value.abs() * 0.005).max(1e-4);
-                    let drag = egui::DragValue::new(&mut number).range(*min..=*max).speed(speed).suffix(unit);
-                    ui.add(drag).labelled_by(label.id)
+            let has_slider = *logarithmic || max - min <= 1000.0;
+            let response = ui.horizontal(|ui| {
+                let range = *min..=*max;
+                let track = has_slider.then(|| {
+                    let track = slider(&mut number, range.clone()).logarithmic(*logarithmic);
+                    ui.add(track.show_value(false)).labelled_by(label)
                 });
-                response.inner
-            };
-            let response = response.on_hover_text(field.help);
+                let speed = if has_slider { (max - min) * 1e-3 } else { (value.abs() * 0.005).max(1e-4) };
+                let speed = if *logarithmic { (value.abs() * 0.005).max(1e-6) } else { speed };
+                let unit = if field.unit.is_empty() { String::new() } else { format!(" {}", field.unit) };
+                let typed = egui::DragValue::new(&mut number).range(range).clamp_existing_to_range(false);
+                let typed = ui.add(typed.speed(speed).suffix(unit)).labelled_by(label);
+                track.map_or(typed.clone(), |track| track | typed)
+            });
+            let response = response.inner.on_hover_text(field.help);
             if response.changed() && number.is_finite() {
                 set(Value::Number(number.clamp(*min, *max)), !response.dragged());
             } else if response.drag_stopped() {
@@ -89,33 +95,27 @@ fn show_field(ui: &mut egui::Ui, state: &mut State, field: &Field) {
             }
         }
         (Control::Colour, Value::Colour(colour)) => {
-            ui.horizontal(|ui| {
-                let mut linear = colour;
-                let label = ui.label(field.label);
-                let response =
-                    ui.color_edit_button_rgb(&mut linear).labelled_by(label.id).on_hover_text(field.help);
-                if response.changed() {
-                    set(Value::Colour(linear.map(|c| c.clamp(0.0, 1.0))), true);
-                }
-            });
+            let mut linear = colour;
+            let response = ui.color_edit_button_rgb(&mut linear).labelled_by(label).on_hover_text(field.help);
+            if response.changed() {
+                set(Value::Colour(linear.map(|c| c.clamp(0.0, 1.0))), true);
+            }
         }
         (Control::Choice(options), Value::Choice(chosen)) => {
-            ui.horizontal(|ui| {
-                let label = ui.label(field.label);
-                let text = options.get(chosen).map_or("", String::as_str);
-                let list = egui::ComboBox::from_id_salt(field.label).selected_text(text).show_ui(ui, |ui| {
-                    for (i, option) in options.iter().enumerate() {
-                        if ui.selectable_label(i == chosen, option).clicked() {
-                            set(Value::Choice(i), true);
-                        }
+            let text = options.get(chosen).map_or("", String::as_str);
+            let list = egui::ComboBox::from_id_salt(field.label).selected_text(text).show_ui(ui, |ui| {
+                for (i, option) in options.iter().enumerate() {
+                    if ui.selectable_label(i == chosen, option).clicked() {
+                        set(Value::Choice(i), true);
                     }
-                });
-                list.response.labelled_by(label.id).on_hover_text(field.help);
+                }
             });
+            list.response.labelled_by(label).on_hover_text(field.help);
         }
         (Control::Toggle, Value::Toggle(on)) => {
             let mut now = on;
-            if ui.checkbox(&mut now, field.label).on_hover_text(field.help).changed() {
+            let response = ui.checkbox(&mut now, "").labelled_by(label).on_hover_text(field.help);
+            if response.changed() {
                 set(Value::Toggle(now), true);
             }
         }

@@ -364,6 +364,30 @@ fn the_bar_pauses_steps_restarts_saves_and_opens() {
 }
 
 #[test]
+fn checkpoints_are_kept_and_taken_up_by_the_file_dialog() {
+    let folder = std::env::temp_dir().join(format!("foton-panels-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let mut harness = window(|state| state.preferences.scene_folder.clone_from(&folder));
+    let stem = harness.state().frame.as_ref().expect("there").scene.name.replace(".xml", "");
+    let path = folder.join(format!("{stem}.checkpoint"));
+    click(&mut harness, Role::Button, "Scene");
+    click(&mut harness, Role::Button, "Keep a checkpoint…");
+    click(&mut harness, Role::Button, "Save");
+    assert_asked(&mut harness, &Command::KeepCheckpoint(path.clone()));
+    std::fs::write(&path, "").expect("written");
+    let mut harness = window(|state| state.preferences.scene_folder.clone_from(&folder));
+    click(&mut harness, Role::Button, "Scene");
+    click(&mut harness, Role::Button, "Go on from a checkpoint…");
+    find(&harness, Role::TextInput, "Name").focus();
+    settle(&mut harness);
+    harness.event(egui::Event::Text(path.display().to_string()));
+    settle(&mut harness);
+    click(&mut harness, Role::Button, "Open");
+    assert_asked(&mut harness, &Command::TakeUpCheckpoint(path));
+    std::fs::remove_dir_all(folder).expect("removed");
+}
+
+#[test]
 fn a_scene_that_opens_can_be_called_off_and_one_that_changed_reloaded() {
     let mut harness = window(|state| {
         state.frame.as_mut().expect("there").opening = Some("slow.xml".into());
