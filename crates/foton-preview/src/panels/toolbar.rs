@@ -1,5 +1,7 @@
 //! The bar on top: scene, run, snapshot, what is shown.
 
+use std::path::PathBuf;
+
 use foton_film::ToneMap;
 use foton_session::engine::{Activity, Command, Configuration, ErrorPart, Shown, Source};
 
@@ -72,10 +74,18 @@ pub(super) fn open_dialog(state: &mut State) {
 }
 
 pub(super) fn save_dialog(state: &mut State) {
-    let name = state.frame.as_ref().map_or("scene", |f| f.scene.name.as_str());
-    let stem = name.strip_suffix(".xml").unwrap_or(name);
-    let path = state.preferences.scene_folder.join(format!("{stem}-edited.xml"));
+    let path = beside_the_scene(state, "-edited.xml");
     state.dialog = Some((DialogPurpose::SaveScene, FileDialog::save(&path, &["xml"])));
+}
+
+/// Where what belongs to the scene is looked for first: its own folder if it has one.
+fn beside_the_scene(state: &State, ending: &str) -> PathBuf {
+    let scene = state.frame.as_ref().map(|f| &f.scene);
+    let name = scene.map_or("scene", |s| s.name.as_str());
+    let stem = name.strip_suffix(".xml").unwrap_or(name);
+    let file = scene.and_then(|s| s.file.as_ref());
+    let folder = file.and_then(|f| f.parent()).unwrap_or(&state.preferences.scene_folder);
+    folder.join(format!("{stem}{ending}"))
 }
 
 fn checkpoints(ui: &mut egui::Ui, state: &mut State) {
@@ -83,17 +93,16 @@ fn checkpoints(ui: &mut egui::Ui, state: &mut State) {
         "The state of this render in a file, brought up to date every 30 s and at the end, until it starts anew; \
          `foton render --resume` takes it up as well",
     );
-    let name = state.frame.as_ref().map_or("scene", |f| f.scene.name.as_str());
-    let stem = name.strip_suffix(".xml").unwrap_or(name);
     if keep.clicked() {
-        let path = state.preferences.scene_folder.join(format!("{stem}.checkpoint"));
+        let path = beside_the_scene(state, ".checkpoint");
         state.dialog = Some((DialogPurpose::KeepCheckpoint, FileDialog::save(&path, CHECKPOINTS)));
     }
     let take_up = ui.button("Go on from a checkpoint…").on_hover_text(
         "Of this scene, with this radius, direct light, hit points a pixel and seed: with the bits that it would have had",
     );
     if take_up.clicked() {
-        let dialog = FileDialog::open(&state.preferences.scene_folder, CHECKPOINTS);
+        let dialog =
+            FileDialog::open(beside_the_scene(state, "").parent().unwrap_or("".as_ref()), CHECKPOINTS);
         state.dialog = Some((DialogPurpose::TakeUpCheckpoint, dialog));
     }
 }
