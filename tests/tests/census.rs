@@ -47,6 +47,10 @@ fn modelling_what_a_scene_does_not_need_gives_the_same_bits() {
         ("environment", Census { environment: true, ..none }),
         ("shading normals' correction", Census { shading_normals: true, ..none }),
         ("rough coats", Census { rough_coats: true, ..none }),
+        (
+            "highlights of lights without extent",
+            Census { narrow_gloss: true, lights_without_extent: true, ..none },
+        ),
     ] {
         assert!(render(&room, forced).pixels == plain.pixels, "{name}");
     }

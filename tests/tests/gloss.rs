@@ -89,6 +89,49 @@ fn following_a_lobe_and_keeping_it_give_the_same_light() {
     assert!((followed / kept - 1.0).abs() < 4.0 * a.hypot(b) / kept + 0.02, "{followed} ± {a}, {kept} ± {b}");
 }
 
+/// No path that follows a lobe meets a light without extent: it is looked up, and shows as it does in a lobe that is kept.
+#[test]
+fn lights_without_extent_show_in_narrow_gloss() {
+    let camera = |material| {
+        Sketch::default()
+            .camera(DVec3::new(0.0, 0.0, 2.0), DVec3::ZERO, 20.0, 12)
+            .rectangle(DVec3::ZERO, DVec3::X, DVec3::Y, material, None)
+            .max_depth(3)
+    };
+    let light = |mut sketch: Sketch, kind| {
+        sketch.0.emitters.push(EmitterDescription { name: "light".into(), kind });
+        sketch
+    };
+    let bright = Rgb::new(3.0, 2.0, 1.0);
+    let position = DVec3::new(0.1, 0.2, 2.5);
+    let kinds = [
+        EmitterKind::Point { position, intensity: bright },
+        EmitterKind::Directional { direction: DVec3::new(-0.1, 0.05, -2.0), irradiance: bright },
+    ];
+    let rays = Settings { direct_light: DirectLight::ShadowRays, ..settings(1000) };
+    for kind in &kinds {
+        // Nothing is random in either: the values of the lobes, which differ by their roughness alone.
+        for (followed, kept) in [(metal(0.1), metal(0.1001)), (plastic(Some(0.1)), plastic(Some(0.1001)))] {
+            let [a, b] = [followed, kept].map(|material| {
+                let image = light(camera(material), kind.clone()).render(rays.clone(), 1).image();
+                (image.pixels.iter().map(|p| f64::from(p.mean())).sum::<f64>(), image)
+            });
+            assert!(a.0 > 1.0 && (a.0 / b.0 - 1.0).abs() < 2e-3, "{} and {}", a.0, b.0);
+            let most = b.1.pixels.iter().map(|p| p.mean()).fold(0.0, f32::max);
+            for (a, b) in a.1.pixels.iter().zip(&b.1.pixels) {
+                assert!((a.mean() - b.mean()).abs() < 0.01 * most, "{a:?} and {b:?}");
+            }
+        }
+    }
+    // What stands in between casts a shadow; what lies behind the lamp does not.
+    let [point, _] = kinds;
+    let shade =
+        |z: f64| camera(metal(0.05)).rectangle(DVec3::new(0.1, 0.2, z), DVec3::X, DVec3::Y, grey(0.0), None);
+    let [shadowed, lit] = [2.2, 2.7]
+        .map(|z| foton_tests::mean(&light(shade(z), point.clone()).render(rays.clone(), 1).image()));
+    assert!(shadowed == 0.0 && lit > 0.1, "{shadowed}, {lit}");
+}
+
 fn lit_from_infinity(kind: EmitterKind, casters: bool) -> Sketch {
     let mut sketch = Sketch::default()
         .camera(DVec3::new(0.0, 1.5, 0.0), DVec3::ZERO, 20.0, 8)

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use std::f32::consts::FRAC_1_PI;
 
 use crate::cancel::{Cancel, Cancelled};
+use crate::highlights;
 use crate::hit_point::{Gloss, HitPoint};
 use crate::radius::{RadiusRule, slab2};
 use crate::sampling::PixelSamples;
@@ -252,9 +253,16 @@ impl Walk<'_, '_> {
         let frame = self.pass.scene.shading_frame(surface, shading_normal_towards(surface, wo));
         let local = frame.to_local(wo);
         let facet = match scattering.bsdf.roughness() {
-            Some(_) => self.facet.take().unwrap_or_else(|| self.stream.next_2d()),
-            None => Vec2::ZERO,
+            Some(_) => Some(self.facet.take().unwrap_or_else(|| self.stream.next_2d())),
+            None => None,
         };
+        if self.pass.scene.census().has_narrow_highlights() && scattering.bsdf.follows() && facet.is_some() {
+            let (scene, at) = (self.pass.scene, (&frame, local));
+            let rays = &mut self.paths.rays;
+            self.emission +=
+                weight * highlights::reflected(scene, surface, scattering, at, &mut self.stream, rays);
+        }
+        let facet = facet.unwrap_or_default();
         let lobes = scattering.followed_lobes(local, Transport::Radiance, facet);
         let count = lobes.iter().flatten().count() as u32;
         let split = branch.edges <= SPLIT_EDGES

@@ -67,6 +67,15 @@ pub fn features(scene: &Scene, settings: &Settings) -> Vec<Feature> {
             0,
         ),
         feature(
+            "highlights of lights without extent",
+            census.has_narrow_highlights(),
+            "narrow gloss, and points, spots or suns that no followed path meets",
+            "no narrow gloss, or no light without extent",
+            "up to 16 shadow rays where an eye path meets narrow gloss",
+            0,
+            0,
+        ),
+        feature(
             "glossy hit points",
             census.kept_gloss,
             "lobes that are kept and not Lambertian",

@@ -10,6 +10,7 @@ mod eye_pass;
 mod features;
 mod gather;
 mod grid;
+mod highlights;
 mod hit_point;
 mod inspect;
 mod layers;

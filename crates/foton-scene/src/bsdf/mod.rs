@@ -199,6 +199,20 @@ impl Scattering {
         self.eval_where(wo, wi, |_| true)
     }
 
+    /// The value `f(wo, wi)` of the followed lobes, without the cosine (sr⁻¹): 0 for those that are a single direction.
+    #[must_use]
+    pub fn eval_followed(&self, wo: Vec3, wi: Vec3) -> Rgb {
+        let up = |w: Vec3| w * 1f32.copysign(w.z);
+        match self.bsdf {
+            Bsdf::Plastic { roughness: Some(r), .. } if r.is_followed() && wo.z * wi.z > 0.0 => {
+                self.coat(&r, up(wo), up(wi)) * self.opacity
+            }
+            Bsdf::Plastic { .. } => Rgb::BLACK,
+            _ if self.bsdf.follows() => self.eval(wo, wi),
+            _ => Rgb::BLACK,
+        }
+    }
+
     fn eval_where(&self, wo: Vec3, wi: Vec3, counts: impl Fn(&Microfacets) -> bool) -> Rgb {
         if wo.z == 0.0 || wi.z == 0.0 {
             return Rgb::BLACK;

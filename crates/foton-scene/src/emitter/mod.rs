@@ -181,6 +181,12 @@ impl Emitter {
         }
     }
 
+    /// Whether it shines from one point or in one direction, where no path arrives by chance.
+    #[must_use]
+    pub const fn is_without_extent(&self) -> bool {
+        matches!(self.kind, Kind::Point { .. } | Kind::Spot(_) | Kind::Directional { .. })
+    }
+
     /// Light from a random point of the emitter at `position` on a surface with the unit `normal`, to which an environment
     /// is sampled by the cosine. `None` where the emitter does not shine.
     #[must_use]
