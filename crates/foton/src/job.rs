@@ -140,6 +140,11 @@ pub(crate) fn build(
     if census.narrow_gloss {
         talk.note("gloss of roughness up to 0.1 is followed in directions chosen once: its noise stays; --spp lowers it");
     }
+    if census.has_narrow_highlights() && census.refraction {
+        talk.note(
+            "light of points, spots and suns that reaches such gloss through glass is not found by any path",
+        );
+    }
     if census.emitters == 0 {
         talk.warning("nothing in the scene emits light: the image will be black");
     }
