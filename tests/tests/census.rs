@@ -48,7 +48,7 @@ fn modelling_what_a_scene_does_not_need_gives_the_same_bits() {
         ("shading normals' correction", Census { shading_normals: true, ..none }),
         ("rough coats", Census { rough_coats: true, ..none }),
         (
-            "highlights of lights without extent",
+            "looking at lights from narrow gloss",
             Census { narrow_gloss: true, lights_without_extent: true, ..none },
         ),
     ] {

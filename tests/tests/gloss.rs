@@ -89,6 +89,35 @@ fn following_a_lobe_and_keeping_it_give_the_same_light() {
     assert!((followed / kept - 1.0).abs() < 4.0 * a.hypot(b) / kept + 0.02, "{followed} ± {a}, {kept} ± {b}");
 }
 
+/// A lamp that a followed path meets by chance once in many samples is found by looking at it, and counts once.
+#[test]
+fn a_small_lamp_shows_in_narrow_gloss_without_waiting_for_chance() {
+    // Half a degree wide, where the lobe is three.
+    let lamp = |material, size: f64| {
+        let at = DVec3::new(-0.6, -0.3, 2.0);
+        let radiance = Some(Rgb::splat((20.0 / (size * size)) as f32));
+        Sketch::default()
+            .camera(DVec3::new(0.6, 0.3, 2.0), DVec3::new(0.05, 0.0, 0.0), 4.0, 12)
+            .rectangle(DVec3::ZERO, DVec3::X, DVec3::Y, material, None)
+            .rectangle(at, DVec3::X * size, -DVec3::Y * size, grey(0.0), radiance)
+            .max_depth(3)
+    };
+    for material in [metal(0.05), plastic(Some(0.05))] {
+        let base = settings(20_000);
+        let (small, noise) = seeds(&lamp(material, 0.01), &base, 1, 6);
+        assert!(noise < 0.02 * small, "{material:?}: {small} ± {noise}");
+        // The same power from a lamp that still is small beside the lobe: the same light.
+        let (wider, other) = seeds(&lamp(material, 0.03), &base, 1, 6);
+        assert!(
+            (small - wider).abs() < 4.0 * noise.hypot(other) + 0.02 * wider,
+            "{small} and {wider} ± {other}"
+        );
+        // As good by following as by looking: a lamp as wide as the lobe.
+        let (wide, noise) = seeds(&lamp(material, 0.3), &base, 1, 6);
+        assert!(noise < 0.03 * wide, "{wide} ± {noise}");
+    }
+}
+
 /// No path that follows a lobe meets a light without extent: it is looked up, and shows as it does in a lobe that is kept.
 #[test]
 fn lights_without_extent_show_in_narrow_gloss() {

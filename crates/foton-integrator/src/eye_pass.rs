@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use std::f32::consts::FRAC_1_PI;
 
 use crate::cancel::{Cancel, Cancelled};
-use crate::highlights;
+use crate::highlights::Glossy;
 use crate::hit_point::{Gloss, HitPoint};
 use crate::radius::{RadiusRule, slab2};
 use crate::sampling::PixelSamples;
@@ -77,6 +77,8 @@ struct Branch {
     edges: u32,
     /// Length of the edges before `ray`.
     distance: f32,
+    /// The density (sr⁻¹) of its direction, where lamps are looked up as well; 0 where they are not.
+    density: f32,
 }
 
 impl EyePass<'_> {
@@ -123,6 +125,7 @@ impl EyePass<'_> {
             let mut scramble = Stream::new(self.settings.seed, self.purpose, 0, u64::from(pixel));
             let places = PixelSamples::new(&mut scramble);
             let facets = PixelSamples::new(&mut scramble);
+            let lamps = PixelSamples::new(&mut scramble);
             paths.shapes.push(NO_SHAPE);
             for sample in 0..samples {
                 let index = u64::from(pixel) * u64::from(samples) + u64::from(sample);
@@ -131,6 +134,7 @@ impl EyePass<'_> {
                     radius,
                     stream: Stream::new(self.settings.seed, self.purpose, 1, index),
                     facet: Some(facets.point(sample)),
+                    lamp: Some(lamps.point(sample)),
                     solid_angle: 0.0,
                     first: sample == 0,
                     paths: &mut paths,
@@ -155,6 +159,8 @@ struct Walk<'a, 'b> {
     stream: Stream,
     /// Stratified over the pixel's samples, for the first rough lobe that is followed.
     facet: Option<Vec2>,
+    /// The same for the lamp that is looked at from there.
+    lamp: Option<Vec2>,
     solid_angle: f32,
     /// Whether the pixel's shape is still to be noted.
     first: bool,
@@ -171,7 +177,7 @@ impl Walk<'_, '_> {
         let corner = Vec2::new((pixel % sensor.width) as f32, (pixel / sensor.width) as f32);
         let ray = sensor.ray(corner + 0.5 + sensor.filter.offset(place));
         self.solid_angle = sensor.pixel_solid_angle(ray.direction);
-        self.branches.push(Branch { ray, weight: Rgb::WHITE, edges: 1, distance: 0.0 });
+        self.branches.push(Branch { ray, weight: Rgb::WHITE, edges: 1, distance: 0.0, density: 0.0 });
         while let Some(branch) = self.branches.pop() {
             self.step(branch);
         }
@@ -195,7 +201,11 @@ impl Walk<'_, '_> {
         }
         let wo = -branch.ray.direction;
         if visible {
-            self.emission += branch.weight * scene.emitted(&surface, wo);
+            let mut emitted = branch.weight * scene.emitted(&surface, wo);
+            if branch.density > 0.0 && !emitted.is_black() {
+                emitted *= Glossy::share_of_following(scene, &surface, branch.ray.origin, branch.density);
+            }
+            self.emission += emitted;
         }
         let outward = wo.dot(surface.normal) > 0.0;
         let Some(scattering) = scene.scattering(&surface, outward) else { return };
@@ -256,11 +266,12 @@ impl Walk<'_, '_> {
             Some(_) => Some(self.facet.take().unwrap_or_else(|| self.stream.next_2d())),
             None => None,
         };
-        if self.pass.scene.census().has_narrow_highlights() && scattering.bsdf.follows() && facet.is_some() {
-            let (scene, at) = (self.pass.scene, (&frame, local));
-            let rays = &mut self.paths.rays;
-            self.emission +=
-                weight * highlights::reflected(scene, surface, scattering, at, &mut self.stream, rays);
+        let looks = self.pass.scene.census().has_narrow_highlights() && facet.is_some();
+        if looks {
+            let at = Glossy { scene: self.pass.scene, surface, scattering, frame: &frame, wo: local };
+            let point = self.lamp.take().unwrap_or_else(|| self.stream.next_2d());
+            let u = (self.stream.next_1d(), self.stream.next_1d(), point);
+            self.emission += weight * at.looked_up(u, &mut self.stream, &mut self.paths.rays);
         }
         let facet = facet.unwrap_or_default();
         let lobes = scattering.followed_lobes(local, Transport::Radiance, facet);
@@ -286,13 +297,15 @@ impl Walk<'_, '_> {
             if weight.is_black() {
                 continue;
             }
-            let direction = frame.to_outer(lobe.wi).normalize();
-            let direction = on_the_right_side(surface, wo, direction, lobe.wi.z * local.z > 0.0);
+            let sampled = frame.to_outer(lobe.wi).normalize();
+            let direction = on_the_right_side(surface, wo, sampled, lobe.wi.z * local.z > 0.0);
+            let is_sampled = looks && direction == sampled;
             self.branches.push(Branch {
                 ray: Ray::new(surface.ray_origin(direction), direction),
                 weight,
                 edges: branch.edges + 1,
                 distance,
+                density: if is_sampled { scattering.density_followed(local, lobe.wi) } else { 0.0 },
             });
         }
     }

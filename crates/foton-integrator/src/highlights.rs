@@ -1,8 +1,9 @@
-//! Highlights of lights without extent in narrow gloss.
+//! Highlights of lights in narrow gloss, by looking at the lights.
 //!
-//! An eye path that follows a rough lobe in one direction meets lamps and skies, but never a point, a spot or the sun: those
-//! are looked up by the lobe's value where the path is, with a ray that says whether they are seen from there. What lies in
-//! between blocks, glass too: their light through glass onto narrow gloss is not found by any path.
+//! An eye path that follows a rough lobe in one direction meets a sky, often a large lamp, rarely a small one, and a point, a
+//! spot or the sun never. So lights are also looked up from where a rough lobe of a metal or coat is followed: those without
+//! extent all of them, of lamps one. A lamp is then found in two ways, weighted by the balance heuristic [VEA97, §9.2].
+//! What lies in between blocks, glass too: light of points through glass onto narrow gloss is not found by any path.
 
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Frame, Ray, Rgb, Stream};
@@ -10,58 +11,103 @@ use foton_scene::{Scattering, Scene, Surface};
 
 use crate::eye_pass::leaves_wrongly;
 
-/// So many such lights are all looked up; of more, so many are chosen by chance.
+/// So many lights without extent are all looked up; of more, so many are chosen by chance.
 const MOST: usize = 16;
 
-/// Radiance towards the local direction `wo`, off the followed lobes of a surface, from all emitters without extent.
-/// Adds to the number of rays.
-pub(crate) fn reflected(
-    scene: &Scene,
-    surface: &Surface,
-    scattering: &Scattering,
-    (frame, wo): (&Frame, Vec3),
-    stream: &mut Stream,
-    rays: &mut u64,
-) -> Rgb {
-    let emitters = scene.emitters();
-    let mut sum = Rgb::BLACK;
-    let mut add = |index: usize, share: f32| {
-        if !emitters[index].is_without_extent() {
-            return;
-        }
-        sum += from_emitter(scene, index, surface, scattering, (frame, wo), rays) / share;
-    };
-    if emitters.iter().filter(|e| e.is_without_extent()).count() <= MOST {
-        (0..emitters.len()).for_each(|index| add(index, 1.0));
-    } else {
-        for _ in 0..MOST {
-            if let Some((index, chance)) = scene.choose_emitter(f64::from(stream.next_1d())) {
-                add(index, MOST as f32 * chance as f32);
-            }
-        }
-    }
-    sum
+/// Shadow rays end this share before a sampled point on a surface, which must not shadow itself.
+const SHORTENED: f32 = 1e-4;
+
+/// Where an eye path follows rough lobes.
+#[derive(Clone, Copy)]
+pub(crate) struct Glossy<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) surface: &'a Surface,
+    pub(crate) scattering: &'a Scattering,
+    /// Around the shading normal.
+    pub(crate) frame: &'a Frame,
+    /// Where the path came from, local.
+    pub(crate) wo: Vec3,
 }
 
-fn from_emitter(
-    scene: &Scene,
-    index: usize,
-    surface: &Surface,
-    scattering: &Scattering,
-    (frame, wo): (&Frame, Vec3),
-    rays: &mut u64,
-) -> Rgb {
-    let emitter = &scene.emitters()[index];
-    // Where it shines from does not depend on chance, nor on the normal.
-    let at = emitter.illuminate(surface.position, surface.normal, 0.0, Vec2::ZERO);
-    let Some(light) = at else { return Rgb::BLACK };
-    let wi = frame.to_local(light.direction);
-    let value = scattering.eval_followed(wo, wi) * wi.z.abs();
-    if value.is_black() || leaves_wrongly(surface, frame.to_outer(wo), light.direction, wi.z * wo.z > 0.0) {
-        return Rgb::BLACK;
+impl Glossy<'_> {
+    /// Radiance towards `wo`, off the followed lobes, from lights that are looked up; a lamp is chosen and sampled by `u`.
+    /// Adds to the number of rays.
+    pub(crate) fn looked_up(&self, u: (f32, f32, Vec2), stream: &mut Stream, rays: &mut u64) -> Rgb {
+        let census = self.scene.census();
+        let mut sum = Rgb::BLACK;
+        if census.lights_without_extent {
+            sum += self.without_extent(stream, rays);
+        }
+        if census.lamps {
+            sum += self.lamp(u, rays);
+        }
+        sum
     }
-    *rays += 1;
-    let origin = surface.ray_origin(light.direction);
-    let ray = Ray { origin, direction: light.direction, t_min: 0.0, t_max: light.distance };
-    if scene.occluded(ray) { Rgb::BLACK } else { value * light.radiance_over_pdf }
+
+    /// Of two ways to find a lamp, the share of following a lobe with the given density (sr⁻¹) into it from `position`.
+    pub(crate) fn share_of_following(scene: &Scene, lamp: &Surface, position: Vec3, density: f32) -> f32 {
+        let looking = scene.lamp_density(lamp, position);
+        if looking > 0.0 { density / (density + looking) } else { 1.0 }
+    }
+
+    fn without_extent(&self, stream: &mut Stream, rays: &mut u64) -> Rgb {
+        let emitters = self.scene.emitters();
+        let found = || (0..emitters.len()).filter(|&i| emitters[i].is_without_extent());
+        if found().count() <= MOST {
+            return found().map(|i| self.look_at(i, (0.0, Vec2::ZERO), |_| 1.0, rays)).sum();
+        }
+        let mut sum = Rgb::BLACK;
+        for _ in 0..MOST {
+            if let Some((i, chance)) = self.scene.choose_emitter(f64::from(stream.next_1d()))
+                && emitters[i].is_without_extent()
+            {
+                sum += self.look_at(i, (0.0, Vec2::ZERO), |_| 1.0, rays) / (MOST as f32 * chance as f32);
+            }
+        }
+        sum
+    }
+
+    fn lamp(&self, (u_emitter, u_part, u): (f32, f32, Vec2), rays: &mut u64) -> Rgb {
+        let Some((i, chance)) = self.scene.choose_emitter(f64::from(u_emitter)) else { return Rgb::BLACK };
+        if !self.scene.emitters()[i].is_lamp() {
+            return Rgb::BLACK;
+        }
+        let chance = chance as f32;
+        let share = |[looking, following]: [f32; 2]| chance * looking / (chance * looking + following);
+        self.look_at(i, (u_part, u), share, rays) / chance
+    }
+
+    /// What one sampled point of an emitter adds, times a share made of the densities of looking there and of following a
+    /// lobe there.
+    fn look_at(
+        &self,
+        index: usize,
+        (u_part, u): (f32, Vec2),
+        share: impl Fn([f32; 2]) -> f32,
+        rays: &mut u64,
+    ) -> Rgb {
+        let emitter = &self.scene.emitters()[index];
+        let at = emitter.illuminate(self.surface.position, self.surface.normal, u_part, u);
+        let Some(light) = at else { return Rgb::BLACK };
+        let wi = self.frame.to_local(light.direction);
+        let following = self.scattering.density_followed(self.wo, wi);
+        if emitter.is_lamp() && following <= 0.0 {
+            // Glass: its lobes find lamps by following alone.
+            return Rgb::BLACK;
+        }
+        let value = self.scattering.eval_followed(self.wo, wi) * wi.z.abs();
+        let reflects = wi.z * self.wo.z > 0.0;
+        if value.is_black()
+            || leaves_wrongly(self.surface, self.frame.to_outer(self.wo), light.direction, reflects)
+        {
+            return Rgb::BLACK;
+        }
+        *rays += 1;
+        let origin = self.surface.ray_origin(light.direction);
+        let t_max = light.distance * (1.0 - SHORTENED);
+        if self.scene.occluded(Ray { origin, direction: light.direction, t_min: 0.0, t_max }) {
+            return Rgb::BLACK;
+        }
+        value * light.radiance_over_pdf * share([light.density, following])
+    }
 }

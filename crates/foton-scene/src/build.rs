@@ -122,6 +122,7 @@ impl Scene {
         scene.max_depth = description.max_depth;
         scene.sensors = description.sensors.iter().map(|s| Sensor::new(s, &normalisation)).collect();
         scene.census.lights_without_extent |= emitters.iter().any(Emitter::is_without_extent);
+        scene.census.lamps |= emitters.iter().any(Emitter::is_lamp);
         scene.census.environment |= emitters.iter().any(|e| e.is_environment() && !e.power().is_black());
         scene.emitter_choice = emitter_choice(&emitters);
         scene.census.emitters = emitters.iter().filter(|e| !e.power().is_black()).count() as u64;

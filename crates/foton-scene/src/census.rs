@@ -35,12 +35,14 @@ pub struct Census {
     pub environment: bool,
     /// Whether any emitter shines from one point or in one direction: no path meets it by chance.
     pub lights_without_extent: bool,
+    /// Whether any surface emits.
+    pub lamps: bool,
 }
 
 impl Census {
-    /// Whether light that only a look at its source finds shines on lobes that eye paths follow in one direction.
+    /// Whether there are lights to be looked up where eye paths follow a rough lobe in one direction.
     #[must_use]
     pub const fn has_narrow_highlights(&self) -> bool {
-        self.narrow_gloss && self.lights_without_extent
+        self.narrow_gloss && (self.lights_without_extent || self.lamps)
     }
 }

@@ -203,6 +203,17 @@ impl Scene {
         }
     }
 
+    /// The density (sr⁻¹) with which choosing an emitter and a point of it leads from `position` to a point of a lamp; 0 where
+    /// the surface emits nothing towards there.
+    #[must_use]
+    pub fn lamp_density(&self, surface: &Surface, position: Vec3) -> f32 {
+        let Some(emitter) = self.shapes[surface.shape as usize].emitter else { return 0.0 };
+        match &self.emitters[emitter as usize].kind {
+            Kind::Area(area) => area.density(surface, position) * self.emitter_share(emitter as usize) as f32,
+            _ => 0.0,
+        }
+    }
+
     /// Radiance that a ray which hits nothing sees along `direction`.
     #[must_use]
     pub fn escaped_radiance(&self, direction: Vec3) -> Rgb {

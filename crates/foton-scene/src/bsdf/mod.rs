@@ -213,6 +213,20 @@ impl Scattering {
         }
     }
 
+    /// Density (sr⁻¹) with which the followed lobe of rough metal or of a rough coat takes the direction `wi`; 0 for lobes
+    /// that are a single direction, and for rough glass.
+    #[must_use]
+    pub fn density_followed(&self, wo: Vec3, wi: Vec3) -> f32 {
+        match self.bsdf {
+            Bsdf::Conductor { roughness: Some(r), .. } | Bsdf::Plastic { roughness: Some(r), .. }
+                if r.is_followed() && wo.z * wi.z > 0.0 =>
+            {
+                facet_density(&r, wo * 1f32.copysign(wo.z), wi * 1f32.copysign(wi.z))
+            }
+            _ => 0.0,
+        }
+    }
+
     fn eval_where(&self, wo: Vec3, wi: Vec3, counts: impl Fn(&Microfacets) -> bool) -> Rgb {
         if wo.z == 0.0 || wi.z == 0.0 {
             return Rgb::BLACK;
@@ -373,10 +387,7 @@ impl Scattering {
         }
         let same_side = wo.z * wi.z > 0.0;
         let (up_o, up_i) = (wo * 1f32.copysign(wo.z), wi * 1f32.copysign(wi.z));
-        let facet = |r: &Microfacets| {
-            let h = (up_o + up_i).normalize();
-            r.pdf(up_o, h) / (4.0 * up_o.dot(h)).max(f32::MIN_POSITIVE)
-        };
+        let facet = |r: &Microfacets| facet_density(r, up_o, up_i);
         let pdf = match self.bsdf {
             Bsdf::Diffuse { .. } if same_side => warp::square_to_cosine_hemisphere_pdf(up_i),
             Bsdf::Conductor { roughness: Some(r), .. } if same_side => facet(&r),
@@ -392,6 +403,12 @@ impl Scattering {
         };
         pdf * self.opacity
     }
+}
+
+/// Density (sr⁻¹) of reflecting `wo` into `wi` by a facet that is seen; both above.
+fn facet_density(r: &Microfacets, wo: Vec3, wi: Vec3) -> f32 {
+    let h = (wo + wi).normalize();
+    r.pdf(wo, h) / (4.0 * wo.dot(h)).max(f32::MIN_POSITIVE)
 }
 
 fn mirrored(wo: Vec3) -> Vec3 {

@@ -68,6 +68,7 @@ impl Area {
             direction,
             distance: distance2.sqrt(),
             radiance_over_pdf: self.radiance * (cosine * self.area / distance2),
+            density: distance2 / (cosine * self.area),
         })
     }
 
@@ -81,11 +82,7 @@ impl Area {
     ) -> Option<Illumination> {
         let d = centre - position;
         let distance = d.length();
-        let sine = radius / distance;
-        if sine >= 1.0 {
-            return None;
-        }
-        let one_minus_cos = sine * sine / (1.0 + (1.0 - sine * sine).sqrt());
+        let one_minus_cos = one_minus_cos_of_cone(radius, distance)?;
         let local = warp::square_to_cone(u, one_minus_cos);
         // Nearer root of |t·local − (0, 0, distance)| = radius; a grazing direction may round to none.
         let discriminant = radius * radius - distance * distance * (local.x * local.x + local.y * local.y);
@@ -93,6 +90,28 @@ impl Area {
             direction: Frame::from_normal(d / distance).to_outer(local),
             distance: distance * local.z - discriminant.max(0.0).sqrt(),
             radiance_over_pdf: self.radiance / warp::square_to_cone_pdf(one_minus_cos),
+            density: warp::square_to_cone_pdf(one_minus_cos),
         })
     }
+
+    /// The density (sr⁻¹) with which [`Area::illuminate`] chooses the direction from `position` to a point of this surface;
+    /// 0 where that is seen from behind.
+    pub(crate) fn density(&self, point: &Surface, position: Vec3) -> f32 {
+        if let [Primitive::Sphere { centre, radius, inward: false }] = self.primitives[..]
+            && let Some(one_minus_cos) = one_minus_cos_of_cone(radius, centre.distance(position))
+        {
+            return warp::square_to_cone_pdf(one_minus_cos);
+        }
+        let d = point.position - position;
+        let distance2 = d.length_squared();
+        let cosine = -d.dot(point.normal) / distance2.sqrt();
+        if cosine > 0.0 && distance2 > 0.0 { distance2 / (cosine * self.area) } else { 0.0 }
+    }
+}
+
+/// 1 − cos of the cone under which a sphere is seen from a distance to its centre, by a form that does not cancel; `None` from
+/// inside.
+fn one_minus_cos_of_cone(radius: f32, distance: f32) -> Option<f32> {
+    let sine = radius / distance;
+    (sine < 1.0).then(|| sine * sine / (1.0 + (1.0 - sine * sine).sqrt()))
 }

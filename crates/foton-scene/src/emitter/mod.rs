@@ -68,6 +68,8 @@ pub struct Illumination {
     /// Radiance over the density per solid angle; for point emitters intensity over squared distance.
     /// Times `f cos θ` it estimates the reflected radiance.
     pub radiance_over_pdf: Rgb,
+    /// The density of the direction (sr⁻¹); infinite where the emitter has no extent.
+    pub density: f32,
 }
 
 impl Emitter {
@@ -187,6 +189,12 @@ impl Emitter {
         matches!(self.kind, Kind::Point { .. } | Kind::Spot(_) | Kind::Directional { .. })
     }
 
+    /// Whether it is a surface.
+    #[must_use]
+    pub const fn is_lamp(&self) -> bool {
+        matches!(self.kind, Kind::Area(_))
+    }
+
     /// Light from a random point of the emitter at `position` on a surface with the unit `normal`, to which an environment
     /// is sampled by the cosine. `None` where the emitter does not shine.
     #[must_use]
@@ -202,18 +210,20 @@ impl Emitter {
                 let local = warp::square_to_cosine_hemisphere(u);
                 let pdf = warp::square_to_cosine_hemisphere_pdf(local);
                 let direction = Frame::from_normal(normal).to_outer(local);
-                (pdf > 0.0).then(|| from_infinity(direction, *radiance / pdf))
+                (pdf > 0.0).then(|| from_infinity(direction, *radiance / pdf, pdf))
             }
-            Kind::Directional { direction, irradiance, .. } => Some(from_infinity(-*direction, *irradiance)),
+            Kind::Directional { direction, irradiance, .. } => {
+                Some(from_infinity(-*direction, *irradiance, f32::INFINITY))
+            }
             Kind::Environment { map, .. } => {
-                map.sample(u).map(|s| from_infinity(s.direction, s.radiance / s.pdf))
+                map.sample(u).map(|s| from_infinity(s.direction, s.radiance / s.pdf, s.pdf))
             }
         }
     }
 }
 
-const fn from_infinity(direction: Vec3, radiance_over_pdf: Rgb) -> Illumination {
-    Illumination { direction, distance: f32::INFINITY, radiance_over_pdf }
+const fn from_infinity(direction: Vec3, radiance_over_pdf: Rgb, density: f32) -> Illumination {
+    Illumination { direction, distance: f32::INFINITY, radiance_over_pdf, density }
 }
 
 fn from_point(emitter: Vec3, position: Vec3, intensity: Rgb) -> Option<Illumination> {
@@ -223,6 +233,7 @@ fn from_point(emitter: Vec3, position: Vec3, intensity: Rgb) -> Option<Illuminat
         direction: d / distance2.sqrt(),
         distance: distance2.sqrt(),
         radiance_over_pdf: intensity / distance2,
+        density: f32::INFINITY,
     })
 }
 
