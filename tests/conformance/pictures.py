@@ -25,6 +25,14 @@ def write_triptych(path, ours, theirs):
     mitsuba.Bitmap((row * 255 + 0.5).astype(np.uint8)).write(str(path))
 
 
+def write_strip(path, images):
+    """Images side by side at one exposure, that of the first."""
+    exposure = 0.7 / np.percentile(images[0], 95)
+    gap = np.ones_like(images[0][:, :GAP])
+    row = [part for image in images for part in (gap, encode(image * exposure))][1:]
+    mitsuba.Bitmap((np.concatenate(row, axis=1) * 255 + 0.5).astype(np.uint8)).write(str(path))
+
+
 def encode(linear):
     """Linear to sRGB, clipped."""
     linear = np.clip(linear, 0, 1)

@@ -39,7 +39,7 @@ fn compare(python: &Path, profile: &str, options: &[&str]) -> Result<(), Trouble
 }
 
 /// The interpreter of an environment that holds what `requirements.txt` asks for; made or made anew where needed.
-fn environment() -> Result<PathBuf, Trouble> {
+pub(crate) fn environment() -> Result<PathBuf, Trouble> {
     let folder = tools::target_dir().join("conformance-venv");
     let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     let requirements = tools::root().join(SCRIPTS).join("requirements.txt");

@@ -1,4 +1,4 @@
-//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `assets`, `pictures`, `bench`, `monkey`.
+//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `versus`, `assets`, `pictures`, `bench`, `monkey`.
 //!
 //! Nothing here is part of the program; what a task does is in the module of its name.
 #![allow(clippy::print_stdout, reason = "these tasks talk to the person who started them")]
@@ -10,6 +10,7 @@ mod conformance;
 mod pictures;
 mod test;
 mod tools;
+mod versus;
 mod window;
 
 use std::process::ExitCode;
@@ -21,6 +22,7 @@ cargo xtask test [--install]        all tests, and a small comparison with Mitsu
                                     --install fetches missing system packages with sudo
 cargo xtask ci                      formatting, lints, documentation, then the tests
 cargo xtask conformance [--quick]   the whole comparison with Mitsuba 3 (20 minutes and more), or the small one
+cargo xtask versus [--seconds N]    foton, Mitsuba 3 and LuxCore on one scene for N (30) seconds each, as a table and pictures
 cargo xtask bench census            what leaving out parts of the renderer saves, as a table
 cargo xtask calibrate               whether the live error can be believed, as a table (many minutes)
 cargo xtask assets                  writes the generated meshes in assets/ again
@@ -37,6 +39,8 @@ fn main() -> ExitCode {
         ["ci"] => ci::all(),
         ["conformance"] => conformance::full(),
         ["conformance", "--quick"] => conformance::quick(),
+        ["versus"] => versus::run("30"),
+        ["versus", "--seconds", seconds] => versus::run(seconds),
         ["bench", "census"] => tools::run(&mut tools::cargo(&[
             "run",
             "--release",
