@@ -18,11 +18,11 @@ class Foton:
         """What the program says of itself."""
         return self.run("--version").strip()
 
-    def render(self, prepared, seed, passes, photons, spp, radius=None):
+    def render(self, prepared, seed, passes, photons, spp, radius=None, direct="photons"):
         """Renders and returns the image as (height, width, 3) float64. Without a radius the program takes its own."""
         image = self.folder / f"foton-{prepared.stem}-s{seed}.exr"
         arguments = ["render", prepared, "-o", image, "--passes", passes, "--photons", photons, "--seed", seed]
-        arguments += ["--spp", spp, "--direct", "photons"]
+        arguments += ["--spp", spp, "--direct", direct]
         if radius is not None:
             arguments += ["--radius", radius]
         self.run(*arguments)
