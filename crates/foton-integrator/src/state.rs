@@ -66,6 +66,11 @@ impl Reader<'_> {
         Ok(f64::from_bits(self.u64()?))
     }
 
+    /// A number of things that were counted one by one: more than 2⁵³ no render lives to see, and sums with them would overflow.
+    pub(crate) fn count(&mut self) -> Result<u64, StateError> {
+        self.u64().and_then(|n| if n <= 1 << 53 { Ok(n) } else { Err(StateError::Impossible) })
+    }
+
     /// One that must be finite: a NaN would go on to spoil the image.
     pub(crate) fn finite(&mut self) -> Result<f64, StateError> {
         self.f64().and_then(|x| if x.is_finite() { Ok(x) } else { Err(StateError::Impossible) })
@@ -141,8 +146,8 @@ impl Ppm {
     /// When the bytes are no state, or that of another render; see [`StateError`].
     pub fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
         let mut input = Reader(state);
-        let passes = input.u64()?;
-        let (emitted, last) = (input.u64()?, input.u64()?);
+        let passes = input.count()?;
+        let (emitted, last) = (input.count()?, input.count()?);
         let alpha = Alpha::new(input.f64()?).ok_or(StateError::Impossible)?;
         let photons = nonzero(input.u64()?)?;
         let changes = (0..input.u64()?).map(|_| change(&mut input)).collect::<Result<_, _>>()?;
@@ -155,14 +160,14 @@ impl Ppm {
         for sum in [emitted, absorbed, escaped, roulette, truncated, shading_normals, lost] {
             *sum = input.finite()?;
         }
-        *dropped = input.u64()?;
+        *dropped = input.count()?;
         input.expect(self.light_use().len())?;
         for light in self.lights_mut() {
-            *light = LightUse { emitted: input.u64()?, reached: input.u64()?, dropped: input.u64()? };
+            *light = LightUse { emitted: input.count()?, reached: input.count()?, dropped: input.count()? };
         }
         input.expect(self.material_losses().len())?;
         for loss in self.losses_mut() {
-            *loss = Loss { truncated: input.finite()?, dropped: input.u64()? };
+            *loss = Loss { truncated: input.finite()?, dropped: input.count()? };
         }
         let hit_points = self.hit_points_mut();
         input.expect(hit_points.statistics_slots.len())?;

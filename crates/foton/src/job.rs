@@ -91,7 +91,10 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
         }
         Ok::<_, Failure>(())
     })?;
-    keeper.keep(session.ppm(), session.elapsed(), session.rays(), &identity, talk);
+    // After a fault hit points may be half-way between two passes: the last checkpoint is the one to go on from.
+    if session.panic().is_none() {
+        keeper.keep(session.ppm(), session.elapsed(), session.rays(), &identity, talk);
+    }
     finish(&session, &[(path.clone(), *format)], layers, &identity, outputs, talk)
 }
 
@@ -204,8 +207,15 @@ pub(crate) fn finish(
     talk: &Talk,
 ) -> Result<(), Failure> {
     if session.ppm().passes() == 0 {
+        if let Some(panic) = session.panic() {
+            return Err(Failure::Panicked { panic: panic.clone(), passes: None });
+        }
         // Interrupted twice in the first pass: there is no picture yet.
         return Err(StartError::Cancelled(Cancelled).into());
+    }
+    let fault = session.panic();
+    if let Some(panic) = fault.filter(|p| !p.leaves_the_image_whole()) {
+        return Err(Failure::Panicked { panic: panic.clone(), passes: None });
     }
     for (path, format) in files {
         snapshot::write(path, *format, session.ppm(), layers, identity)?;
@@ -214,5 +224,6 @@ pub(crate) fn finish(
     talk.check_ledger(session.ppm());
     talk.check_lights(session.ppm());
     talk.done(session, &outputs);
-    Ok(())
+    let passes = Some(session.ppm().passes());
+    fault.map_or(Ok(()), |panic| Err(Failure::Panicked { panic: panic.clone(), passes }))
 }

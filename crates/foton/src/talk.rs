@@ -9,7 +9,7 @@ use foton_integrator::{DirectLight, ErrorEstimate, Ledger, Ppm};
 use foton_measure::CompareError;
 use foton_scene::BuildError;
 use foton_session::checkpoint::ResumeError;
-use foton_session::{Progress, Session, StartError, StopRule};
+use foton_session::{Panic, Progress, Session, StartError, StopRule};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 
@@ -33,6 +33,11 @@ pub(crate) enum Failure {
         known: Vec<String>,
     },
     Start(StartError),
+    /// A fault of our own in a pass, and the complete passes that the written image has, if one was written.
+    Panicked {
+        panic: Panic,
+        passes: Option<u64>,
+    },
     Resume(ResumeError),
     Write(WriteError),
     Read(ReadError),
@@ -60,6 +65,10 @@ impl fmt::Display for Failure {
                 write!(f, "the scene has no sensor \"{asked}\"; it has \"{}\"", known.join("\", \""))
             }
             Self::Start(cause) => cause.fmt(f),
+            Self::Panicked { panic, passes: Some(passes) } => {
+                write!(f, "{panic}. What was written is the image after {passes} complete passes")
+            }
+            Self::Panicked { panic, passes: None } => write!(f, "{panic}. No image was written"),
             Self::Resume(cause) => cause.fmt(f),
             Self::Write(cause) => cause.fmt(f),
             Self::Read(cause) => cause.fmt(f),

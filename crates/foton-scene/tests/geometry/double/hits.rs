@@ -58,9 +58,10 @@ fn points_where_rays_meet_shapes_are_those_of_double_precision() {
             found.steep, found.grazing, found.height, found.misses, found.unclear
         );
         assert!(found.steep.count > 10_000 && found.grazing.count > 10_000 && found.misses > 1000, "{kind}");
-        // Points of a slender triangle are moved off its edges by as many as 64 steps, on purpose.
-        assert!(found.steep.largest < 80.0, "{kind}: {}", found.steep);
-        assert!(found.grazing.largest < 80.0, "{kind}: {}", found.grazing);
+        // Points of a slender triangle are moved off its edges by as many as 128 such steps, on purpose.
+        let bound = if kind == "triangle" { 256.0 } else { 40.0 };
+        assert!(found.steep.largest < bound, "{kind}: {}", found.steep);
+        assert!(found.grazing.largest < bound, "{kind}: {}", found.grazing);
         assert!(found.height.largest < 8.0, "{kind}: {}", found.height);
         assert!(found.unclear < 2 * (found.steep.count + found.grazing.count), "{kind}: {}", found.unclear);
     }
