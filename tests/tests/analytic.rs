@@ -1,5 +1,7 @@
 //! Renders against closed forms. Each expectation is derived beside its test, its bias at a finite radius included.
 
+mod extremes;
+
 use std::f64::consts::PI;
 use std::num::NonZeroU32;
 

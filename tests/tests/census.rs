@@ -71,6 +71,6 @@ fn a_light_behind_a_wall_is_starved_and_the_one_in_the_room_is_not() {
     assert!(room.hit_rate() > 0.5 && !room.is_starved(20_000), "{room:?}");
     assert_eq!((hidden.reached, hidden.is_starved(20_000)), (0, true), "{hidden:?}");
     // A light with few photons, or few photons in all, is not worth a word.
-    let small = LightUse { emitted: 1_500, reached: 0 };
+    let small = LightUse { emitted: 1_500, ..LightUse::default() };
     assert!(!small.is_starved(20_000) && !small.is_starved(2_000));
 }

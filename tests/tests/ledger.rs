@@ -40,12 +40,17 @@ fn no_bounce_in_a_million_is_lost() {
 }
 
 #[test]
-fn what_a_short_depth_cuts_off_is_reported() {
+fn what_a_short_depth_cuts_off_is_reported_at_its_material() {
     let long = *open_box().render(settings(), 1).ledger();
-    let short = *open_box().max_depth(3).render(settings(), 1).ledger();
+    let render = open_box().max_depth(3).render(settings(), 1);
+    let short = *render.ledger();
     assert!(short.imbalance().abs() < ONE_BOUNCE_IN_A_MILLION, "{short:?}");
     assert!(long.truncated < 1e-6 * long.emitted);
     assert!(short.truncated > 0.05 * short.emitted);
+    let losses: Vec<f64> = render.material_losses().iter().map(|l| l.truncated).collect();
+    assert!((losses.iter().sum::<f64>() / short.truncated - 1.0).abs() < 1e-9, "{losses:?}");
+    // Three walls and the glass pass light on; the lamp is black.
+    assert!(losses[..4].iter().all(|&l| l > 0.0) && losses[4] == 0.0, "{losses:?}");
 }
 
 #[test]

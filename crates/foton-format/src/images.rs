@@ -19,6 +19,10 @@ use crate::values::srgb_to_linear;
 /// Pixels of one image: 2²⁸ fill 3 GiB.
 const MOST_PIXELS: u64 = 1 << 28;
 
+/// More pixels than this no byte of a file can hold: deflate unpacks 1,032 to 1, to at most eight pixels a byte, and the other
+/// formats less. A header that claims more is broken, and must not make us allocate what it claims.
+const MOST_PIXELS_PER_BYTE: u64 = 8 * 1032;
+
 /// Images read so far, by file, whether they are raw, and whether they are shares of light.
 #[derive(Default)]
 pub(crate) struct Images(HashMap<(PathBuf, bool, bool), Option<Arc<Bitmap>>>);
@@ -88,6 +92,9 @@ fn decode(path: &Path, bytes: &[u8], raw: bool) -> Result<Bitmap, String> {
     let decoder = reader.into_decoder().map_err(|e| e.to_string())?;
     let (width, height) = decoder.dimensions();
     check_size(width, height)?;
+    if u64::from(width) * u64::from(height) / MOST_PIXELS_PER_BYTE > bytes.len() as u64 {
+        return Err(format!("{width} × {height} pixels cannot be in {} bytes", bytes.len()));
+    }
     let image = image::DynamicImage::from_decoder(decoder).map_err(|e| e.to_string())?;
     let linear = |encoded: f32| if raw { encoded } else { srgb_to_linear(f64::from(encoded)) as f32 };
     let pixels = match image.color() {

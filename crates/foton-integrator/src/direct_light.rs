@@ -18,19 +18,19 @@ const SHORTENED: f32 = 1e-4;
 const BLOCK: usize = 256 * LANES;
 
 /// Adds this pass's estimate of direct irradiance, times `photons` so that it can join sums that are divided by the number of
-/// photons. Returns the number of rays.
+/// photons. Returns the number of rays, and of estimates left out because they were not finite.
 pub(crate) fn add<const LAYERS: usize>(
     scene: &Scene,
     hit_points: &HitPoints,
     irradiance_slots: &mut [Irradiance<LAYERS>],
     (seed, pass, photons): (u64, u64, u64),
-) -> u64 {
+) -> (u64, u64) {
     let layer = if LAYERS == 1 { 0 } else { PathClass::Direct as usize };
     irradiance_slots
         .par_chunks_mut(BLOCK)
         .enumerate()
         .map(|(block, irradiance)| {
-            let mut rays = 0;
+            let (mut rays, mut dropped) = (0, 0);
             for (i, irradiance) in irradiance.iter_mut().enumerate() {
                 let slot = block * BLOCK + i;
                 let packet = &hit_points.packets[slot / LANES];
@@ -42,12 +42,18 @@ pub(crate) fn add<const LAYERS: usize>(
                 let at = &hit_points.shadow_slots[slot];
                 if let Some((light, from)) = estimate(scene, at, &mut stream, &mut rays) {
                     let value = hit_points.gloss(slot).map_or(Rgb::WHITE, |g| g.eval(from));
-                    irradiance[layer] += light * value * photons as f32;
+                    let term = light * value * photons as f32;
+                    // A point light that lies on the surface is infinitely bright there.
+                    if term.is_finite() {
+                        irradiance[layer] += term;
+                    } else {
+                        dropped += 1;
+                    }
                 }
             }
-            rays
+            (rays, dropped)
         })
-        .sum()
+        .reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1))
 }
 
 /// Irradiance from one sampled point of an emitter, and the direction it comes from.

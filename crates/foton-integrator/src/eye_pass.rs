@@ -44,6 +44,8 @@ pub(crate) struct EyePaths {
     pub(crate) shapes: Vec<u32>,
     /// Rays traced.
     pub(crate) rays: u64,
+    /// Paths given up because their weight or light was not a finite number.
+    pub(crate) dropped: u64,
 }
 
 impl EyePaths {
@@ -109,6 +111,7 @@ impl EyePass<'_> {
             all.emission.extend(part.emission);
             all.shapes.extend(part.shapes);
             all.rays += part.rays;
+            all.dropped += part.dropped;
         }
         Ok(all)
     }
@@ -143,7 +146,12 @@ impl EyePass<'_> {
                     leaves: 1,
                 };
                 walk.follow(pixel, places.point(sample));
-                emission += walk.emission;
+                let seen = walk.emission;
+                if seen.is_finite() {
+                    emission += seen;
+                } else {
+                    paths.dropped += 1;
+                }
             }
             paths.counts.push((paths.hit_points.len() - before) as u32);
             paths.emission.push(emission / samples as f32);
@@ -233,7 +241,7 @@ impl Walk<'_, '_> {
                 (branch.weight, Some(self.paths.gloss.len() as u32 - 1))
             }
         };
-        if weight.is_black() {
+        if weight.is_black() || !self.is_finite(weight) {
             return;
         }
         let side = 1f32.copysign(wo.dot(surface.normal));
@@ -249,6 +257,13 @@ impl Walk<'_, '_> {
             slab2: slab2(surface),
             budget: (self.pass.max_depth - branch.edges).min(255) as u8,
         });
+    }
+
+    /// Whether a weight is a number, and counts those that are not.
+    fn is_finite(&mut self, weight: Rgb) -> bool {
+        let finite = weight.is_finite();
+        self.paths.dropped += u64::from(!finite);
+        finite
     }
 
     fn follow_lobes(&mut self, branch: &Branch, surface: &Surface, scattering: &Scattering, distance: f32) {
@@ -294,7 +309,7 @@ impl Walk<'_, '_> {
         };
         for lobe in chosen.iter().flatten() {
             let weight = weight * lobe.weight;
-            if weight.is_black() {
+            if weight.is_black() || !self.is_finite(weight) {
                 continue;
             }
             let sampled = frame.to_outer(lobe.wi).normalize();

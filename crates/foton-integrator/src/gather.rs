@@ -37,6 +37,8 @@ pub(crate) struct Tally {
     pub(crate) unknown: u64,
     /// Hit points whose radius is at its floor.
     pub(crate) floored: u64,
+    /// Photon–hit-point pairs whose light was not a finite number, and that were left out of all sums but the count.
+    pub(crate) dropped: u64,
     /// Sum of r² in square scene units.
     pub(crate) radius2: f64,
 }
@@ -94,6 +96,7 @@ pub(crate) fn all<const LAYERS: usize, const ERROR: bool>(
         accepted: a.accepted + b.accepted,
         unknown: a.unknown + b.unknown,
         floored: a.floored + b.floored,
+        dropped: a.dropped + b.dropped,
         radius2: a.radius2 + b.radius2,
     })
 }
@@ -246,6 +249,10 @@ fn collect_gloss<const LAYERS: usize, const ERROR: bool>(
             let geometric = wi.dot(normal).abs() * 127.0;
             let shading = wi.dot(gloss.frame.normal).abs();
             let weighed = photon.power * gloss.eval(wi) * cosine_ratio(shading, geometric);
+            if !weighed.is_finite() {
+                tally.dropped += 1;
+                continue;
+            }
             layer[0][l] += weighed.r;
             layer[1][l] += weighed.g;
             layer[2][l] += weighed.b;

@@ -6,7 +6,7 @@ use foton_math::Rgb;
 
 /// Power by its fate, summed over photons and not divided by their number; the mean of the channels, in double precision.
 ///
-/// `emitted = absorbed + escaped + roulette + truncated + shading_normals` up to rounding, while nothing is dropped.
+/// `emitted = absorbed + escaped + roulette + truncated + shading_normals + lost` up to rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ledger {
     /// Leaving emitters.
@@ -21,15 +21,34 @@ pub struct Ledger {
     pub truncated: f64,
     /// Lost less gained where interpolated normals differ from true ones, by their adjoint correction.
     pub shading_normals: f64,
+    /// What dropped photons still carried when last it was a number.
+    pub lost: f64,
     /// Photons whose power was NaN or infinite, and that were not traced on.
     pub dropped: u64,
+}
+
+/// What went missing at a material that should not: named in warnings.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Loss {
+    /// Power still alive at the longest path length, when it last met this material.
+    pub truncated: f64,
+    /// Photons whose power was no number after this material.
+    pub dropped: u64,
+}
+
+impl AddAssign for Loss {
+    fn add_assign(&mut self, o: Self) {
+        self.truncated += o.truncated;
+        self.dropped += o.dropped;
+    }
 }
 
 impl Ledger {
     /// What is unaccounted for, as a share of what was emitted.
     #[must_use]
     pub fn imbalance(&self) -> f64 {
-        let accounted = self.absorbed + self.escaped + self.roulette + self.truncated + self.shading_normals;
+        let through = self.roulette + self.truncated + self.shading_normals + self.lost;
+        let accounted = self.absorbed + self.escaped + through;
         if self.emitted > 0.0 { (self.emitted - accounted) / self.emitted } else { -accounted }
     }
 }
@@ -42,6 +61,7 @@ impl AddAssign for Ledger {
         self.roulette += o.roulette;
         self.truncated += o.truncated;
         self.shading_normals += o.shading_normals;
+        self.lost += o.lost;
         self.dropped += o.dropped;
     }
 }
@@ -52,7 +72,7 @@ pub(crate) fn energy(power: Rgb) -> f64 {
 }
 
 /// What of `power` a weight leaves out.
-pub(crate) fn lost(power: Rgb, weight: Rgb) -> f64 {
+pub(crate) fn left_out(power: Rgb, weight: Rgb) -> f64 {
     let channel = |p: f32, w: f32| f64::from(p) * (1.0 - f64::from(w));
     (channel(power.r, weight.r) + channel(power.g, weight.g) + channel(power.b, weight.b)) / 3.0
 }

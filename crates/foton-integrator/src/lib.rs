@@ -35,7 +35,7 @@ pub use error::{ErrorEstimate, TileError};
 pub use features::{Feature, features};
 pub use inspect::{Disc, Radii, StoredPhoton};
 pub use layers::LayerKind;
-pub use ledger::Ledger;
+pub use ledger::{Ledger, Loss};
 pub use light_use::LightUse;
 pub use memory::MemoryEstimate;
 pub use photon::PathClass;

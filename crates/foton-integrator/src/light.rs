@@ -87,8 +87,14 @@ impl Light {
         })
     }
 
-    /// Adds direct light by shadow rays to the pass; returns the number of rays.
-    pub(crate) fn add_direct(&mut self, scene: &Scene, hit_points: &HitPoints, key: (u64, u64, u64)) -> u64 {
+    /// Adds direct light by shadow rays to the pass; returns the number of rays, and of estimates left out because
+    /// they were not finite.
+    pub(crate) fn add_direct(
+        &mut self,
+        scene: &Scene,
+        hit_points: &HitPoints,
+        key: (u64, u64, u64),
+    ) -> (u64, u64) {
         each!(self, s => direct_light::add(scene, hit_points, &mut s.irradiance_slots, key))
     }
 

@@ -16,6 +16,8 @@ pub struct LightUse {
     pub emitted: u64,
     /// Of those, stored at least once: where a hit point's disc may find them.
     pub reached: u64,
+    /// Of those, dropped at once: their power was NaN or infinite.
+    pub dropped: u64,
 }
 
 impl LightUse {
@@ -41,5 +43,6 @@ impl AddAssign for LightUse {
     fn add_assign(&mut self, other: Self) {
         self.emitted += other.emitted;
         self.reached += other.reached;
+        self.dropped += other.dropped;
     }
 }

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use crate::cancel::{Cancel, Cancelled};
 use crate::eye_pass::{leaves_wrongly, on_the_right_side, shading_normal_towards};
 use crate::grid::Grid;
-use crate::ledger::{Ledger, energy, lost};
+use crate::ledger::{Ledger, Loss, energy, left_out};
 use crate::light_use::LightUse;
 use crate::photon::{PathClass, Photon};
 use crate::settings::DirectLight;
@@ -50,6 +50,8 @@ pub(crate) struct Chunk {
     pub(crate) rays: u64,
     /// By emitter.
     pub(crate) lights: Vec<LightUse>,
+    /// By material.
+    pub(crate) losses: Vec<Loss>,
 }
 
 /// A photon on its way.
@@ -79,6 +81,12 @@ impl WithSimd for Follow<'_, '_> {
         for index in range {
             let stream = Stream::new(pass.seed, Purpose::Photon, pass.pass, index);
             let Some((emitter, flight)) = pass.emit(index, stream.clone()) else { continue };
+            if !flight.power.is_finite() {
+                chunk.ledger.dropped += 1;
+                chunk.lights[emitter].emitted += 1;
+                chunk.lights[emitter].dropped += 1;
+                continue;
+            }
             let stored = chunk.photons.len();
             pass.follow(flight, &stream, chunk);
             chunk.lights[emitter].count(chunk.photons.len() > stored);
@@ -99,6 +107,8 @@ impl PhotonPass<'_> {
             chunk.rays = 0;
             chunk.lights.clear();
             chunk.lights.resize(self.scene.emitters().len(), LightUse::default());
+            chunk.losses.clear();
+            chunk.losses.resize(self.scene.materials().len(), Loss::default());
             let range = first..self.photons.min(first + CHUNK);
             self.arch.dispatch(Follow { pass: self, range, chunk });
             Ok(())
@@ -109,10 +119,6 @@ impl PhotonPass<'_> {
     fn follow(&self, mut flight: Flight, stream: &Stream, chunk: &mut Chunk) {
         chunk.ledger.emitted += energy(flight.power);
         loop {
-            if !flight.power.is_finite() {
-                chunk.ledger.dropped += 1;
-                return;
-            }
             chunk.rays += 1;
             let Some(surface) = self.scene.nearest(flight.ray) else {
                 chunk.ledger.escaped += energy(flight.power);
@@ -168,7 +174,6 @@ impl PhotonPass<'_> {
             chunk.ledger.absorbed += energy(flight.power);
             return None;
         };
-        chunk.ledger.absorbed += lost(flight.power, sample.weight);
         let scattered = flight.power * sample.weight;
         let direction = frame.to_outer(sample.wi).normalize();
         let reflects = sample.wi.z * local.z > 0.0;
@@ -182,14 +187,24 @@ impl PhotonPass<'_> {
             adjoint_correction(surface.normal, normal, wo, direction)
         };
         let corrected = scattered * correction;
+        let material = self.scene.shapes()[surface.shape as usize].material as usize;
+        if !corrected.is_finite() {
+            // Dropped before it reaches a sum: one NaN would be all that is left of the image.
+            chunk.ledger.dropped += 1;
+            chunk.ledger.lost += energy(flight.power);
+            chunk.losses[material].dropped += 1;
+            return None;
+        }
+        chunk.ledger.absorbed += left_out(flight.power, sample.weight);
         if correction != 1.0 {
-            chunk.ledger.shading_normals += lost(scattered, Rgb::splat(correction));
+            chunk.ledger.shading_normals += left_out(scattered, Rgb::splat(correction));
         }
         if corrected.is_black() {
             return None;
         }
         if flight.edges + 1 >= self.max_depth {
             chunk.ledger.truncated += energy(corrected);
+            chunk.losses[material].truncated += energy(corrected);
             return None;
         }
         let power = roulette(corrected, flight.power, numbers.next_1d(), &mut chunk.ledger)?;

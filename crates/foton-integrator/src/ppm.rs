@@ -14,7 +14,7 @@ use crate::gather::{Rule, Tally};
 use crate::grid::Grid;
 use crate::hit_point::HitPoints;
 use crate::layers::LayerKind;
-use crate::ledger::Ledger;
+use crate::ledger::{Ledger, Loss};
 use crate::light::Light;
 use crate::light_use::LightUse;
 use crate::photon::{PathClass, Photon};
@@ -83,6 +83,8 @@ pub struct Start {
     pub hit_points: u64,
     /// Eye rays traced.
     pub eye_rays: u64,
+    /// Eye paths given up because their weight or light was not a finite number.
+    pub dropped: u64,
 }
 
 /// What one pass did, and how things stand after it.
@@ -122,6 +124,7 @@ pub struct Ppm {
     map: PhotonMap,
     ledger: Ledger,
     lights: Vec<LightUse>,
+    losses: Vec<Loss>,
     passes: u64,
     photons_emitted: u64,
     last_photons: u64,
@@ -150,13 +153,14 @@ impl Ppm {
         let shadow_rays = settings.direct_light == DirectLight::ShadowRays;
         let normals = scene.census().shading_normals;
         let hit_points = HitPoints::new(&eye.hit_points, &eye.gloss, eye.pixel_start(), normals, shadow_rays);
-        let start = Start { hit_points: hit_points.len() as u64, eye_rays: eye.rays };
+        let start = Start { hit_points: hit_points.len() as u64, eye_rays: eye.rays, dropped: eye.dropped };
         drop((eye.hit_points, eye.gloss));
         let grid = Grid::new(&hit_points.packets);
         let light = Light::new(eye.emission, &hit_points, &settings);
         let (width, samples) = (scene.sensors()[settings.sensor].width, settings.samples_per_pixel.get());
         let error = settings.error.then(|| ErrorSums::new(&hit_points, width, samples));
         let lights = vec![LightUse::default(); scene.emitters().len()];
+        let losses = vec![Loss::default(); scene.materials().len()];
         cancel.check()?;
         Ok(Self {
             scene,
@@ -171,6 +175,7 @@ impl Ppm {
             map: PhotonMap::default(),
             ledger: Ledger::default(),
             lights,
+            losses,
             passes: 0,
             photons_emitted: 0,
             last_photons: 0,
@@ -209,7 +214,9 @@ impl Ppm {
         if self.settings.direct_light == DirectLight::ShadowRays {
             watch(Stage::ShadowRays);
             let key = (self.settings.seed, self.passes, photons);
-            rays += self.light.add_direct(&self.scene, &self.hit_points, key);
+            let (shadow_rays, dropped) = self.light.add_direct(&self.scene, &self.hit_points, key);
+            rays += shadow_rays;
+            self.ledger.dropped += dropped;
         }
         watch(Stage::Radiance);
         self.light.add_pass(&self.hit_points);
@@ -217,7 +224,9 @@ impl Ppm {
         for chunk in &self.chunks {
             self.ledger += chunk.ledger;
             self.lights.iter_mut().zip(&chunk.lights).for_each(|(sum, &light)| *sum += light);
+            self.losses.iter_mut().zip(&chunk.losses).for_each(|(sum, &loss)| *sum += loss);
         }
+        self.ledger.dropped += tally.dropped;
         self.photons_emitted += photons;
         if let Some(error) = &mut self.error {
             let power = self.ledger.emitted / self.photons_emitted.max(1) as f64;
@@ -328,6 +337,12 @@ impl Ppm {
         &self.lights
     }
 
+    /// What went missing at each material, in the order of the scene's materials.
+    #[must_use]
+    pub fn material_losses(&self) -> &[Loss] {
+        &self.losses
+    }
+
     /// Image size in pixels.
     fn size(&self) -> (u32, u32) {
         let sensor = &self.scene.sensors()[self.settings.sensor];
@@ -418,6 +433,10 @@ impl Ppm {
 
     pub(crate) fn lights_mut(&mut self) -> &mut [LightUse] {
         &mut self.lights
+    }
+
+    pub(crate) fn losses_mut(&mut self) -> &mut [Loss] {
+        &mut self.losses
     }
 
     pub(crate) const fn hit_points_mut(&mut self) -> &mut HitPoints {

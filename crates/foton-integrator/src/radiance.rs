@@ -91,7 +91,7 @@ impl<const LAYERS: usize> Radiance<LAYERS> {
     pub(crate) fn read(&mut self, input: &mut Reader<'_>) -> Result<(), StateError> {
         for (sums, last) in self.sums.iter_mut().zip(&mut self.last) {
             for sum in sums.iter_mut().flatten() {
-                *sum = input.f64()?;
+                *sum = input.finite()?;
             }
             for last in last {
                 *last = input.rgb()?;

@@ -29,7 +29,8 @@ impl RadiusRule {
     pub(crate) fn new(scene: &Scene, radius: Option<f64>) -> Self {
         let largest_coordinate = scene.bounds().min.abs().max(scene.bounds().max.abs()).max_element();
         Self {
-            fixed: radius.map(|r| scene.normalisation().length(r)),
+            // A disc beyond the whole scene finds what one of its size finds, and its square must stay finite.
+            fixed: radius.map(|r| scene.normalisation().length(r).min(2.0 * scene.bounds().radius())),
             largest: LARGEST_SHARE * scene.bounds().radius(),
             smallest: smallest_radius(largest_coordinate),
         }

@@ -54,7 +54,7 @@ impl Statistics {
     }
 
     pub(crate) fn read(input: &mut Reader<'_>) -> Result<Self, StateError> {
-        Ok(Self { kept: input.f64()?, radius2: input.f64()?, found: input.u64()? })
+        Ok(Self { kept: input.finite()?, radius2: input.finite()?, found: input.count()? })
     }
 
     /// Takes a pass into account that found `photons` within the radius. `smallest2` bounds r² from below; returns whether it

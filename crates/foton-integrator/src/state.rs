@@ -5,7 +5,7 @@ use std::num::NonZeroU32;
 use foton_math::Rgb;
 use thiserror::Error;
 
-use crate::ledger::Ledger;
+use crate::ledger::{Ledger, Loss};
 use crate::light::Light;
 use crate::light_use::LightUse;
 use crate::packet::LANES;
@@ -66,9 +66,21 @@ impl Reader<'_> {
         Ok(f64::from_bits(self.u64()?))
     }
 
+    /// A number of things that were counted one by one: more than 2⁵³ no render lives to see, and sums with them would overflow.
+    pub(crate) fn count(&mut self) -> Result<u64, StateError> {
+        self.u64().and_then(|n| if n <= 1 << 53 { Ok(n) } else { Err(StateError::Impossible) })
+    }
+
+    /// One that must be finite: a NaN would go on to spoil the image.
+    pub(crate) fn finite(&mut self) -> Result<f64, StateError> {
+        self.f64().and_then(|x| if x.is_finite() { Ok(x) } else { Err(StateError::Impossible) })
+    }
+
+    /// A colour, which must be finite.
     pub(crate) fn rgb(&mut self) -> Result<Rgb, StateError> {
         let mut channel = || self.take().map(f32::from_le_bytes);
-        Ok(Rgb::from_array([channel()?, channel()?, channel()?]))
+        let colour = Rgb::from_array([channel()?, channel()?, channel()?]);
+        if colour.is_finite() { Ok(colour) } else { Err(StateError::Impossible) }
     }
 
     /// A count that must be what this render has.
@@ -101,11 +113,18 @@ impl Ppm {
         let sums = [ledger.emitted, ledger.absorbed, ledger.escaped, ledger.roulette, ledger.truncated];
         sums.into_iter().for_each(|sum| out.f64(sum));
         out.f64(ledger.shading_normals);
+        out.f64(ledger.lost);
         out.u64(ledger.dropped);
         out.u64(self.light_use().len() as u64);
         for light in self.light_use() {
             out.u64(light.emitted);
             out.u64(light.reached);
+            out.u64(light.dropped);
+        }
+        out.u64(self.material_losses().len() as u64);
+        for loss in self.material_losses() {
+            out.f64(loss.truncated);
+            out.u64(loss.dropped);
         }
         let statistics = &self.hit_points().statistics_slots;
         out.u64(statistics.len() as u64);
@@ -127,8 +146,8 @@ impl Ppm {
     /// When the bytes are no state, or that of another render; see [`StateError`].
     pub fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
         let mut input = Reader(state);
-        let passes = input.u64()?;
-        let (emitted, last) = (input.u64()?, input.u64()?);
+        let passes = input.count()?;
+        let (emitted, last) = (input.count()?, input.count()?);
         let alpha = Alpha::new(input.f64()?).ok_or(StateError::Impossible)?;
         let photons = nonzero(input.u64()?)?;
         let changes = (0..input.u64()?).map(|_| change(&mut input)).collect::<Result<_, _>>()?;
@@ -136,19 +155,29 @@ impl Ppm {
         self.settings_mut().alpha = alpha;
         self.settings_mut().photons_per_pass = photons;
         let ledger = self.ledger_mut();
-        let Ledger { emitted, absorbed, escaped, roulette, truncated, shading_normals, dropped } = ledger;
-        for sum in [emitted, absorbed, escaped, roulette, truncated, shading_normals] {
-            *sum = input.f64()?;
+        let Ledger { emitted, absorbed, escaped, roulette, truncated, shading_normals, lost, dropped } =
+            ledger;
+        for sum in [emitted, absorbed, escaped, roulette, truncated, shading_normals, lost] {
+            *sum = input.finite()?;
         }
-        *dropped = input.u64()?;
+        *dropped = input.count()?;
         input.expect(self.light_use().len())?;
         for light in self.lights_mut() {
-            *light = LightUse { emitted: input.u64()?, reached: input.u64()? };
+            *light = LightUse { emitted: input.count()?, reached: input.count()?, dropped: input.count()? };
+        }
+        input.expect(self.material_losses().len())?;
+        for loss in self.losses_mut() {
+            *loss = Loss { truncated: input.finite()?, dropped: input.count()? };
         }
         let hit_points = self.hit_points_mut();
         input.expect(hit_points.statistics_slots.len())?;
         for (slot, statistics) in hit_points.statistics_slots.iter_mut().enumerate() {
-            *statistics = Statistics::read(&mut input)?;
+            let read = Statistics::read(&mut input)?;
+            // Slots without a hit point stay without.
+            if (read.radius2() < 0.0) != (statistics.radius2() < 0.0) {
+                return Err(StateError::Impossible);
+            }
+            *statistics = read;
             hit_points.packets[slot / LANES].radius2[slot % LANES] = statistics.radius2() as f32;
         }
         match self.light_mut() {

@@ -16,7 +16,7 @@ use crate::normalise::Normalisation;
 use crate::scene::{Scene, Shape};
 use crate::sensor::Sensor;
 use crate::texture::Sampler;
-use checks::{check_environments, check_sensors, check_textures, world_bounds};
+use checks::{check_environments, check_material, check_sensors, check_textures, world_bounds};
 use emitters::{area_emitter, emitter_choice, reach, unattached_emitter};
 use gather::Gathered;
 
@@ -47,6 +47,17 @@ pub enum BuildError {
     /// A material or an environment names a texture that is not there, or one without pixels.
     #[error("\"{0}\" names a texture that is not there or has no pixels")]
     NoTexture(String),
+    /// A colour of a texture is no share of light, or its transform is not finite.
+    #[error(
+        "texture \"{0}\" has colours that are not numbers from 0 to 1, or a transform that is not finite"
+    )]
+    BadTexture(String),
+    /// A material's number is one that no surface has.
+    #[error(
+        "material \"{0}\" has a share of light that is not a number from 0 to 1, or an index of refraction or a roughness that \
+         is not a number above zero"
+    )]
+    BadMaterial(String),
     /// More primitives than indices.
     #[error("the scene has more than 2^31 primitives")]
     TooLarge,
@@ -69,11 +80,12 @@ impl Scene {
     pub fn build_as_if(description: &SceneDescription, forced: Census) -> Result<Self, BuildError> {
         check_sensors(&description.sensors)?;
         check_environments(description)?;
+        check_textures(description)?;
         let (min, max) = world_bounds(description)?;
         let normalisation = Normalisation::for_bounds(min, max);
         let mut gathered = Gathered::new(forced);
         for material in &description.materials {
-            check_textures(material, description)?;
+            check_material(material, description)?;
             gathered.census.textures |= material.colours().any(|c| matches!(c, Colour::Texture(_)));
             gathered.census.anisotropy |= material.is_anisotropic();
         }
@@ -98,8 +110,10 @@ impl Scene {
                 emitters.push(Emitter { name: shape.name.clone(), kind: Kind::Area(area) });
                 emitters.len() as u32 - 1
             });
+            let extent = gathered.primitives[first..].iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
             shapes.push(Shape {
                 name: shape.name.clone(),
+                steps_across: steps_across(&extent),
                 material: shape.material as u32,
                 emitter,
                 to_object: orientation(&shape.to_world),
@@ -180,6 +194,17 @@ impl Census {
             self.kept_gloss |= bsdf.keeps() && !matches!(bsdf, Bsdf::Diffuse { .. });
         }
     }
+}
+
+/// How many steps between neighbouring single-precision coordinates a box is across, along its longest side; infinite for
+/// nothing.
+fn steps_across(extent: &Aabb) -> f32 {
+    let farthest = extent.min.abs().max(extent.max.abs()).max_element();
+    if extent.is_empty() || farthest == 0.0 {
+        return f32::INFINITY;
+    }
+    let step = f32::EPSILON * farthest.log2().floor().exp2();
+    extent.size().max_element() / step
 }
 
 /// Scene to object space, turning only.

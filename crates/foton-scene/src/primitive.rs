@@ -153,10 +153,14 @@ impl ShearedRay {
         self.accepts(t, t_max).then_some(t)
     }
 
+    /// In double precision, as triangles' planes: a disc seen edge-on would else be met where it is not.
     fn hit_disc(&self, centre: Vec3, normal: Vec3, radius: f32, t_max: f32) -> Option<f32> {
-        let t = (centre - self.ray.origin).dot(normal) / self.ray.direction.dot(normal);
-        let inside = self.accepts(t, t_max) && (self.ray.at(t) - centre).length_squared() <= radius * radius;
-        inside.then_some(t)
+        let (centre, normal) = (centre.as_dvec3(), normal.as_dvec3());
+        let t = (centre - self.origin).dot(normal) / self.direction.dot(normal);
+        let radius = f64::from(radius);
+        let inside = self.accepts(t as f32, t_max)
+            && (self.origin + self.direction * t - centre).length_squared() <= radius * radius;
+        inside.then_some(t as f32)
     }
 
     /// In double precision: tubes are few, and their quadratic cancels like a sphere's.

@@ -26,6 +26,9 @@ pub struct Shape {
     pub material: u32,
     /// Index into the scene's emitters, for an area emitter.
     pub emitter: Option<u32>,
+    /// How many steps between neighbouring coordinates of single precision it is across, where it stands: few for a small thing
+    /// far from the middle of a large scene.
+    pub steps_across: f32,
     /// Scene to object space, turning only: texture coordinates of spheres, discs and tubes.
     pub(crate) to_object: Mat3,
 }
@@ -238,6 +241,12 @@ impl Scene {
     #[must_use]
     pub fn emitter_share(&self, index: usize) -> f64 {
         if self.emitter_choice.is_empty() { 0.0 } else { self.emitter_choice.probability(index) }
+    }
+
+    /// All materials, in the order of the description.
+    #[must_use]
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
     }
 
     /// All emitters.

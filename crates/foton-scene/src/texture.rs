@@ -7,6 +7,9 @@ use foton_math::glam::{DAffine2, Vec2};
 
 use crate::description::{Bitmap, Texture, TextureKind, Wrap};
 
+/// Texture coordinates from here on count as zero, as do those that are not numbers.
+const FARTHEST: f32 = 1e12;
+
 /// A texture ready to be looked up.
 #[derive(Clone, Debug)]
 pub(crate) struct Sampler {
@@ -34,6 +37,8 @@ impl Sampler {
     /// The colour at a texture coordinate; v points up.
     pub(crate) fn colour(&self, uv: Vec2) -> Rgb {
         let uv = self.to_uv.transform_point2(uv.as_dvec2()).as_vec2();
+        // So far out single precision has no fractions left, and infinities would make colours that are no numbers.
+        let uv = if uv.abs().max_element() < FARTHEST { uv } else { Vec2::ZERO };
         match &self.kind {
             Kind::Checkerboard { colours } => {
                 let field = uv - uv.floor();

@@ -17,7 +17,7 @@ use crate::metadata::SceneIdentity;
 use crate::session::Session;
 
 const MAGIC: [u8; 8] = *b"fotonPPM";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const HEADER: usize = 8 + 4 + 4 * 8;
 const TRAILER: usize = 8;
 
@@ -135,7 +135,7 @@ pub fn resume(path: &Path, session: &mut Session, scene: &SceneIdentity) -> Resu
     let expected = session.ppm().state().len() as u64;
     let length = number(36);
     // Each change of a setting takes 24 bytes; no render has so many that the state grows eightfold.
-    if length > 8 * expected.max(1 << 20) {
+    if length > 8 * expected.max(1 << 20) || number(28) > 1 << 60 {
         return Err(damaged());
     }
     let state = zstd::bulk::decompress(&content[HEADER..], length as usize).map_err(|_| damaged())?;

@@ -38,6 +38,14 @@ impl<'a> StageClock<'a> {
         self.running = Some((stage, Instant::now()));
     }
 
+    /// The stage that was begun last.
+    pub(crate) const fn stage(&self) -> Option<Stage> {
+        match self.running {
+            Some((stage, _)) => Some(stage),
+            None => None,
+        }
+    }
+
     fn end(&mut self) {
         if let Some((stage, since)) = self.running.take() {
             self.times.0[stage as usize] += since.elapsed();

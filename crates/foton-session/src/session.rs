@@ -10,6 +10,7 @@ use thiserror::Error;
 
 use crate::clock::{StageClock, StageTimes};
 use crate::interrupt::Interrupt;
+use crate::panic::{Panic, contained, strike};
 use crate::stop::StopRule;
 use crate::threads::{self, Rank};
 
@@ -22,6 +23,20 @@ pub enum StartError {
     /// No threads could be made.
     #[error("cannot make render threads: {0}")]
     Threads(#[from] ThreadPoolBuildError),
+    /// A fault of our own.
+    #[error(transparent)]
+    Panicked(#[from] Panic),
+}
+
+/// Why a pass has not happened.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+pub enum PassError {
+    /// Someone asked to stop inside it.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// A fault of our own; no other pass can follow.
+    #[error(transparent)]
+    Panicked(#[from] Panic),
 }
 
 /// Why a render stopped.
@@ -31,6 +46,8 @@ pub enum StopCause {
     Rule,
     /// A person.
     Interrupted,
+    /// A fault of our own: see [`Session::panic`].
+    Panicked,
 }
 
 /// How a render stands after a pass.
@@ -54,6 +71,7 @@ pub struct Session {
     stages: StageTimes,
     elapsed: Duration,
     rays: u64,
+    panic: Option<Panic>,
 }
 
 impl Session {
@@ -66,14 +84,14 @@ impl Session {
     /// Collects hit points on `threads` threads, by default as many as the machine has.
     ///
     /// # Errors
-    /// When cancelled, or when the system gives no threads.
+    /// When cancelled, when the system gives no threads, or by a fault of our own.
     pub fn start(
         scene: Arc<Scene>,
         settings: Settings,
         threads: Option<usize>,
         cancel: &Cancel,
     ) -> Result<Self, StartError> {
-        Ok(Self::start_on(threads::pool(threads, Rank::Equal)?, scene, settings, cancel)?)
+        Self::start_on(threads::pool(threads, Rank::Equal)?, scene, settings, cancel)
     }
 
     /// Collects hit points on the threads of `pool`.
@@ -82,14 +100,20 @@ impl Session {
         scene: Arc<Scene>,
         settings: Settings,
         cancel: &Cancel,
-    ) -> Result<Self, Cancelled> {
+    ) -> Result<Self, StartError> {
         let mut stages = StageTimes::default();
         let begin = Instant::now();
         let ppm = {
             let mut clock = StageClock::new(&mut stages);
-            pool.install(|| Ppm::start(scene, settings, &mut |stage| clock.begin(stage), cancel))?
+            let seed = settings.seed;
+            let mut watch = |stage| {
+                clock.begin(stage);
+                strike(seed, stage, 0);
+            };
+            let started = contained(|| pool.install(|| Ppm::start(scene, settings, &mut watch, cancel)));
+            started.map_err(|message| Panic { stage: clock.stage(), message })??
         };
-        Ok(Self { ppm, pool, stages, elapsed: begin.elapsed(), rays: 0 })
+        Ok(Self { ppm, pool, stages, elapsed: begin.elapsed(), rays: 0, panic: None })
     }
 
     /// Runs passes until `rule` or `interrupt` says stop. `after_pass` sees each pass; its errors end the run, and its time
@@ -115,7 +139,11 @@ impl Session {
             let before = self.elapsed;
             let report = self.advance(interrupt.cancel());
             last = self.elapsed - before;
-            let Ok(report) = report else { return Ok(StopCause::Interrupted) };
+            let report = match report {
+                Ok(report) => report,
+                Err(PassError::Cancelled(_)) => return Ok(StopCause::Interrupted),
+                Err(PassError::Panicked(_)) => return Ok(StopCause::Panicked),
+            };
             after_pass(&Progress {
                 ppm: &self.ppm,
                 report,
@@ -129,18 +157,33 @@ impl Session {
     /// Runs one pass.
     ///
     /// # Errors
-    /// When cancelled; the pass then has not happened.
-    pub fn advance(&mut self, cancel: &Cancel) -> Result<PassReport, Cancelled> {
+    /// When cancelled, or by a fault of our own; the pass then has not happened.
+    pub fn advance(&mut self, cancel: &Cancel) -> Result<PassReport, PassError> {
+        if let Some(panic) = &self.panic {
+            return Err(panic.clone().into());
+        }
         let begin = Instant::now();
         let report = {
             let mut clock = StageClock::new(&mut self.stages);
             let ppm = &mut self.ppm;
-            self.pool.install(|| ppm.advance(&mut |stage| clock.begin(stage), cancel))
+            let (seed, pass) = (ppm.settings().seed, ppm.passes() + 1);
+            let mut watch = |stage| {
+                clock.begin(stage);
+                strike(seed, stage, pass);
+            };
+            let outcome = contained(|| self.pool.install(|| ppm.advance(&mut watch, cancel)));
+            outcome.map_err(|message| Panic { stage: clock.stage(), message })
         };
         self.elapsed += begin.elapsed();
-        let report = report?;
+        let report = report.inspect_err(|panic| self.panic = Some(panic.clone()))??;
         self.rays += report.rays;
         Ok(report)
+    }
+
+    /// The fault that ended the render, if one did. What the image is then worth, [`Panic::leaves_the_image_whole`] says.
+    #[must_use]
+    pub const fn panic(&self) -> Option<&Panic> {
+        self.panic.as_ref()
     }
 
     /// Takes a render's state back, with the time and rays that it took.

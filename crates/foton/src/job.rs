@@ -19,6 +19,9 @@ use crate::talk::{Failure, Talk};
 /// How long a render without a stop rule takes.
 const DEFAULT_TIME: Duration = Duration::from_secs(60);
 
+/// A shape that is fewer steps of single precision across is worth a warning: its outline is off by a hundredth of its size.
+const FEW_STEPS: f32 = 100.0;
+
 /// Runs `foton render`.
 pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
     let (path, format) = &args.output;
@@ -60,6 +63,10 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
             talk.line("no --passes, --time or --error: rendering for 60 s");
         }
     }
+    let largest = scene.normalisation().world_length(2.0 * f64::from(scene.bounds().radius()));
+    if settings.radius.is_some_and(|r| r > largest) {
+        talk.warning(&format!("--radius is larger than the whole scene and is cut to that, {largest:.4}"));
+    }
     refuse_beyond_memory(&scene, &settings, args.memory)?;
     let interrupt = interrupt_on_signals(talk);
     talk.begin();
@@ -84,7 +91,10 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
         }
         Ok::<_, Failure>(())
     })?;
-    keeper.keep(session.ppm(), session.elapsed(), session.rays(), &identity, talk);
+    // After a fault hit points may be half-way between two passes: the last checkpoint is the one to go on from.
+    if session.panic().is_none() {
+        keeper.keep(session.ppm(), session.elapsed(), session.rays(), &identity, talk);
+    }
     finish(&session, &[(path.clone(), *format)], layers, &identity, outputs, talk)
 }
 
@@ -136,6 +146,12 @@ pub(crate) fn build(
     let census = scene.census();
     if census.degenerate_triangles > 0 {
         talk.warning(&format!("left out {} triangles without area", census.degenerate_triangles));
+    }
+    for shape in scene.shapes().iter().filter(|s| s.steps_across < FEW_STEPS) {
+        talk.warning(&format!(
+            "\"{}\" is only {:.0} steps of single precision across, so small is it where it stands: its shape is rounded to those",
+            shape.name, shape.steps_across
+        ));
     }
     if census.narrow_gloss {
         talk.note("gloss of roughness up to 0.1 is followed in directions chosen once: its noise stays; --spp lowers it");
@@ -196,15 +212,23 @@ pub(crate) fn finish(
     talk: &Talk,
 ) -> Result<(), Failure> {
     if session.ppm().passes() == 0 {
+        if let Some(panic) = session.panic() {
+            return Err(Failure::Panicked { panic: panic.clone(), passes: None });
+        }
         // Interrupted twice in the first pass: there is no picture yet.
         return Err(StartError::Cancelled(Cancelled).into());
+    }
+    let fault = session.panic();
+    if let Some(panic) = fault.filter(|p| !p.leaves_the_image_whole()) {
+        return Err(Failure::Panicked { panic: panic.clone(), passes: None });
     }
     for (path, format) in files {
         snapshot::write(path, *format, session.ppm(), layers, identity)?;
         outputs.push(path.display().to_string());
     }
-    talk.check_ledger(session.ppm().ledger());
+    talk.check_ledger(session.ppm());
     talk.check_lights(session.ppm());
     talk.done(session, &outputs);
-    Ok(())
+    let passes = Some(session.ppm().passes());
+    fault.map_or(Ok(()), |panic| Err(Failure::Panicked { panic: panic.clone(), passes }))
 }

@@ -9,9 +9,12 @@ use foton_integrator::{DirectLight, ErrorEstimate, Ledger, Ppm};
 use foton_measure::CompareError;
 use foton_scene::BuildError;
 use foton_session::checkpoint::ResumeError;
-use foton_session::{Progress, Session, StartError, StopRule};
+use foton_session::{Panic, Progress, Session, StartError, StopRule};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
+
+/// Power that is cut off beyond this share of what is emitted is worth a warning.
+const WORTH_A_WARNING: f64 = 1e-3;
 
 /// Why nothing was rendered.
 #[derive(Debug)]
@@ -30,6 +33,11 @@ pub(crate) enum Failure {
         known: Vec<String>,
     },
     Start(StartError),
+    /// A fault of our own in a pass, and the complete passes that the written image has, if one was written.
+    Panicked {
+        panic: Panic,
+        passes: Option<u64>,
+    },
     Resume(ResumeError),
     Write(WriteError),
     Read(ReadError),
@@ -57,6 +65,10 @@ impl fmt::Display for Failure {
                 write!(f, "the scene has no sensor \"{asked}\"; it has \"{}\"", known.join("\", \""))
             }
             Self::Start(cause) => cause.fmt(f),
+            Self::Panicked { panic, passes: Some(passes) } => {
+                write!(f, "{panic}. What was written is the image after {passes} complete passes")
+            }
+            Self::Panicked { panic, passes: None } => write!(f, "{panic}. No image was written"),
             Self::Resume(cause) => cause.fmt(f),
             Self::Write(cause) => cause.fmt(f),
             Self::Read(cause) => cause.fmt(f),
@@ -275,17 +287,37 @@ impl Talk {
         }
     }
 
-    /// Warns of light that went missing.
-    pub(crate) fn check_ledger(&self, ledger: &Ledger) {
+    /// Warns of light that went missing, and says where.
+    pub(crate) fn check_ledger(&self, ppm: &Ppm) {
+        let ledger = ppm.ledger();
+        let materials = || ppm.scene().materials().iter().map(|m| m.name.as_str()).zip(ppm.material_losses());
         let share = ledger.truncated / ledger.emitted.max(f64::MIN_POSITIVE);
-        if share > 1e-3 {
+        if share > WORTH_A_WARNING {
+            let most = materials().max_by(|a, b| a.1.truncated.total_cmp(&b.1.truncated));
+            let place = most.map_or_else(String::new, |(name, loss)| {
+                format!(", {:.0} % of that at \"{name}\"", 100.0 * loss.truncated / ledger.truncated)
+            });
             self.warning(&format!(
-                "{:.1} % of the emitted power was cut off at the longest path; --max-depth sets it",
+                "{:.1} % of the emitted power was cut off at the longest path{place}; --max-depth sets it",
                 share * 100.0
             ));
         }
+        let eye_paths = ppm.start_report().dropped;
+        if eye_paths > 0 {
+            self.warning(&format!("{eye_paths} eye paths were dropped because their weight was not finite"));
+        }
         if ledger.dropped > 0 {
-            self.warning(&format!("{} photons were dropped: their power was not finite", ledger.dropped));
+            let lights = ppm.scene().emitters().iter().zip(ppm.light_use());
+            let lights = lights.map(|(emitter, light)| (emitter.name.as_str(), light.dropped));
+            let all = lights.chain(materials().map(|(name, loss)| (name, loss.dropped)));
+            let places: Vec<String> =
+                all.filter(|(_, n)| *n > 0).map(|(name, n)| format!("{n} at \"{name}\"")).collect();
+            let places = if places.is_empty() { vec!["where they were gathered".to_owned()] } else { places };
+            self.warning(&format!(
+                "{} photons were dropped because their power was not finite: {}",
+                ledger.dropped,
+                places.join(", ")
+            ));
         }
     }
 }
@@ -332,6 +364,7 @@ fn ledger_json(ledger: &Ledger, photons: u64, scale: f64) -> Value {
         "roulette": watts(ledger.roulette),
         "truncated": watts(ledger.truncated),
         "shading_normals": watts(ledger.shading_normals),
+        "lost": watts(ledger.lost),
         "dropped_photons": ledger.dropped,
         "imbalance": ledger.imbalance(),
     })

@@ -37,6 +37,8 @@ fn files(path: &Path) -> io::Result<Vec<u8>> {
         Some("good.obj") => Ok(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_vec()),
         Some("red.png") => Ok(png(1)),
         Some("wide.png") => Ok(png(65_536)),
+        Some("lying.png") => Ok(png(16_384)),
+        Some("latin.xml") => Ok(b"<scene version='3.0.0'><!-- caf\xe9 --></scene>".to_vec()),
         Some("empty.exr") => Ok(vec![0x76, 0x2f, 0x31, 0x01]),
         Some("nan.hdr") => text("#?RADIANCE\n\n-Y 1"),
         Some("loop.xml") => text("<scene version='3.0.0'>\n<!-- -->\n<include filename='loop.xml'/></scene>"),
@@ -162,6 +164,10 @@ fn values_out_of_range_are_errors() {
             &["s.xml:2:53: \"fov\" must lie between 0 and 180 degrees"],
         ),
         (
+            "<sensor type='perspective'><float name='fov' value='45deg'/></sensor>",
+            &["s.xml:2:53: \"45deg\" is not a number"],
+        ),
+        (
             "<sensor type='perspective'><string name='fov_axis' value='z'/></sensor>",
             &["s.xml:2:59: \"fov_axis\" must be x, y, diagonal, smaller or larger"],
         ),
@@ -216,6 +222,9 @@ fn transforms_that_cannot_be_are_errors() {
             &on("cube", "<rotat x='1' angle='2'/>"),
             &["s.xml:2:47: unknown step <rotat> of a transform, did you mean \"rotate\"?"],
         ),
+        (&on("cube", "<rotate x='1' angle='1.57rad'/>"), &["s.xml:2:68: \"1.57rad\" is not a number"]),
+        (&on("cube", "<rotate x='1' angle='nan'/>"), &["s.xml:2:68: \"nan\" is not a finite number"]),
+        (&on("cube", "<translate x='1e400'/>"), &["s.xml:2:61: \"1e400\" is not a finite number"]),
         (&on("cube", "<rotate x='1'/>"), &["s.xml:2:47: <rotate> needs the attribute \"angle\""]),
         (&on("cube", "<rotate angle='2'/>"), &["s.xml:2:47: a rotation needs an axis other than zero"]),
         (

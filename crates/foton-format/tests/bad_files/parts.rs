@@ -92,6 +92,11 @@ fn textures_and_spectra_that_cannot_be_are_errors() {
         (&file("empty.exr"), &["s.xml:2:55: cannot read empty.exr: an EXR image must lie on the disk"]),
         (&file("wide.png"), &["s.xml:2:55: cannot read wide.png: 65536 × 65536 pixels are none or too many"]),
         (
+            &file("lying.png"),
+            &["s.xml:2:55: cannot read lying.png: 16384 × 16384 pixels cannot be in 72 bytes"],
+        ),
+        ("<include filename='latin.xml'/>", &["s.xml:2:20: cannot read latin.xml: the text is not UTF-8"]),
+        (
             &file("nan.hdr"),
             &[
                 "s.xml:2:55: cannot read nan.hdr: Format error decoding Hdr: Dimensions line too short: have 2 elements, expected 4",
@@ -248,6 +253,9 @@ fn meshes_are_reported_in_their_own_file() {
 
 #[test]
 fn files_that_are_not_scenes_are_refused() {
+    let deep =
+        format!("{}{}", "<scene version='3.0.0'>".to_owned() + &"<bsdf>".repeat(70), "</bsdf>".repeat(70));
+    let deep = deep + "</scene>";
     for (xml, wanted) in [
         ("<scene>", "s.xml:1:8: the file ends inside an element"),
         ("<scene></bsdf>", "s.xml:1:8: not well-formed XML: expected 'scene' tag, not 'bsdf'"),
@@ -257,6 +265,15 @@ fn files_that_are_not_scenes_are_refused() {
         ("<mesh version='3.0.0'/>", "s.xml:1:1: the outermost element is <mesh>, not <scene>"),
         ("<scene version='3.0.0'/>", "warning: s.xml:1:1: the scene has no sensor"),
         ("", "s.xml:1:1: not well-formed XML: the document does not have a root node"),
+        (
+            "<!DOCTYPE a [<!ENTITY b 'ha'><!ENTITY c '&b;&b;&b;&b;'>]><scene version='3.0.0'>&c;</scene>",
+            "s.xml:1:1: document type definitions are not read",
+        ),
+        (
+            "<scene version='3.0.0'>&c;</scene>",
+            "s.xml:1:24: not well-formed XML: unknown entity reference 'c'",
+        ),
+        (&deep, "s.xml:1:402: elements are nested deeper than 64 levels"),
         ("<!DOCTYPE a><scene/>", "s.xml:1:1: document type definitions are not read"),
     ] {
         assert_eq!(found(xml, &Options::default()), [wanted], "of {xml}");

@@ -1,10 +1,11 @@
 //! What a description must fulfil before anything is built, and how large it is.
 
+use foton_math::Rgb;
 use foton_math::glam::DVec3;
 
 use super::BuildError;
 use crate::description::{
-    Colour, EmitterDescription, EmitterKind, Geometry, Material, SceneDescription, SensorDescription,
+    Bsdf, Colour, EmitterKind, Geometry, Material, SceneDescription, SensorDescription, TextureKind,
 };
 
 /// Whether a span of pixels lies within a side of the image and holds one.
@@ -34,27 +35,71 @@ pub(super) fn check_sensors(sensors: &[SensorDescription]) -> Result<(), BuildEr
 }
 
 pub(super) fn check_environments(description: &SceneDescription) -> Result<(), BuildError> {
-    let unsound = |e: &&EmitterDescription| match &e.kind {
-        EmitterKind::Environment { bitmap, .. } => !bitmap.is_sound(),
-        _ => false,
-    };
-    description.emitters.iter().find(unsound).map_or(Ok(()), |e| Err(BuildError::NoTexture(e.name.clone())))
+    for emitter in &description.emitters {
+        let EmitterKind::Environment { bitmap, scale, .. } = &emitter.kind else { continue };
+        if !bitmap.is_sound() {
+            return Err(BuildError::NoTexture(emitter.name.clone()));
+        }
+        // Checked pixel by pixel: in the sum of all, one that is not a number would hide behind weights that leave it out.
+        if !(scale.is_finite() && bitmap.pixels.iter().all(|p| p.is_finite())) {
+            return Err(BuildError::NotFinite(emitter.name.clone()));
+        }
+    }
+    Ok(())
 }
 
-pub(super) fn check_textures(material: &Material, description: &SceneDescription) -> Result<(), BuildError> {
-    use crate::description::TextureKind::Bitmap;
+/// Whether a colour may be a share of light: NaN is not.
+fn is_share(c: Rgb) -> bool {
+    c.to_array().iter().all(|c| (0.0..=1.0).contains(c))
+}
+
+/// Whether all colours of the textures are shares of light.
+pub(super) fn check_textures(description: &SceneDescription) -> Result<(), BuildError> {
+    for texture in &description.textures {
+        let good = match &texture.kind {
+            // Those that lack pixels are found where they are named.
+            TextureKind::Bitmap { bitmap, .. } => bitmap.pixels.iter().all(|&p| is_share(p)),
+            TextureKind::Checkerboard { colours } => colours.iter().all(|&c| is_share(c)),
+        };
+        if !(good && texture.to_uv.is_finite()) {
+            return Err(BuildError::BadTexture(texture.name.clone()));
+        }
+    }
+    Ok(())
+}
+
+/// Whether a material's numbers are such as a surface can have, and its textures are there.
+pub(super) fn check_material(material: &Material, description: &SceneDescription) -> Result<(), BuildError> {
     for colour in material.colours() {
-        let Colour::Texture(index) = colour else { continue };
-        let good = match description.textures.get(index).map(|t| &t.kind) {
-            Some(Bitmap { bitmap, .. }) => bitmap.is_sound(),
-            Some(_) => true,
-            None => false,
+        let good = match colour {
+            Colour::Constant(c) if is_share(c) => continue,
+            Colour::Constant(_) => return Err(BuildError::BadMaterial(material.name.clone())),
+            Colour::Texture(index) => match description.textures.get(index).map(|t| &t.kind) {
+                Some(TextureKind::Bitmap { bitmap, .. }) => bitmap.is_sound(),
+                Some(_) => true,
+                None => false,
+            },
         };
         if !good {
             return Err(BuildError::NoTexture(material.name.clone()));
         }
     }
-    Ok(())
+    let positive = |x: f32| x.is_finite() && x > 0.0;
+    let sound = |bsdf: &Bsdf| {
+        let rough = bsdf.roughness().is_none_or(|r| positive(r.alpha_u) && positive(r.alpha_v));
+        rough
+            && match *bsdf {
+                Bsdf::Dielectric { int_ior, ext_ior, .. }
+                | Bsdf::ThinDielectric { int_ior, ext_ior, .. }
+                | Bsdf::Plastic { int_ior, ext_ior, .. } => positive(int_ior) && positive(ext_ior),
+                Bsdf::Conductor { eta, k, .. } => {
+                    [eta, k].iter().all(|c| c.is_finite() && c.to_array().iter().all(|&c| c >= 0.0))
+                }
+                _ => true,
+            }
+    };
+    let good = material.bsdfs().all(sound);
+    if good { Ok(()) } else { Err(BuildError::BadMaterial(material.name.clone())) }
 }
 
 /// The corners of all surfaces in world units; the origin where there are none.

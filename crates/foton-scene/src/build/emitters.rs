@@ -71,7 +71,8 @@ pub(super) fn unattached_emitter(
 
 /// p = (1 − δ) Φ/ΣΦ + δ/n over those that emit at all.
 pub(super) fn emitter_choice(emitters: &[Emitter]) -> Discrete {
-    let power = |e: &Emitter| f64::from(e.power().mean());
+    // In double precision: the sum of three channels may overflow where none of them does.
+    let power = |e: &Emitter| e.power().to_array().into_iter().map(f64::from).sum::<f64>() / 3.0;
     let total: f64 = emitters.iter().map(power).sum();
     let count = emitters.iter().filter(|e| power(e) > 0.0).count() as f64;
     Discrete::new(

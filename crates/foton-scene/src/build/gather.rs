@@ -96,6 +96,9 @@ impl Gathered {
         if !fits(mesh.normals.len(), smooth) || !fits(mesh.texture_coordinates.len(), has_uvs) {
             return Err(BuildError::BadMesh(shape.name.clone()));
         }
+        if !mesh.texture_coordinates.iter().all(|uv| uv.is_finite()) {
+            return Err(BuildError::NotFinite(shape.name.clone()));
+        }
         let mirrored = shape.to_world.matrix3.determinant() < 0.0;
         let positions: Vec<Vec3> =
             mesh.positions.iter().map(|&p| to_scene.point(shape.to_world.transform_point3(p))).collect();

@@ -5,6 +5,7 @@
 
 mod contacts;
 mod descriptions;
+mod double;
 mod ray_origins;
 mod reference;
 mod sides;
@@ -20,6 +21,11 @@ use foton_scene::Scene;
 use foton_scene::description::{
     Bsdf, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription, SensorDescription, ShapeDescription,
 };
+
+/// So many cases, or a multiple of them where someone asks for more than the tests can bear: `FOTON_CASES` multiplies them.
+fn cases(usual: u32) -> u32 {
+    usual * std::env::var("FOTON_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(1)
+}
 
 /// The random numbers of one test.
 const fn stream(test: u64) -> Stream {

@@ -6,7 +6,7 @@ use foton_scene::description::{Geometry, Mesh};
 use foton_scene::{Scene, Surface};
 
 use crate::{
-    ball, direction, grazing, in_cube, in_unit_cube, log_uniform, mesh, shape, stream, triangle, turn,
+    ball, cases, direction, grazing, in_cube, in_unit_cube, log_uniform, mesh, shape, stream, triangle, turn,
 };
 
 /// Cosines down to where single precision no longer says on which side of a plane a direction is.
@@ -69,8 +69,8 @@ fn rays_off_triangles_do_not_meet_them() {
             let [a, b, c] = random_triangle(length, width, &mut stream);
             let scene = in_unit_cube(triangle([a, b, c]));
             assert_eq!(scene.census().triangles, 3);
-            asked += 2000;
-            left += rays_off(&scene, 2000, &mut stream, |stream| {
+            asked += cases(2000);
+            left += rays_off(&scene, cases(2000), &mut stream, |stream| {
                 let weights = warp::square_to_triangle(stream.next_2d()).as_dvec2();
                 a + (b - a) * weights.x + (c - a) * weights.y
             });
@@ -105,11 +105,11 @@ fn rays_off_discs_do_not_meet_them() {
         let middle = in_cube(&mut stream) * 0.4;
         let to_world = DAffine3::from_scale_rotation_translation(DVec3::splat(radius), turned, middle);
         let scene = in_unit_cube(shape(Geometry::Disc, to_world));
-        let left = rays_off(&scene, 1000, &mut stream, |stream| {
+        let left = rays_off(&scene, cases(1000), &mut stream, |stream| {
             let p = warp::square_to_disc(stream.next_2d()).as_dvec2() * 0.999;
             to_world.transform_point3(p.extend(0.0))
         });
-        assert!(left > 800, "{left}");
+        assert!(left > cases(800), "{left}");
     }
 }
 
@@ -127,7 +127,7 @@ fn rays_off_a_ball_miss_it_outside_and_cross_it_inside() {
     for radii in [[1e-4, 1e-3], [1e-3, 1e-2], [1e-2, 0.1], [0.1, 0.99]] {
         for _ in 0..60 {
             let (scene, centre, radius) = random_ball(log_uniform(radii, &mut stream), &mut stream);
-            for _ in 0..2000 {
+            for _ in 0..cases(2000) {
                 let point = centre + direction(&mut stream) * radius * 0.9;
                 let hit = arrive(&scene, point, &mut stream).expect("the ray passes through the ball");
                 let d = leave(hit.normal, &mut stream);

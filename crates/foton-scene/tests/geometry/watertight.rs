@@ -5,7 +5,7 @@ use foton_math::{Ray, Stream};
 use foton_scene::Scene;
 use foton_scene::description::Mesh;
 
-use crate::{ball, build, direction, direction_around, geodesic, in_cube, mesh, stream, turn};
+use crate::{ball, build, cases, direction, direction_around, geodesic, in_cube, mesh, stream, turn};
 
 /// A closed surface around the world's origin.
 struct Room {
@@ -61,7 +61,7 @@ fn rooms() -> impl Iterator<Item = Room> {
 fn no_ray_leaves_a_closed_surface() {
     for room in rooms() {
         let mut stream = stream(1);
-        for _ in 0..200_000 {
+        for _ in 0..cases(200_000) {
             room.assert_holds(Ray::new(room.point(&mut stream), direction(&mut stream)));
         }
     }
@@ -125,7 +125,7 @@ fn a_path_of_random_bounces_stays_inside() {
     for room in rooms() {
         let mut stream = stream(4);
         let mut ray = Ray::new(room.point(&mut stream), direction(&mut stream));
-        for bounce in 0..200_000 {
+        for bounce in 0..cases(200_000) {
             let hit = room.scene.nearest(ray);
             let hit = hit.unwrap_or_else(|| panic!("the {} loses {ray:?} at bounce {bounce}", room.name));
             let d = direction_around(-hit.normal, &mut stream);

@@ -13,6 +13,7 @@ use foton_scene::description::SceneDescription;
 
 use super::command::Source;
 use crate::metadata::SceneIdentity;
+use crate::panic::contained;
 
 /// A scene and what its file asks for.
 #[derive(Clone, Debug)]
@@ -79,13 +80,20 @@ impl Opening {
 }
 
 fn open(loader: &dyn Loader, source: Source, sender: &Sender<Result<Box<Ready>, String>>) {
-    let result = loader.open(&source).and_then(|loaded| {
+    let name = source.to_string();
+    let work = || open_and_build(loader, source);
+    let result =
+        contained(work).unwrap_or_else(|message| Err(format!("{name}: foton has a fault: {message}")));
+    // Nobody listens any more when opening was cancelled.
+    let _ = sender.send(result);
+}
+
+fn open_and_build(loader: &dyn Loader, source: Source) -> Result<Box<Ready>, String> {
+    loader.open(&source).and_then(|loaded| {
         let built = Scene::build(&loaded.description);
         let scene = built.map_err(|cause| format!("{}: {cause}", loaded.identity.name))?;
         Ok(Box::new(Ready { source, loaded, scene: Arc::new(scene) }))
-    });
-    // Nobody listens any more when opening was cancelled.
-    let _ = sender.send(result);
+    })
 }
 
 impl Source {

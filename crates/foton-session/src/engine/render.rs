@@ -13,7 +13,7 @@ use rayon::ThreadPool;
 
 use super::command::{ErrorPart, Shown};
 use super::frame::{Numbers, Picture};
-use crate::session::Session;
+use crate::session::{PassError, Session, StartError};
 
 /// How much of the whole picture is rendered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -98,7 +98,7 @@ impl Render {
         settings: &Settings,
         pool: &Arc<ThreadPool>,
         cancel: &Cancel,
-    ) -> Result<Self, Cancelled> {
+    ) -> Result<Self, StartError> {
         if level == Level::Whole {
             let session = Session::start_on(Arc::clone(pool), Arc::clone(scene), settings.clone(), cancel)?;
             return Ok(Self::over(session, level));
@@ -157,7 +157,7 @@ impl Render {
     }
 
     /// One pass; returns how long it took.
-    pub(super) fn advance(&mut self, cancel: &Cancel) -> Result<Duration, Cancelled> {
+    pub(super) fn advance(&mut self, cancel: &Cancel) -> Result<Duration, PassError> {
         let before = self.session.elapsed();
         let report = self.session.advance(cancel)?;
         self.no_photon_share = report.no_photon_share;

@@ -19,7 +19,8 @@ use super::probe;
 use super::render::{Level, Render};
 use super::slot::NewestSender;
 use super::stage::{Effect, Stage};
-use crate::session::Session;
+use crate::panic::{Panic, contained};
+use crate::session::{PassError, Session, StartError};
 use crate::stop::StopRule;
 use crate::threads::{self, Rank};
 
@@ -123,14 +124,24 @@ impl Worker {
                     return;
                 }
                 let writes = command.writes();
-                self.obey(command);
+                self.guarded(|worker| worker.obey(command));
                 if writes {
                     self.unwritten.fetch_sub(1, Ordering::SeqCst);
                 }
             }
-            self.take_opened();
-            self.work();
-            self.publish(false);
+            self.guarded(|worker| {
+                worker.take_opened();
+                worker.work();
+                worker.publish(false);
+            });
+        }
+    }
+
+    /// Does work; a fault of our own in it ends the render, not the window, which keeps its last picture and says why.
+    fn guarded(&mut self, work: impl FnOnce(&mut Self)) {
+        if let Err(message) = contained(|| work(self)) {
+            self.render = None;
+            self.refuse(Panic { stage: None, message }.to_string());
         }
     }
 
@@ -138,7 +149,7 @@ impl Worker {
     fn wait_for_commands(&mut self) -> Option<Vec<Command>> {
         let mut commands: Vec<Command> = self.channels.commands.try_iter().collect();
         if commands.is_empty() && self.is_idle() {
-            self.publish(true);
+            self.guarded(|worker| worker.publish(true));
             let nothing = never();
             let opened = self.opening.as_ref().map_or(&nothing, |o| &o.result);
             // What was opened stays in its channel: it is taken where commands are not waited for.
@@ -341,7 +352,11 @@ impl Worker {
                     self.pool.insert(pool.map_err(|error| error.to_string())?)
                 }
             };
-            Ok(Render::start(level, &scene, stage.sensors(), &self.settings, pool, &cancel).ok())
+            match Render::start(level, &scene, stage.sensors(), &self.settings, pool, &cancel) {
+                Ok(render) => Ok(Some(render)),
+                Err(StartError::Panicked(panic)) => Err(panic.to_string()),
+                Err(_) => Ok(None),
+            }
         });
         match started {
             Some(Ok(Some(render))) => {
@@ -364,7 +379,17 @@ impl Worker {
 
     fn advance(&mut self, cancel: &Cancel) {
         let Some(render) = &mut self.render else { return };
-        let Ok(took) = render.advance(cancel) else { return };
+        let took = match render.advance(cancel) {
+            Ok(took) => took,
+            Err(PassError::Cancelled(_)) => return,
+            Err(PassError::Panicked(panic)) => {
+                // The picture of the passes before is still there to be saved; where it is not, the last frame stays.
+                if !panic.leaves_the_image_whole() {
+                    self.render = None;
+                }
+                return self.refuse(panic.to_string());
+            }
+        };
         self.unseen = true;
         if !render.is_whole() {
             return;

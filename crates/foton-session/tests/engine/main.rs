@@ -152,6 +152,20 @@ fn a_scene_that_fails_leaves_the_last_one_running() {
 }
 
 #[test]
+fn a_fault_of_our_own_is_said_the_picture_stays_and_the_next_scene_opens() {
+    let rig = Rig::new(settings(), None);
+    rig.open("room");
+    let before = rig.until("a pass", |f| f.activity == Activity::Rendering && f.picture.is_some());
+    rig.open("faulty");
+    assert_eq!(rig.failure(), "faulty: foton has a fault: this loader has a fault");
+    rig.until("more passes", |f| f.numbers.passes > before.numbers.passes);
+    rig.open("sensorless");
+    assert!(rig.failure().starts_with("foton has a fault and the render stops"));
+    rig.open("room");
+    rig.until("passes again", |f| f.activity == Activity::Rendering && f.numbers.passes > 1);
+}
+
+#[test]
 fn opening_can_be_called_off_and_passes_go_on_meanwhile() {
     let rig = Rig::new(settings(), None);
     rig.open("room");

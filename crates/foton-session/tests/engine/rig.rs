@@ -133,7 +133,7 @@ pub(crate) fn headless(
     session
 }
 
-/// Opens "room", "heap" and "slow", which waits until it is let go; nothing else.
+/// Opens "room", "heap" and "slow", which waits until it is let go; "faulty" panics, and "sensorless" makes the engine panic.
 pub(crate) struct Shelf {
     settings: Settings,
     go: Mutex<Receiver<()>>,
@@ -143,7 +143,8 @@ impl Loader for Shelf {
     fn open(&self, source: &Source) -> Result<Loaded, String> {
         let name = source.to_string();
         match name.as_str() {
-            "room" | "heap" => {}
+            "room" | "heap" | "sensorless" => {}
+            "faulty" => panic!("this loader has a fault"),
             "slow" => {
                 let _ = self.go.lock().expect("whole").recv_timeout(PATIENCE);
             }
@@ -152,7 +153,8 @@ impl Loader for Shelf {
         Ok(Loaded {
             description: if name == "heap" { heap() } else { room() },
             identity: identity(),
-            settings: self.settings.clone(),
+            // A sensor that is not there is a fault of whoever asks for it.
+            settings: Settings { sensor: if name == "sensorless" { 9 } else { 0 }, ..self.settings.clone() },
             warnings: vec!["room.xml:1:1: a warning".into()],
             origin: Arc::new(42_u8),
         })

@@ -1,0 +1,147 @@
+//! Sizes and counts: units of length, radii beyond the scene, more photons than 32 bits count.
+
+use foton_integrator::{Alpha, Cancel, Ppm, Settings};
+use foton_math::Rgb;
+use foton_math::glam::{DAffine3, DVec3};
+use foton_scene::description::{EmitterKind, Geometry};
+use foton_tests::{Sketch, glass, grey, mean};
+
+use super::{advance, number, with_radius};
+
+/// A lit room with a ball of glass, as large as `unit` says; radiance is the same in any unit.
+fn room(unit: f64) -> Sketch {
+    let mut sketch = Sketch::default()
+        .camera(DVec3::new(0.0, 0.0, 0.95), DVec3::new(0.0, -0.2, -1.0), 70.0, 32)
+        .room(grey(0.6), None)
+        .sphere(DVec3::new(0.4, -0.6, 0.0), 0.35, glass(1.5), None)
+        .rectangle(DVec3::Y * 0.9, DVec3::X * 0.3, DVec3::Z * 0.3, grey(0.0), Some(Rgb::new(9.0, 8.0, 7.0)))
+        .point(DVec3::new(-0.7, 0.5, 0.3), 2.0);
+    let scale = DAffine3::from_scale(DVec3::splat(unit));
+    for shape in &mut sketch.0.shapes {
+        shape.to_world = scale * shape.to_world;
+    }
+    for sensor in &mut sketch.0.sensors {
+        sensor.to_world.translation *= unit;
+    }
+    for emitter in &mut sketch.0.emitters {
+        if let EmitterKind::Point { position, intensity } = &mut emitter.kind {
+            *position *= unit;
+            *intensity *= (unit * unit) as f32;
+        }
+    }
+    sketch
+}
+
+/// Units that are no powers of two round positions otherwise, and a photon on the rim of a disc may change sides: the mean
+/// agrees to 10⁻⁵ and 99 % of the pixels to 10⁻⁴.
+#[test]
+fn a_scene_in_another_unit_gives_the_same_picture() {
+    let image = |unit: f64| room(unit).render(with_radius(0.1 * unit, 50_000), 3).image();
+    let original = image(1.0);
+    for unit in [1e-4, 1e6] {
+        let other = image(unit);
+        let (a, b) = (mean(&original), mean(&other));
+        assert!((a / b - 1.0).abs() < 1e-5, "unit {unit}: means {a} and {b}");
+        let far = original.pixels.iter().zip(&other.pixels);
+        let far = far.filter(|(p, q)| (p.g - q.g).abs() > 1e-4 * p.g).count();
+        assert!(far * 100 <= original.pixels.len(), "unit {unit}: {far} pixels of {}", original.pixels.len());
+    }
+}
+
+/// A disc larger than the scene is as large as the scene: finite, and it finds what is there.
+#[test]
+fn a_radius_beyond_the_scene_is_cut_to_it() {
+    for radius in [1e3, 1e30, 1e300] {
+        let ppm = room(1.0).render(with_radius(radius, 500), 2);
+        assert!(ppm.image().pixels.iter().all(|p| p.is_finite() && !p.is_black()), "{radius}");
+        assert!(ppm.radii().largest.is_finite() && ppm.radii().largest < 10.0, "{:?}", ppm.radii());
+    }
+}
+
+/// Numbers of photons beyond 2³² are counted, and the image is the mean over all of them.
+#[test]
+fn photons_beyond_two_to_the_32_are_counted_and_shared_by_the_image() {
+    let mut ppm = room(1.0).render(with_radius(0.1, 1000), 1);
+    let (one, mut many) = (ppm.image(), ppm.state());
+    // The second number of a state is that of photons emitted so far.
+    let before = 1u64 << 33;
+    many[8..16].copy_from_slice(&before.to_le_bytes());
+    ppm.restore(&many).expect("a state of this render");
+    assert_eq!(ppm.photons_emitted(), before);
+    let emission = ppm.colour_layer(foton_integrator::LayerKind::Emission).expect("kept").pixels;
+    for ((a, b), e) in one.pixels.iter().zip(&ppm.image().pixels).zip(&emission) {
+        let (reflected, shared) = (f64::from(a.g - e.g), f64::from(b.g - e.g));
+        assert!((shared - reflected * 1000.0 / before as f64).abs() <= 1e-6 * f64::from(a.g), "{a:?} {b:?}");
+    }
+    advance(&mut ppm, 1);
+    assert_eq!(ppm.photons_emitted(), before + 1000);
+}
+
+/// States with numbers that no render has are refused, although their checksum may be right.
+#[test]
+fn a_state_with_impossible_numbers_is_refused() {
+    let mut ppm = room(1.0).render(with_radius(0.1, 1000), 2);
+    let state = ppm.state();
+    assert_eq!(ppm.restore(&state), Ok(()));
+    let mut refused = 0;
+    for at in (0..state.len() / 8).step_by(7) {
+        let mut bad = state.clone();
+        bad[8 * at..8 * at + 8].copy_from_slice(&f64::NAN.to_bits().to_le_bytes());
+        refused += u32::from(ppm.restore(&bad).is_err());
+    }
+    // Whole numbers take any bits.
+    let all = (state.len() / 8).div_ceil(7) as u32;
+    assert!(2 * refused > all, "{refused} of {all}");
+    ppm.restore(&state).expect("sound");
+    advance(&mut ppm, 1);
+    assert!(ppm.image().pixels.iter().all(|p| p.is_finite()));
+}
+
+#[test]
+fn alpha_of_a_thousandth_and_of_one_render_finite_images() {
+    for alpha in [1e-3, 1.0] {
+        let settings = Settings { alpha: Alpha::new(alpha).expect("in range"), ..with_radius(0.1, 2000) };
+        let ppm = room(1.0).render(settings, 20);
+        let (largest, smallest) = (ppm.radii().largest, ppm.radii().smallest);
+        assert!(ppm.image().pixels.iter().all(|p| p.is_finite()) && smallest > 0.0, "α {alpha}");
+        assert!(alpha < 1.0 || (largest - 0.1).abs() < 1e-6, "α = 1 keeps the radius: {largest}");
+    }
+}
+
+/// A thing of a millimetre ten kilometres from the middle of the scene has hardly any coordinates left, and the scene says so.
+#[test]
+fn a_small_thing_far_away_says_how_few_coordinates_it_has() {
+    let steps = |x: f64, size: f64| {
+        let sketch = Sketch::default()
+            .camera(DVec3::new(0.0, 5.0, 0.0), DVec3::ZERO, 40.0, 2)
+            .rectangle(DVec3::ZERO, DVec3::Z * 1e4, DVec3::X * 1e4, grey(0.5), None)
+            .shape(
+                Geometry::Sphere { centre: DVec3::new(x, size, 0.0), radius: size },
+                DAffine3::IDENTITY,
+                grey(0.5),
+                None,
+            );
+        sketch.build().expect("sound").shapes()[1].steps_across
+    };
+    assert!(steps(0.0, 1e-3) > 1e6, "in the middle every digit is there");
+    assert!(steps(9.99e3, 1e-3) < 3.0, "{}", steps(9.99e3, 1e-3));
+    assert!(steps(9.99e3, 1.0) > 1000.0);
+}
+
+/// Any number of threads, more than there are cores too: a render ends, and has the bits of one thread.
+#[test]
+fn sixty_four_threads_on_few_cores_give_the_bits_of_one() {
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| {
+            let scene = room(1.0).build().expect("sound");
+            let settings = Settings { photons_per_pass: number(9000), ..with_radius(0.1, 9000) };
+            let cancel = Cancel::default();
+            let mut ppm = Ppm::start(scene, settings, &mut |_| (), &cancel).expect("starts");
+            advance(&mut ppm, 2);
+            super::bits(&ppm.image())
+        })
+    };
+    let one = run(1);
+    assert!([3, 16, 64].into_iter().all(|threads| run(threads) == one));
+}
