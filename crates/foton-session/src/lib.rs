@@ -30,7 +30,9 @@ mod stop;
 
 pub use clock::StageTimes;
 pub use engine::Engine;
-pub use foton_integrator::{Alpha, Change, DirectLight, ErrorEstimate, PathClass, Radii, Settings, Stage};
+pub use foton_integrator::{
+    Alpha, Change, DirectLight, ErrorEstimate, PathClass, Radii, RadiusRule, RadiusScale, Settings, Stage,
+};
 pub use interrupt::Interrupt;
 pub use metadata::SceneIdentity;
 pub use session::{Progress, Session, StartError, StopCause};
