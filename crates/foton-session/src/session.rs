@@ -75,8 +75,11 @@ impl Session {
         Ok(Self::start_on(Self::pool(threads)?, scene, settings, cancel)?)
     }
 
-    /// Threads to render on; one pool serves any number of renders, one at a time.
-    pub(crate) fn pool(threads: Option<usize>) -> Result<Arc<ThreadPool>, ThreadPoolBuildError> {
+    /// Threads to render on, by default as many as the machine has; one pool serves any number of renders, one at a time.
+    ///
+    /// # Errors
+    /// When the system gives no threads.
+    pub fn pool(threads: Option<usize>) -> Result<Arc<ThreadPool>, ThreadPoolBuildError> {
         ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build().map(Arc::new)
     }
 

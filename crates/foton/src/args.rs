@@ -6,7 +6,7 @@ use std::str::FromStr;
 use std::time::Duration;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
-use foton_integrator::{Alpha, DirectLight, LayerKind, Settings};
+use foton_integrator::{Alpha, DirectLight, LayerKind, RadiusRule, RadiusScale, Settings};
 use foton_session::snapshot::Format;
 
 /// Progressive photon mapping that a person can watch, steer and trust.
@@ -34,6 +34,8 @@ pub(crate) enum Command {
     Info(Info),
     /// Say how far an image is from a reference: RMSE, relMSE, means, FLIP
     Compare(Compare),
+    /// Measure what accuracy costs in a scene: sweeps over α, photons, radii and direct light, as tables and a page
+    Measure(Box<Measure>),
 }
 
 /// `foton compare`.
@@ -49,6 +51,61 @@ pub(crate) struct Compare {
     #[arg(short, value_name = "DIFF.{exr,png}", value_parser = image)]
     pub(crate) output: Option<(PathBuf, Format)>,
     /// Print one JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// `foton measure`.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Measure {
+    /// Scene file to read: Mitsuba XML, OBJ, PLY or STL
+    pub(crate) scene: PathBuf,
+    /// Folder for tables and page; a sweep that is there goes on
+    #[arg(short, value_name = "DIR")]
+    pub(crate) output: PathBuf,
+    /// Image of radiance to compare with, .exr [a long run of the sweep's own, of the same eye samples]
+    #[arg(long, value_name = "REF.exr", value_parser = exr)]
+    pub(crate) reference: Option<PathBuf>,
+    /// Time for all of it, e.g. 90s, 10m, 1.5h
+    #[arg(long, value_name = "TIME", default_value = "10m", value_parser = duration)]
+    pub(crate) budget: Duration,
+    /// Runs of each configuration, with photons of their own
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(2..=1000))]
+    pub(crate) seeds: u64,
+    /// Photons a pass at the star's centre [as the scene says, else that of `render`]
+    #[arg(long, value_name = "N")]
+    pub(crate) photons: Option<NonZeroU32>,
+    /// Share of new photons kept at the star's centre [as the scene says, else that of `render`]
+    #[arg(long, value_name = "A", value_parser = alpha)]
+    pub(crate) alpha: Option<Alpha>,
+    /// First radius at the star's centre: in world units, or x0.5 for half of what the pixel's footprint gives
+    #[arg(long, value_name = "R|xF", value_parser = radius)]
+    pub(crate) radius: Option<Radius>,
+    /// How light straight from emitters is estimated at the star's centre
+    #[arg(long, value_name = "HOW", value_enum, default_value_t = Direct::Photons)]
+    pub(crate) direct: Direct,
+    /// Seed of the eye samples; runs have photons of the seeds after it
+    #[arg(long, value_name = "N", default_value_t = Settings::default().seed)]
+    pub(crate) seed: u64,
+    /// Threads [as many as the machine has]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Size of the whole image; small ones tell as much, sooner [as the scene says]
+    #[arg(long, value_name = "WxH")]
+    pub(crate) size: Option<Size>,
+    /// Eye samples a pixel
+    #[arg(long, value_name = "N", default_value_t = Settings::default().samples_per_pixel)]
+    pub(crate) spp: NonZeroU32,
+    /// Longest path in edges, as Mitsuba counts them [as the scene says]
+    #[arg(long, value_name = "N")]
+    pub(crate) max_depth: Option<u32>,
+    /// The sensor to look through, by its id [the first]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) sensor: Option<String>,
+    /// Set a parameter of the scene file
+    #[arg(short = 'D', value_name = "name=value", value_parser = define)]
+    pub(crate) defines: Vec<(String, String)>,
+    /// Print one JSON object a line on stdout
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -110,9 +167,12 @@ pub(crate) struct Render {
         Settings::default().alpha,
     ))]
     pub(crate) alpha: Option<Alpha>,
-    /// First radius in world units [from each pixel's footprint]
-    #[arg(long, value_name = "R", value_parser = radius)]
-    pub(crate) radius: Option<f64>,
+    /// First radius: in world units, or x0.5 for half of what each pixel's footprint gives [x1]
+    #[arg(long, value_name = "R|xF", value_parser = radius)]
+    pub(crate) radius: Option<Radius>,
+    /// How radii shrink
+    #[arg(long, value_name = "RULE", value_enum, default_value_t = Rule::Local)]
+    pub(crate) radius_rule: Rule,
     /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = Settings::default().seed)]
     pub(crate) seed: u64,
@@ -181,6 +241,44 @@ pub(crate) enum Direct {
     Photons,
     /// By shadow rays: sharp shadows from the first pass on
     ShadowRays,
+}
+
+/// `--radius`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Radius {
+    /// In world units.
+    World(f64),
+    /// Times what the pixel's footprint gives.
+    Footprint(RadiusScale),
+}
+
+impl Radius {
+    /// What settings say of it.
+    pub(crate) fn split(wish: Option<Self>, suggested: Option<f64>) -> (Option<f64>, RadiusScale) {
+        match wish {
+            None => (suggested, RadiusScale::default()),
+            Some(Self::World(radius)) => (Some(radius), RadiusScale::default()),
+            Some(Self::Footprint(scale)) => (None, scale),
+        }
+    }
+}
+
+/// `--radius-rule`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Rule {
+    /// Each by the photons that it finds
+    Local,
+    /// All by one factor, by the photons emitted
+    Global,
+}
+
+impl From<Rule> for RadiusRule {
+    fn from(rule: Rule) -> Self {
+        match rule {
+            Rule::Local => Self::Local,
+            Rule::Global => Self::Global,
+        }
+    }
 }
 
 /// `--integrator`.
@@ -257,9 +355,19 @@ fn alpha(s: &str) -> Result<Alpha, String> {
     s.parse().ok().and_then(Alpha::new).ok_or_else(|| "expected a number above 0 and up to 1".to_owned())
 }
 
-fn radius(s: &str) -> Result<f64, String> {
-    let good = s.parse().ok().filter(|r: &f64| *r > 0.0 && r.is_finite());
-    good.ok_or_else(|| "expected a length above 0, in world units".to_owned())
+fn radius(s: &str) -> Result<Radius, String> {
+    let wish = match s.strip_prefix(['x', 'X', '×']) {
+        Some(factor) => factor.parse().ok().and_then(RadiusScale::new).map(Radius::Footprint),
+        None => s.parse().ok().filter(|r: &f64| *r > 0.0 && r.is_finite()).map(Radius::World),
+    };
+    wish.ok_or_else(|| "expected a length above 0 in world units, or a factor such as x0.5".to_owned())
+}
+
+fn exr(s: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(s);
+    let fits = Format::of(&path) == Some(Format::Exr);
+    fits.then_some(path)
+        .ok_or_else(|| "expected a name that ends in .exr: only those hold radiance".to_owned())
 }
 
 fn image(s: &str) -> Result<(PathBuf, Format), String> {
@@ -349,6 +457,12 @@ mod tests {
         assert_eq!(("pow2".parse(), "3".parse()), (Ok(Every::PowersOfTwo), Ok(Every::Nth(3))));
         assert!("0".parse::<Every>().is_err());
         assert!(Every::Nth(3).is_due(6) && !Every::Nth(3).is_due(7) && Every::PowersOfTwo.is_due(8));
+        let half = RadiusScale::new(0.5).map(Radius::Footprint);
+        assert_eq!((radius("0.2").ok(), radius("x0.5").ok()), (Some(Radius::World(0.2)), half));
+        for bad in ["0", "-1", "x", "x0", "0.5x", "xNaN", "inf"] {
+            assert!(radius(bad).is_err(), "{bad}");
+        }
+        assert!(exr("a.exr").is_ok() && exr("a.png").is_err());
         for bad in ["0", "1.01", "NaN", "-1"] {
             assert!(alpha(bad).is_err(), "{bad}");
         }
