@@ -24,6 +24,7 @@ mod convolve;
 mod flip;
 mod heat;
 mod pair;
+pub mod plot;
 pub mod sweep;
 
 pub use flip::{Flip, PIXELS_PER_DEGREE};

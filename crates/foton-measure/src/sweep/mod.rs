@@ -249,7 +249,8 @@ impl Sweep {
         let points: Vec<Point> = finished.gathered.iter().filter_map(Point::of).collect();
         store.pictures(&finished.pictures, &runner.reference.image)?;
         store.finish(job, &table::runs(&finished), &points)?;
-        Ok(Some(points))
+        // As written, so that the page says the same when it is made from the tables alone.
+        store.points(job)
     }
 
     fn conclude(
@@ -300,10 +301,11 @@ impl Sweep {
             begin.elapsed() >= time
         };
         let is_cancelled = || if is_stopped() { Err(Cancelled) } else { Ok(()) };
-        let reference = Reference::render(&self.scene, &self.centre, &mut is_enough, &is_cancelled, cancel)?;
+        let reference =
+            Reference::render(&self.scene, &self.centre, time, &mut is_enough, &is_cancelled, cancel)?;
         let reference = reference.ok_or(SweepError::Dark)?;
         store.keep_reference(&reference)?;
-        Ok(reference)
+        store.reference(&eye)?.ok_or(SweepError::Dark)
     }
 
     /// The share of the time that is gone.

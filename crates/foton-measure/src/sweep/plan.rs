@@ -5,6 +5,8 @@ use std::num::NonZeroU32;
 
 use foton_integrator::{Alpha, DirectLight, RadiusRule, RadiusScale, Settings};
 
+use crate::plot::short;
+
 /// Shares of new photons kept.
 const ALPHAS: [f64; 7] = [0.5, 0.6, 2.0 / 3.0, 0.7, 0.8, 0.9, 1.0];
 
@@ -58,7 +60,7 @@ impl Configuration {
     /// The options of `foton render` that ask for it.
     #[must_use]
     pub fn options(&self) -> String {
-        let mut options = format!("--alpha {} --photons {}", short(self.alpha.get()), self.photons);
+        let mut options = format!("--alpha {:.4} --photons {}", self.alpha.get(), self.photons);
         if self.radius_scale != RadiusScale::default() {
             options += &format!(" --radius x{}", self.radius_scale);
         }
@@ -77,7 +79,7 @@ impl fmt::Display for Configuration {
         write!(
             f,
             "α {}, {} photons, radius × {}",
-            short(self.alpha.get()),
+            share(self.alpha),
             count(self.photons.get().into()),
             scale(self.radius_scale.get())
         )?;
@@ -91,10 +93,9 @@ impl fmt::Display for Configuration {
     }
 }
 
-/// Up to three decimals.
-pub(crate) fn short(v: f64) -> String {
-    let text = format!("{v:.3}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+/// α as a person writes it.
+pub(crate) fn share(alpha: Alpha) -> String {
+    if alpha == Alpha::default() { "⅔".to_owned() } else { short(alpha.get()) }
 }
 
 /// A factor as a person writes it.
@@ -198,6 +199,6 @@ mod tests {
         assert_eq!(jobs[0].configurations.iter().filter(|c| **c == centre).count(), 1);
         assert_eq!(centre.to_string(), "α 0.75, 100 k photons, radius × 1");
         let shadow = Configuration { direct_light: DirectLight::ShadowRays, ..centre };
-        assert_eq!(shadow.options(), "--alpha 0.75 --photons 100000 --direct shadow-rays");
+        assert_eq!(shadow.options(), "--alpha 0.7500 --photons 100000 --direct shadow-rays");
     }
 }

@@ -1,24 +1,25 @@
 //! What runs are compared with: an image that someone gives, or a long run of the sweep's own.
 //!
-//! A run of its own sees the same eye samples as what is judged: neither side then has the other's antialiasing error. It shrinks
-//! its radii within some passes, leaves them there (α 0.2, then 1), takes direct light by shadow rays and keeps the mean of the
-//! later passes, whose scatter says how noisy it is. An image that is given has no noise of its own known, and differs by what
-//! few eye samples miss.
+//! A run of its own sees the same eye samples as what is judged: neither side then has the other's antialiasing error. It keeps
+//! a small radius from first to last (α 1), so that all its passes are independent and their scatter says how noisy it is, and
+//! takes direct light by shadow rays. Its radius falls with its time as n^(−1/6), as a run's at α = 2/3 does: its noise and what is
+//! left of its blur stay in proportion. An image that is given has no noise of its own known, and differs by what few eye
+//! samples miss.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use foton_film::{Image, LayerData};
-use foton_integrator::{
-    Alpha, Cancel, Cancelled, Change, DirectLight, LayerKind, Ppm, RadiusScale, Settings,
-};
+use foton_integrator::{Alpha, Cancel, Cancelled, DirectLight, LayerKind, Ppm, RadiusScale, Settings};
 use foton_scene::Scene;
 
 use super::masks::{self, Masks};
 
-/// Passes that shrink radii.
-const SHRINKING: u64 = 48;
-/// Passes at least that are kept: fewer say too little of their own noise.
-const KEPT: u64 = 24;
+/// Passes at least: fewer say too little of their own noise.
+const FEWEST: u64 = 16;
+/// Radius over the centre's first radius at `TIME` seconds of rendering.
+const SCALE: f64 = 0.25;
+const TIME: f64 = 180.0;
 /// Path classes: direct, caustic, indirect.
 pub(crate) const CLASSES: [LayerKind; 3] = [LayerKind::Direct, LayerKind::Caustic, LayerKind::Indirect];
 
@@ -69,22 +70,25 @@ impl Reference {
     pub(crate) fn render(
         scene: &Arc<Scene>,
         base: &Settings,
+        time: Duration,
         is_enough: &mut dyn FnMut() -> bool,
         is_stopped: &dyn Fn() -> Result<(), Cancelled>,
         cancel: &Cancel,
     ) -> Result<Option<Self>, Cancelled> {
-        let scale = RadiusScale::new(0.5 * base.radius_scale.get()).unwrap_or_default();
+        let scale = SCALE * (time.as_secs_f64().max(1e-3) / TIME).powf(-1.0 / 6.0);
+        let scale = scale.min(1.0) * base.radius_scale.get();
         let settings = Settings {
-            alpha: Alpha::new(0.2).unwrap_or_default(),
-            radius_scale: scale,
+            alpha: Alpha::new(1.0).unwrap_or_default(),
+            radius_scale: RadiusScale::new(scale).unwrap_or_default(),
+            // Equal passes: their scatter is that of equals.
+            first_pass: base.photons_per_pass,
             direct_light: DirectLight::ShadowRays,
             layers: true,
             error: false,
-            photons_per_pass: base.first_pass.max(base.photons_per_pass),
             ..base.clone()
         };
-        let mut own = OwnRun::start(scene, settings, cancel)?;
-        while !(is_enough() && own.kept >= KEPT) {
+        let mut own = OwnRun::start(scene, settings, scale / base.radius_scale.get(), cancel)?;
+        while !(is_enough() && own.ppm.passes() >= FEWEST) {
             is_stopped()?;
             own.advance(cancel)?;
         }
@@ -92,87 +96,46 @@ impl Reference {
     }
 }
 
-/// A reference under way.
+/// A reference under way: Σ and Σ² of its passes' luminance.
 struct OwnRun {
     ppm: Ppm,
     sums: Vec<f64>,
     squares: Vec<f64>,
-    colours: Vec<[f64; 3]>,
-    classes: [Vec<f64>; 3],
-    kept: u64,
+    /// Radius over the centre's first.
+    scale: f64,
 }
 
 impl OwnRun {
-    fn start(scene: &Arc<Scene>, settings: Settings, cancel: &Cancel) -> Result<Self, Cancelled> {
+    fn start(scene: &Arc<Scene>, settings: Settings, scale: f64, cancel: &Cancel) -> Result<Self, Cancelled> {
         let ppm = Ppm::start(Arc::clone(scene), settings, &mut |_| (), cancel)?;
-        let pixels = ppm.image().pixels.len();
-        let zeros = || vec![0.0; pixels];
-        Ok(Self {
-            ppm,
-            sums: zeros(),
-            squares: zeros(),
-            colours: vec![[0.0; 3]; pixels],
-            classes: [zeros(), zeros(), zeros()],
-            kept: 0,
-        })
+        let zeros = vec![0.0; ppm.image().pixels.len()];
+        Ok(Self { ppm, sums: zeros.clone(), squares: zeros, scale })
     }
 
     fn advance(&mut self, cancel: &Cancel) -> Result<(), Cancelled> {
-        if self.ppm.passes() == SHRINKING {
-            let one = Alpha::new(1.0).unwrap_or_default();
-            self.ppm.change(Change::Alpha(one));
-        }
-        let before: Option<Vec<Vec<f64>>> = (self.ppm.passes() == SHRINKING).then(|| self.class_sums());
-        if let Some(before) = before {
-            for (class, before) in self.classes.iter_mut().zip(before) {
-                class.iter_mut().zip(before).for_each(|(c, b)| *c = -b);
-            }
-        }
         self.ppm.advance(&mut |_| (), cancel)?;
-        if self.ppm.passes() > SHRINKING {
-            self.kept += 1;
-            let pass = self.ppm.last_pass();
-            for (i, pixel) in pass.pixels.iter().enumerate() {
-                let l = f64::from(pixel.luminance());
-                self.sums[i] += l;
-                self.squares[i] += l * l;
-                for (sum, c) in self.colours[i].iter_mut().zip(pixel.to_array()) {
-                    *sum += f64::from(c);
-                }
-            }
+        for (i, pixel) in self.ppm.last_pass().pixels.iter().enumerate() {
+            let l = f64::from(pixel.luminance());
+            self.sums[i] += l;
+            self.squares[i] += l * l;
         }
         Ok(())
     }
 
-    /// Luminance of each class times the photons emitted so far.
-    fn class_sums(&self) -> Vec<Vec<f64>> {
-        let photons = self.ppm.photons_emitted() as f64;
-        let of = |kind| self.ppm.colour_layer(kind).map(|image| luminance(&image)).unwrap_or_default();
-        CLASSES.into_iter().map(|kind| of(kind).into_iter().map(|l| l * photons).collect()).collect()
-    }
-
-    fn conclude(mut self) -> Option<Reference> {
-        let n = self.kept as f64;
-        let photons = n * f64::from(self.ppm.settings().photons_per_pass.get());
-        let after = self.class_sums();
-        for (class, after) in self.classes.iter_mut().zip(after) {
-            class.iter_mut().zip(after).for_each(|(c, a)| *c = (*c + a) / photons);
-        }
-        let emission = self.ppm.colour_layer(LayerKind::Emission)?;
-        let mut image = emission;
-        for (pixel, sum) in image.pixels.iter_mut().zip(&self.colours) {
-            *pixel += foton_math::Rgb::from_array(sum.map(|s| (s / n) as f32));
-        }
-        let variance = self.sums.iter().zip(&self.squares);
-        let variance = variance.map(|(s, q)| ((q / n - (s / n) * (s / n)) / (n - 1.0)).max(0.0)).collect();
-        let radius = self.ppm.radii().median;
+    fn conclude(self) -> Option<Reference> {
+        let n = self.ppm.passes() as f64;
+        let of = |(s, q): (&f64, &f64)| ((q / n - (s / n) * (s / n)) / (n - 1.0)).max(0.0);
+        let variance = self.sums.iter().zip(&self.squares).map(of).collect();
+        let class = |kind| self.ppm.colour_layer(kind).map(|image| luminance(&image));
+        let [direct, caustic, indirect] = CLASSES.map(class);
+        let classes = direct.zip(caustic).zip(indirect).map(|((d, c), i)| [d, c, i]);
         let origin = format!(
-            "a run of its own of the same eye samples: {SHRINKING} passes that shrink radii (to a median of {radius:.4}), then the \
-             mean of {} at fixed radii, {:.0} M photons; direct light by shadow rays",
-            self.kept,
-            photons / 1e6,
+            "a run of its own of the same eye samples: the mean of {n} passes, {:.1} M photons, at radii fixed at {:.2} of the \
+             centre's first; direct light by shadow rays",
+            self.ppm.photons_emitted() as f64 / 1e6,
+            self.scale,
         );
-        Reference::new(&self.ppm, image, Some(self.classes), Some(variance), origin)
+        Reference::new(&self.ppm, self.ppm.image(), classes, Some(variance), origin)
     }
 }
 

@@ -8,11 +8,12 @@ use foton_film::{Image, Metadata, ToneMap, atomic_write, read_exr, write_exr, wr
 use foton_integrator::Ppm;
 use foton_math::Rgb;
 
-use super::plan::{Job, short};
+use super::plan::Job;
 use super::reference::Reference;
 use super::run::Picture;
 use super::table::{self, Point};
 use super::{SweepError, io_error};
+use crate::plot::short;
 use crate::{Pair, heat, scale_top};
 
 /// What the reference is, in its file's metadata.

@@ -1,6 +1,7 @@
 //! What to take: errors at a common time, and the configuration with the least.
 
-use crate::sweep::plan::{Configuration, short};
+use crate::plot::short;
+use crate::sweep::plan::Configuration;
 use crate::sweep::table::Point;
 
 /// A recommendation.

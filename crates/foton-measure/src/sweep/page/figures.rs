@@ -3,10 +3,11 @@
 use foton_integrator::{Alpha, DirectLight, RadiusRule};
 
 use super::advice::{Curve, common_time, curves};
-use super::colours::{hex, named, ordered};
-use super::plot::{Plot, Series};
-use super::{Report, escape};
-use crate::sweep::plan::{Configuration, count, scale, short};
+
+use super::Report;
+use crate::plot::colours::{hex, named, ordered};
+use crate::plot::{Plot, Series, escape, short};
+use crate::sweep::plan::{Configuration, count, scale, share};
 use crate::sweep::table::Point;
 use crate::viridis;
 
@@ -36,7 +37,7 @@ impl Report<'_> {
         let mut arm = self.arm(&all, |c| Configuration { alpha: centre.alpha, ..*c } == centre);
         arm.sort_by(|a, b| a.configuration.alpha.get().total_cmp(&b.configuration.alpha.get()));
         let series = arm.iter().enumerate().map(|(i, c)| {
-            let name = format!("α {}{}", short(c.configuration.alpha.get()), self.mark(c));
+            let name = format!("α {}{}", share(c.configuration.alpha), self.mark(c));
             Series::new(name, ordered(i), i, percent(&c.points, |p| p.error))
         });
         let title = format!("Error over time, by α ({} photons a pass)", count(centre.photons.get().into()));
@@ -78,7 +79,7 @@ impl Report<'_> {
                 c.configuration.radius_rule != centre.radius_rule,
                 c.configuration.direct_light != centre.direct_light,
             ) {
-                (true, _) if c.configuration.radius_rule == RadiusRule::Global => "global radius",
+                (true, _) if c.configuration.radius_rule == RadiusRule::Global => "global",
                 (true, _) => "local radii",
                 (_, true) => direct_name(&c.configuration),
                 _ => "centre",
@@ -234,7 +235,7 @@ impl Report<'_> {
                 "<text class=\"dim\" x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
                 left - 7.0,
                 y + 0.5 * height + 4.0,
-                short(*alpha)
+                Alpha::new(*alpha).map_or_else(String::new, share)
             );
             for (column, n) in photons.iter().enumerate() {
                 let x = left + column as f64 * width;
@@ -296,7 +297,7 @@ pub(crate) fn three_digits(v: f64) -> String {
 
 fn direct_name(c: &Configuration) -> &'static str {
     match c.direct_light {
-        DirectLight::Photons => "photons alone",
+        DirectLight::Photons => "photons",
         DirectLight::ShadowRays => "shadow rays",
     }
 }

@@ -1,15 +1,14 @@
 //! One page of what a sweep found: self-contained HTML with inline SVG, readable without a network, by day and by night.
 
 pub(crate) mod advice;
-mod colours;
 mod figures;
-mod plot;
 mod tables;
 
 use super::plan::Configuration;
 use super::reference::Reference;
 use super::store::Shown;
 use super::table::Point;
+use crate::plot::{self, escape};
 
 /// Everything that the page says.
 pub(crate) struct Report<'a> {
@@ -34,10 +33,7 @@ p{max-width:62rem}small,.dim,figcaption{color:var(--dim)}\
 .plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,34rem),1fr));gap:1.25rem}\
 figure{margin:0;background:var(--card);border:1px solid var(--line);border-radius:8px;padding:.75rem}\
 figcaption{font-size:.85rem;line-height:1.4;margin-top:.4rem}\
-svg{display:block;width:100%;height:auto}svg text{fill:var(--ink);font:12px system-ui,sans-serif}\
-svg .dim{fill:var(--dim)}svg .title{font-weight:600;font-size:13.5px}\
-svg .grid{stroke:var(--line);stroke-width:1}svg .axis{stroke:var(--dim);stroke-width:1}\
-svg .on-light{fill:#10151a}svg .on-dark{fill:#fff}svg .hole{fill:none;stroke:var(--line)}\
+svg{display:block;width:100%;height:auto}svg .on-light{fill:#10151a}svg .on-dark{fill:#fff}svg .hole{fill:none;stroke:var(--line)}\
 .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(11rem,1fr));gap:1rem}\
 .pictures img{display:block;width:100%;image-rendering:pixelated;border-radius:4px;margin-bottom:4px}\
 table{border-collapse:collapse;font-variant-numeric:tabular-nums}th,td{padding:.25rem .7rem;text-align:right;\
@@ -61,10 +57,11 @@ impl Report<'_> {
         format!(
             "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
              <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\
-             <title>{name}: what accuracy costs</title><style>{STYLE}{}</style></head><body>\n\
+             <title>{name}: what accuracy costs</title><style>{STYLE}{}{}</style></head><body>\n\
              <h1>{name}: what accuracy costs</h1>\n<p class=\"dim\">{}</p>\n{}\n\
              <h2>Error and time</h2><div class=\"plots\">{plots}</div>\n{}\n{}\n{}\n</body></html>\n",
-            colours::style(),
+            plot::STYLE,
+            plot::colours::style(),
             escape(self.identity),
             self.advice(),
             self.images(),
@@ -133,11 +130,6 @@ impl Report<'_> {
             escape(&r.origin),
         )
     }
-}
-
-/// Text for HTML.
-pub(crate) fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Bytes in base 64, as data URIs have them.

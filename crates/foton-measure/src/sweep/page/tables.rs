@@ -2,9 +2,9 @@
 
 use super::Report;
 use super::advice::{common_time, curves};
-use super::escape;
 use super::figures::{is_on_star, three_digits};
-use crate::sweep::plan::short;
+use crate::plot::escape;
+use crate::plot::short;
 
 /// Shares whose times are told.
 const GOALS: [f64; 3] = [0.1, 0.03, 0.01];

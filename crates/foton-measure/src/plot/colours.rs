@@ -19,19 +19,22 @@ pub(crate) fn named(i: usize) -> String {
     format!("var(--c{})", i % NAMED_BY_DAY.len())
 }
 
-/// The variables, for light and for dark pages: the ordered ones leave out that end of the scale that would vanish.
+/// The variables, for light and for dark pages.
 pub(crate) fn style() -> String {
-    let theme = |low: f32, high: f32, named: &[&str]| {
-        let of = |i: usize| low + (high - low) * i as f32 / (ORDERED - 1) as f32;
-        let ordered: String = (0..ORDERED).map(|i| format!("--q{i}:{};", hex(viridis(of(i))))).collect();
-        let named: String = named.iter().enumerate().map(|(i, c)| format!("--c{i}:{c};")).collect();
-        ordered + &named
-    };
-    format!(
-        ":root{{{}}}@media(prefers-color-scheme:dark){{:root{{{}}}}}",
-        theme(0.0, 0.8, &NAMED_BY_DAY),
-        theme(0.3, 1.0, &NAMED_BY_NIGHT)
-    )
+    format!("{}@media(prefers-color-scheme:dark){{{}}}", by_day(), theme(0.3, 1.0, &NAMED_BY_NIGHT))
+}
+
+/// The variables for light pages alone.
+pub(crate) fn by_day() -> String {
+    theme(0.0, 0.8, &NAMED_BY_DAY)
+}
+
+/// The ordered colours leave out that end of the scale that would vanish.
+fn theme(low: f32, high: f32, named: &[&str]) -> String {
+    let of = |i: usize| low + (high - low) * i as f32 / (ORDERED - 1) as f32;
+    let ordered: String = (0..ORDERED).map(|i| format!("--q{i}:{};", hex(viridis(of(i))))).collect();
+    let named: String = named.iter().enumerate().map(|(i, c)| format!("--c{i}:{c};")).collect();
+    format!(":root{{{ordered}{named}}}")
 }
 
 /// As in style sheets.

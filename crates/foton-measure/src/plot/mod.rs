@@ -1,9 +1,8 @@
-//! Curves over two logarithmic axes, as SVG.
+//! Curves over two logarithmic axes, as SVG that takes its colours from the page around it, or stands alone. No other kinds of axes.
+
+pub(crate) mod colours;
 
 use std::fmt::Write;
-
-use super::escape;
-use crate::sweep::plan::short;
 
 const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 400.0;
@@ -11,28 +10,43 @@ const LEFT: f64 = 62.0;
 const TOP: f64 = 34.0;
 const BOTTOM: f64 = 48.0;
 /// The legend's column.
-const RIGHT: f64 = 156.0;
+const RIGHT: f64 = 164.0;
+
+/// How text and lines look; a page sets `--ink`, `--dim` and `--line`.
+pub(crate) const STYLE: &str = "svg text{fill:var(--ink);font:12px system-ui,sans-serif}\
+svg .dim{fill:var(--dim)}svg .title{font-weight:600;font-size:13.5px}\
+svg .grid{stroke:var(--line);stroke-width:1}svg .axis{stroke:var(--dim);stroke-width:1}";
+
+/// Text for markup.
+pub(crate) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// Up to three decimals.
+pub(crate) fn short(v: f64) -> String {
+    let text = format!("{v:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
 
 /// A curve.
-pub(crate) struct Series {
-    pub(crate) name: String,
+pub struct Series {
+    /// In the legend; none where it is empty.
+    pub name: String,
     /// A colour, or a variable of the page's style.
-    pub(crate) colour: String,
-    pub(crate) marker: usize,
-    pub(crate) dashed: bool,
+    pub colour: String,
+    /// Which of seven shapes.
+    pub marker: usize,
+    /// A line without markers.
+    pub dashed: bool,
     /// Dots alone, faint.
-    pub(crate) cloud: bool,
+    pub cloud: bool,
     /// Both above zero.
-    pub(crate) points: Vec<(f64, f64)>,
+    pub points: Vec<(f64, f64)>,
 }
 
 impl Series {
-    pub(crate) fn new(
-        name: impl Into<String>,
-        colour: String,
-        marker: usize,
-        points: Vec<(f64, f64)>,
-    ) -> Self {
+    /// A line with markers; what is not above zero is left out.
+    pub fn new(name: impl Into<String>, colour: String, marker: usize, points: Vec<(f64, f64)>) -> Self {
         let points =
             points.into_iter().filter(|(x, y)| *x > 0.0 && *y > 0.0 && x.is_finite() && y.is_finite());
         Self { name: name.into(), colour, marker, dashed: false, cloud: false, points: points.collect() }
@@ -40,12 +54,15 @@ impl Series {
 }
 
 /// A plot with a legend to the right.
-pub(crate) struct Plot<'a> {
-    pub(crate) title: &'a str,
+pub struct Plot<'a> {
+    /// Above the plot.
+    pub title: &'a str,
     /// With its unit.
-    pub(crate) x: &'a str,
-    pub(crate) y: &'a str,
-    pub(crate) series: Vec<Series>,
+    pub x: &'a str,
+    /// With its unit.
+    pub y: &'a str,
+    /// In the legend from above.
+    pub series: Vec<Series>,
 }
 
 /// One axis: logarithms from `low` to `high` onto `from` to `to`.
@@ -83,7 +100,8 @@ impl Scale {
 
 impl Plot<'_> {
     /// The plot as SVG; nothing where there is no point.
-    pub(crate) fn svg(&self) -> Option<String> {
+    #[must_use]
+    pub fn svg(&self) -> Option<String> {
         let points = || self.series.iter().flat_map(|s| &s.points);
         points().next()?;
         let x = Scale::new(points().map(|p| p.0), LEFT, WIDTH - RIGHT);
@@ -100,6 +118,18 @@ impl Plot<'_> {
         self.legend(&mut svg);
         svg += "</svg>";
         Some(svg)
+    }
+
+    /// The plot as a file of its own: dark on white, colours of the day.
+    #[must_use]
+    pub fn file(&self) -> Option<String> {
+        let style = format!(
+            "<style>:root{{--ink:#1b1f24;--dim:#59636e;--line:#d1d9e0}}{STYLE}{}</style><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>",
+            colours::by_day()
+        );
+        let svg = self.svg()?.replacen("<svg ", "<svg xmlns=\"http://www.w3.org/2000/svg\" ", 1);
+        let head = svg.find('>')? + 1;
+        Some(format!("{}{style}{}\n", &svg[..head], &svg[head..]))
     }
 
     fn axes(&self, x: &Scale, y: &Scale, svg: &mut String) {
@@ -209,6 +239,12 @@ fn marker(kind: usize, x: f64, y: f64, colour: &str) -> String {
         _ => "m-4.2-3.1h8.4l-2 6.2h-4.4z",
     };
     format!("<path d=\"M{x:.1} {y:.1}{path}\" style=\"fill:{colour}\"/>")
+}
+
+/// The `i`-th of six colours that any kind of colour vision tells apart.
+#[must_use]
+pub fn colour(i: usize) -> String {
+    colours::named(i)
 }
 
 /// A tick's value in as few characters as it needs.
