@@ -89,6 +89,7 @@ impl Scale {
         let decades = (self.high / self.low).log10();
         let steps: &[f64] = match decades {
             d if d < 0.7 => &[1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0],
+            d if d < 1.5 => &[1.0, 1.5, 2.0, 3.0, 5.0, 7.0],
             d if d < 3.5 => &[1.0, 2.0, 5.0],
             _ => &[1.0],
         };

@@ -164,10 +164,15 @@ impl Sweep {
         tell: &mut dyn FnMut(&Event),
     ) -> Result<Outcome, SweepError> {
         let begin = Instant::now();
+        let eye = Ppm::start(Arc::clone(&self.scene), self.centre.clone(), &mut |_| (), cancel)?;
+        // Before the folder is taken.
+        if let Some((image, _)) = &self.given {
+            crate::Pair::new(&eye.image(), image)?;
+        }
         let store = Store::open(&self.folder, &self.identity())?;
         let centre = Configuration::of(&self.centre);
         let jobs = plan::jobs(&centre);
-        let reference = self.reference(&store, begin, is_stopped, cancel, tell)?;
+        let reference = self.reference(&eye, &store, begin, is_stopped, cancel, tell)?;
         tell(&Event::Reference {
             origin: reference.origin.clone(),
             noise: reference.noise(),
@@ -280,19 +285,18 @@ impl Sweep {
     /// The reference: that of the folder, the one given, or a new run.
     fn reference(
         &self,
+        eye: &Ppm,
         store: &Store,
         begin: Instant,
         is_stopped: &dyn Fn() -> bool,
         cancel: &Cancel,
         tell: &mut dyn FnMut(&Event),
     ) -> Result<Reference, SweepError> {
-        let eye = Ppm::start(Arc::clone(&self.scene), self.centre.clone(), &mut |_| (), cancel)?;
         if let Some((image, origin)) = &self.given {
-            crate::Pair::new(&eye.image(), image)?;
-            let reference = Reference::new(&eye, image.clone(), None, None, origin.clone());
+            let reference = Reference::new(eye, image.clone(), None, None, origin.clone());
             return reference.ok_or(SweepError::Dark);
         }
-        if let Some(found) = store.reference(&eye)? {
+        if let Some(found) = store.reference(eye)? {
             return Ok(found);
         }
         let time = self.budget.mul_f64(REFERENCE_SHARE);
@@ -305,7 +309,7 @@ impl Sweep {
             Reference::render(&self.scene, &self.centre, time, &mut is_enough, &is_cancelled, cancel)?;
         let reference = reference.ok_or(SweepError::Dark)?;
         store.keep_reference(&reference)?;
-        store.reference(&eye)?.ok_or(SweepError::Dark)
+        store.reference(eye)?.ok_or(SweepError::Dark)
     }
 
     /// The share of the time that is gone.
