@@ -1,12 +1,14 @@
-//! How fast noise and bias fall with passes, where the truth is known: a floor below a point light, a shadow's edge across it.
+//! How fast noise and bias fall with passes, where the truth is known: a floor below a spot light, a shadow's edge across it.
 //!
-//! Shadow rays to a point are exact, so at the same eye samples they are the truth. What hides the light is clipped away from the
+//! Shadow rays to a spot are exact, so at the same eye samples they are the truth. What hides the light is clipped away from the
 //! camera.
 
 use std::num::NonZeroU32;
 
 use foton_integrator::{Alpha, DirectLight, Settings};
-use foton_math::glam::DVec3;
+use foton_math::Rgb;
+use foton_math::glam::{DAffine3, DVec3};
+use foton_scene::description::{EmitterDescription, EmitterKind};
 
 use crate::{Sketch, grey};
 
@@ -14,7 +16,10 @@ use crate::{Sketch, grey};
 const SIDE: usize = 32;
 
 /// First radius.
-const RADIUS: f64 = 0.3;
+const RADIUS: f64 = 0.4;
+
+/// Smooth pixels are within this distance of the light's foot, where light falls off to all sides and blur has one sign.
+const SMOOTH: f64 = 0.3;
 
 /// World units that a pixel covers.
 const PIXEL: f64 = 1.865 / SIDE as f64;
@@ -24,11 +29,11 @@ const PIXEL: f64 = 1.865 / SIDE as f64;
 pub struct Parts {
     /// Passes.
     pub passes: u64,
-    /// What differs between seeds, away from the edge.
+    /// What differs between seeds, where light is smooth.
     pub noise: f64,
-    /// What does not, away from the edge.
+    /// What does not: its mean, since it has one sign there.
     pub bias: f64,
-    /// Both, away from the edge.
+    /// Both, where light is smooth.
     pub smooth: f64,
     /// Bias at the edge.
     pub edge_bias: f64,
@@ -42,14 +47,18 @@ fn scene() -> Sketch {
         .camera(DVec3::new(0.3, 2.0, 0.001), DVec3::new(0.3, 0.0, 0.0), 50.0, SIDE as u32)
         .rectangle(DVec3::ZERO, DVec3::new(0.0, 0.0, 4.0), DVec3::new(4.0, 0.0, 0.0), grey(0.8), None)
         .rectangle(
-            DVec3::new(0.525, 0.5, 0.0),
+            DVec3::new(0.55, 0.5, 0.0),
             DVec3::new(0.0, 0.0, 0.8),
-            DVec3::new(0.3, 0.0, 0.0),
+            DVec3::new(0.25, 0.0, 0.0),
             grey(0.0),
             None,
         )
-        .point(DVec3::new(0.0, 0.8, 0.0), 3.0)
         .max_depth(2);
+    // Straight down; no photon of a cone of 60° misses what the camera sees by much.
+    let to_world = DAffine3::from_cols(DVec3::X, DVec3::Z, -DVec3::Y, DVec3::new(0.0, 0.8, 0.0));
+    let kind =
+        EmitterKind::Spot { to_world, intensity: Rgb::WHITE, cutoff_degrees: 60.0, beam_degrees: 60.0 };
+    sketch.0.emitters.push(EmitterDescription { name: "spot".into(), kind });
     sketch.0.sensors[0].near_clip = Some(1.7);
     sketch
 }
@@ -116,7 +125,7 @@ pub fn measure(alpha: f64, photons: u32, seeds: u64, checkpoints: &[u64]) -> Vec
         Parts {
             passes,
             noise: variance(&smooth).sqrt(),
-            bias: bias2(&smooth).max(0.0).sqrt(),
+            bias: (over(&smooth, &|e, _| e / k) * mean).abs(),
             smooth: total(&smooth),
             edge_bias: bias2(&edge).max(0.0).sqrt(),
             edge: total(&edge),
@@ -125,7 +134,7 @@ pub fn measure(alpha: f64, photons: u32, seeds: u64, checkpoints: &[u64]) -> Vec
     checkpoints.iter().zip(&sums).map(|(&passes, sums)| parts(passes, sums)).collect()
 }
 
-/// Lit pixels further than two first radii from any shadow, and all within one radius of both light and shadow.
+/// Pixels around the light's foot, and all within half a first radius of both light and shadow.
 fn masks(truth: &[f64]) -> (Vec<bool>, Vec<bool>) {
     let near = |pixel: usize, reach: f64, is: &dyn Fn(f64) -> bool| {
         let (x, y) = ((pixel % SIDE) as f64, (pixel / SIDE) as f64);
@@ -137,8 +146,12 @@ fn masks(truth: &[f64]) -> (Vec<bool>, Vec<bool>) {
     let dark = |t: f64| t == 0.0;
     let lit = |t: f64| t > 0.0;
     let pixels = 0..truth.len();
-    let smooth = pixels.clone().map(|p| lit(truth[p]) && !near(p, 2.0 * RADIUS, &dark)).collect();
-    (smooth, pixels.map(|p| near(p, RADIUS, &dark) && near(p, RADIUS, &lit)).collect())
+    // The foot is where it is brightest.
+    let brightest = truth.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(p, _)| p);
+    let at = |p: usize| ((p % SIDE) as f64, (p / SIDE) as f64);
+    let off = |p: usize| (at(p).0 - at(brightest).0).hypot(at(p).1 - at(brightest).1) * PIXEL;
+    let smooth = pixels.clone().map(|p| off(p) <= SMOOTH).collect();
+    (smooth, pixels.map(|p| near(p, 0.5 * RADIUS, &dark) && near(p, 0.5 * RADIUS, &lit)).collect())
 }
 
 /// The slope of log y over log x by least squares.

@@ -24,6 +24,7 @@ pub mod edit;
 pub mod engine;
 mod interrupt;
 mod metadata;
+mod preset;
 mod session;
 pub mod snapshot;
 mod stop;
@@ -35,5 +36,6 @@ pub use foton_integrator::{
 };
 pub use interrupt::Interrupt;
 pub use metadata::SceneIdentity;
+pub use preset::Preset;
 pub use session::{Progress, Session, StartError, StopCause};
 pub use stop::StopRule;

@@ -9,6 +9,7 @@ use std::time::Duration;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use foton_integrator::{Alpha, DirectLight, LayerKind, RadiusRule, RadiusScale, Settings};
+use foton_session::Preset;
 use foton_session::snapshot::Format;
 
 pub(crate) use measure::Measure;
@@ -106,6 +107,10 @@ pub(crate) struct Render {
     /// samples as they are. `off` leaves the estimate out, which saves a little time
     #[arg(long, value_name = "SHARE|off", value_parser = error_wish)]
     pub(crate) error: Option<ErrorWish>,
+    /// Photons and first radius for a purpose: something to look at soon, the defaults, or minutes of rendering. What is set by
+    /// itself comes before it, and it comes before what the scene says
+    #[arg(long, value_name = "NAME", value_enum)]
+    pub(crate) preset: Option<PresetName>,
     #[arg(long, value_name = "N", help = with_default(
         "Photons emitted in a pass: fewer answer sooner, more cost less a photon [as the scene says, else ",
         Settings::default().photons_per_pass,
@@ -202,12 +207,37 @@ pub(crate) enum Radius {
 }
 
 impl Radius {
-    /// What settings say of it.
-    pub(crate) fn split(wish: Option<Self>, suggested: Option<f64>) -> (Option<f64>, RadiusScale) {
+    /// What settings say of it; without one, what the scene suggests, times `scale`.
+    pub(crate) fn split(
+        wish: Option<Self>,
+        suggested: Option<f64>,
+        scale: RadiusScale,
+    ) -> (Option<f64>, RadiusScale) {
         match wish {
-            None => (suggested, RadiusScale::default()),
+            None => (suggested, scale),
             Some(Self::World(radius)) => (Some(radius), RadiusScale::default()),
             Some(Self::Footprint(scale)) => (None, scale),
+        }
+    }
+}
+
+/// `--preset`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum PresetName {
+    /// Large discs, small passes: a smooth picture within seconds
+    Preview,
+    /// The defaults
+    Balanced,
+    /// Small discs, large passes: sharp after minutes
+    Final,
+}
+
+impl From<PresetName> for Preset {
+    fn from(name: PresetName) -> Self {
+        match name {
+            PresetName::Preview => Self::Preview,
+            PresetName::Balanced => Self::Balanced,
+            PresetName::Final => Self::Final,
         }
     }
 }

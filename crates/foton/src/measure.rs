@@ -25,7 +25,7 @@ pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
     let defaults = Settings::default();
     let suggested_alpha = suggested.alpha.and_then(Alpha::new);
     let suggested_photons = suggested.photons_per_pass.and_then(NonZeroU32::new);
-    let (radius, radius_scale) = Radius::split(args.radius, suggested.radius);
+    let (radius, radius_scale) = Radius::split(args.radius, suggested.radius, defaults.radius_scale);
     let centre = Settings {
         alpha: args.alpha.or(suggested_alpha).unwrap_or(defaults.alpha),
         photons_per_pass: args.photons.or(suggested_photons).unwrap_or(defaults.photons_per_pass),

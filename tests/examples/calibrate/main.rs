@@ -44,16 +44,16 @@ fn main() {
     let mut named: Vec<&str> = arguments.iter().map(String::as_str).filter(|a| !a.contains('=')).collect();
     match named.first() {
         Some(&"stops") => stops::print(&named.split_off(1), 1, passes),
-        Some(&"slopes") => print_slopes(seeds.max(16)),
+        Some(&"slopes") => print_slopes(seeds.max(8)),
         _ => coverage(&named, seeds, passes),
     }
 }
 
 fn print_slopes(seeds: u64) {
-    let checkpoints: Vec<u64> = (2..11).map(|power| 1 << power).collect();
+    let checkpoints: Vec<u64> = (2..10).map(|power| 1 << power).collect();
     println!("| α | smooth: noise | bias | both | edge: bias | both |\n|---|---|---|---|---|---|");
-    for alpha in [0.5, 0.6, 2.0 / 3.0, 0.8] {
-        let parts = slopes::measure(alpha, 2000, seeds, &checkpoints);
+    for alpha in [2.0 / 3.0, 0.5] {
+        let parts = slopes::measure(alpha, 16_000, seeds, &checkpoints);
         let cell = |f: &dyn Fn(&slopes::Parts) -> f64, theory: f64| {
             format!("{:.3} ({theory:.3})", slopes::slope_of(&parts, f))
         };

@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use foton_film::read_exr;
 use serde_json::Value;
 
 use crate::{Folder, err, out};
@@ -103,4 +104,25 @@ fn what_cannot_be_swept_is_refused_in_a_line() {
         let (got, text) = refused(&args);
         assert!(got == code && text.contains(said), "{args:?}: {got} {text}");
     }
+}
+
+#[test]
+fn presets_set_photons_and_radii_and_options_come_before_them() {
+    let folder = Folder::new("presets");
+    folder.text("room.xml", SCENE);
+    let settings = |args: &[&str]| {
+        let output = folder.foton("render", &[&["room.xml", "-o", "a.exr", "--passes", "1"], args].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        let (_, metadata) = read_exr(&folder.path("a.exr")).unwrap();
+        metadata.get("foton:settings").unwrap().to_owned()
+    };
+    let (preview, balanced) = (settings(&["--preset", "preview"]), settings(&["--preset", "balanced"]));
+    assert!(preview.contains(" photons=65536 ") && preview.contains(" radius=footprint*2 "), "{preview}");
+    assert_eq!(balanced, settings(&[]));
+    let own =
+        settings(&["--preset", "preview", "--photons", "1000", "--radius", "x3", "--radius-rule", "global"]);
+    assert!(
+        own.contains(" photons=1000 ") && own.contains(" radius=footprint*3 radius_rule=global "),
+        "{own}"
+    );
 }
