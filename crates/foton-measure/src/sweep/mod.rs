@@ -37,7 +37,7 @@ use table::Point;
 /// Share of the time that a reference of its own takes.
 const REFERENCE_SHARE: f64 = 0.3;
 /// The first job, which has the star's arms, gets as much time as this many others.
-const FIRST_WEIGHT: f64 = 4.0;
+const FIRST_WEIGHT: f64 = 3.0;
 /// A job is left out if the centre has emitted less than this many of its passes in the time there was.
 const FEWEST_PASSES: u64 = 4;
 

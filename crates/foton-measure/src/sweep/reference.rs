@@ -6,6 +6,7 @@
 //! left of its blur stay in proportion. An image that is given has no noise of its own known, and differs by what few eye
 //! samples miss.
 
+use std::num::NonZeroU32;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -17,6 +18,8 @@ use super::masks::{self, Masks};
 
 /// Passes at least: fewer say too little of their own noise.
 const FEWEST: u64 = 16;
+/// Photons a pass at most.
+const MOST_PHOTONS: NonZeroU32 = NonZeroU32::new(1 << 16).expect("above 0");
 /// Radius over the centre's first radius at `TIME` seconds of rendering.
 const SCALE: f64 = 0.25;
 const TIME: f64 = 180.0;
@@ -80,8 +83,9 @@ impl Reference {
         let settings = Settings {
             alpha: Alpha::new(1.0).unwrap_or_default(),
             radius_scale: RadiusScale::new(scale).unwrap_or_default(),
-            // Equal passes: their scatter is that of equals.
-            first_pass: base.photons_per_pass,
+            // Equal passes, whose scatter is that of equals; many, since each has one shadow ray a hit point.
+            photons_per_pass: base.photons_per_pass.min(MOST_PHOTONS),
+            first_pass: base.photons_per_pass.min(MOST_PHOTONS),
             direct_light: DirectLight::ShadowRays,
             layers: true,
             error: false,

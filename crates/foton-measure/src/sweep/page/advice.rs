@@ -62,18 +62,23 @@ pub(crate) fn curves(points: &[Point]) -> Vec<Curve<'_>> {
 pub(crate) fn common_time(curves: &[Curve<'_>]) -> Option<f64> {
     let mut last: Vec<f64> = curves.iter().map(Curve::last).collect();
     last.sort_by(f64::total_cmp);
-    let reached = *last.get(last.len() / 4)?;
+    last.get(last.len() / 4).and_then(|reached| round(*reached))
+}
+
+/// The next round number below.
+fn round(reached: f64) -> Option<f64> {
     let steps = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0];
     let power = 10f64.powf(reached.log10().floor());
     steps.into_iter().rev().map(|step| step * power).find(|time| *time <= reached)
 }
 
-/// The configuration with the least error at the common time.
+/// The configuration with the least error at the round time that the centre reaches; of those that ran as long.
 ///
 /// The centre's own is beside it, and whether the difference is more than what seeds scatter.
 pub(crate) fn recommend(name: &str, centre: &Configuration, points: &[Point]) -> Option<Advice> {
     let curves = curves(points);
-    let time = common_time(&curves)?;
+    let central = curves.iter().find(|c| c.configuration == *centre)?;
+    let time = round(central.last())?;
     let there = curves.iter().filter_map(|c| Some((c, c.at(time)?)));
     let (best, (error, deviation)) = there.min_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
     let percent = |share: f64| short((share * 1e4).round() / 100.0);
@@ -84,8 +89,7 @@ pub(crate) fn recommend(name: &str, centre: &Configuration, points: &[Point]) ->
         percent(error),
         percent(deviation)
     );
-    let central = curves.iter().find(|c| c.configuration == *centre).and_then(|c| c.at(time));
-    if let Some((own, own_deviation)) = central.filter(|_| best.configuration != *centre) {
+    if let Some((own, own_deviation)) = central.at(time).filter(|_| best.configuration != *centre) {
         sentence += &format!(" ({} ± {} % at the centre", percent(own), percent(own_deviation));
         if own - error < deviation.hypot(own_deviation) {
             sentence += ", no clear difference";
