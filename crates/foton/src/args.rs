@@ -107,8 +107,8 @@ pub(crate) struct Render {
     /// samples as they are. `off` leaves the estimate out, which saves a little time
     #[arg(long, value_name = "SHARE|off", value_parser = error_wish)]
     pub(crate) error: Option<ErrorWish>,
-    /// Photons and first radius for a purpose: something to look at soon, the defaults, or minutes of rendering. What is set by
-    /// itself comes before it, and it comes before what the scene says
+    /// Settings for a purpose: something to look at soon, the defaults, or minutes of rendering. What is set by itself comes
+    /// before it, and it comes before what the scene says
     #[arg(long, value_name = "NAME", value_enum)]
     pub(crate) preset: Option<PresetName>,
     #[arg(long, value_name = "N", help = with_default(
@@ -224,11 +224,11 @@ impl Radius {
 /// `--preset`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum PresetName {
-    /// Large discs, small passes: a smooth picture within seconds
+    /// Small passes: the next picture comes sooner
     Preview,
     /// The defaults
     Balanced,
-    /// Small discs, large passes: sharp after minutes
+    /// A smaller α: edges are sharper after minutes
     Final,
 }
 

@@ -107,7 +107,7 @@ fn what_cannot_be_swept_is_refused_in_a_line() {
 }
 
 #[test]
-fn presets_set_photons_and_radii_and_options_come_before_them() {
+fn presets_set_photons_and_alpha_and_options_come_before_them() {
     let folder = Folder::new("presets");
     folder.text("room.xml", SCENE);
     let settings = |args: &[&str]| {
@@ -117,7 +117,10 @@ fn presets_set_photons_and_radii_and_options_come_before_them() {
         metadata.get("foton:settings").unwrap().to_owned()
     };
     let (preview, balanced) = (settings(&["--preset", "preview"]), settings(&["--preset", "balanced"]));
-    assert!(preview.contains(" photons=65536 ") && preview.contains(" radius=footprint*2 "), "{preview}");
+    assert!(
+        preview.contains(" photons=65536 ") && settings(&["--preset", "final"]).contains(" alpha=0.6 "),
+        "{preview}"
+    );
     assert_eq!(balanced, settings(&[]));
     let own =
         settings(&["--preset", "preview", "--photons", "1000", "--radius", "x3", "--radius-rule", "global"]);
