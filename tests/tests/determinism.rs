@@ -4,7 +4,9 @@ use std::num::NonZeroU32;
 use std::sync::Arc;
 
 use foton_film::Image;
-use foton_integrator::{Alpha, Cancel, Change, DirectLight, LayerKind, Ppm, Settings};
+use foton_integrator::{
+    Alpha, Cancel, Change, DirectLight, LayerKind, Ppm, RadiusRule, RadiusScale, Settings, Variants,
+};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{Geometry, Mesh};
@@ -164,4 +166,52 @@ fn power_of_two_multiples_of_a_scene_give_the_same_bits() {
     let one = render(1.0);
     assert_eq!(one, render(2f64.powi(-14)));
     assert_eq!(one, render(2f64.powi(20)));
+}
+
+/// Sharing photons must not change what a variant is: later passes too, when discs and with them marked cells have shrunk apart.
+#[test]
+fn variants_over_shared_photons_have_the_bits_of_runs_of_their_own() {
+    let photons = |n| NonZeroU32::new(n).expect("above 0");
+    let base = Settings {
+        photons_per_pass: photons(12_000),
+        first_pass: photons(4_000),
+        samples_per_pixel: NonZeroU32::MIN,
+        ..settings(DirectLight::Photons)
+    };
+    let alpha = |a| Settings { alpha: Alpha::new(a).expect("in range"), ..base.clone() };
+    let radius = |s| Settings { radius_scale: RadiusScale::new(s).expect("above 0"), ..base.clone() };
+    let variants = [
+        base.clone(),
+        alpha(0.3),
+        alpha(1.0),
+        radius(0.25),
+        radius(4.0),
+        Settings { direct_light: DirectLight::ShadowRays, ..base.clone() },
+        Settings { radius_rule: RadiusRule::Global, layers: false, error: true, ..base.clone() },
+    ];
+    let (scene, cancel) = (scene().build().expect("a sound scene"), Cancel::default());
+    let together = |photons| {
+        let started = Variants::start(&scene, &variants, photons, &mut |_| (), &cancel);
+        let mut together = started.expect("not cancelled").expect("they share their photons");
+        for _ in 0..6 {
+            together.advance(&mut |_| (), &cancel).expect("not cancelled");
+        }
+        together
+    };
+    let shared = together(base.seed);
+    for (i, settings) in variants.iter().enumerate() {
+        let mut alone = Ppm::start(Arc::clone(&scene), settings.clone(), &mut |_| (), &cancel).expect("runs");
+        for _ in 0..6 {
+            alone.advance(&mut |_| (), &cancel).expect("not cancelled");
+        }
+        let run = &shared.runs()[i];
+        assert_eq!(hash(&run.image()), hash(&alone.image()), "variant {i}");
+        assert_eq!(run.layer(LayerKind::Radius), alone.layer(LayerKind::Radius), "variant {i}");
+        assert_eq!((run.ledger(), run.error()), (alone.ledger(), alone.error()), "variant {i}");
+    }
+    let other = together(base.seed + 1);
+    assert_ne!(hash(&other.runs()[0].image()), hash(&shared.runs()[0].image()), "photons of their own");
+    let other_depth = Settings { max_depth: Some(3), ..base.clone() };
+    let refused = Variants::start(&scene, &[base.clone(), other_depth], 0, &mut |_| (), &cancel);
+    assert!(refused.expect("not cancelled").is_none(), "other photons");
 }

@@ -6,7 +6,7 @@ use foton_film::Image;
 use foton_integrator::{Alpha, DirectLight, Ppm, Settings};
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
-use foton_tests::{Sketch, grey};
+use foton_tests::{Sketch, grey, slopes};
 
 fn settings(photons: u32, seed: u64) -> Settings {
     let photons_per_pass = NonZeroU32::new(photons).expect("above 0");
@@ -138,4 +138,16 @@ fn the_error_costs_no_bit_and_depends_on_no_thread() {
     };
     assert_eq!(threads(1), threads(3));
     assert_eq!(threads(1), with.error());
+}
+
+/// Over two decades of passes noise falls with n^(−1/3) at α = 2/3, blur across an edge with n^(−1/12) alone `[KD13]`. The blur of
+/// smooth light takes more photons to see: `cargo xtask calibrate slopes`.
+#[test]
+fn noise_and_blur_at_edges_fall_with_the_slopes_of_theory() {
+    let checkpoints: Vec<u64> = (2..10).map(|power| 1 << power).collect();
+    let parts = slopes::measure(2.0 / 3.0, 1000, 6, &checkpoints);
+    let noise = slopes::slope_of(&parts, |p| p.noise);
+    assert!((noise + 1.0 / 3.0).abs() < 0.05, "noise: {noise}, {parts:?}");
+    let edge = slopes::slope_of(&parts, |p| p.edge_bias);
+    assert!((edge + 1.0 / 12.0).abs() < 0.03, "edge: {edge}, {parts:?}");
 }

@@ -17,7 +17,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("foton-integrator", &["foton-math", "foton-scene", "foton-film"]),
     ("foton-session", &["foton-math", "foton-scene", "foton-integrator", "foton-film"]),
     ("foton-preview", &["foton-math", "foton-film", "foton-session"]),
-    ("foton-measure", &["foton-math", "foton-film", "foton-session", "foton-format"]),
+    ("foton-measure", &["foton-math", "foton-scene", "foton-film", "foton-integrator"]),
     (
         "foton",
         &[

@@ -14,7 +14,7 @@ use std::f32::consts::FRAC_1_PI;
 use crate::cancel::{Cancel, Cancelled};
 use crate::highlights::Glossy;
 use crate::hit_point::{Gloss, HitPoint};
-use crate::radius::{RadiusRule, slab2};
+use crate::radius::{FirstRadius, slab2};
 use crate::sampling::PixelSamples;
 use crate::settings::Settings;
 
@@ -119,7 +119,7 @@ impl EyePass<'_> {
     /// Follows all samples of some pixels.
     pub(crate) fn follow(&self, pixels: impl Iterator<Item = u32>) -> EyePaths {
         let mut paths = EyePaths::default();
-        let radius = RadiusRule::new(self.scene, self.settings.radius);
+        let radius = FirstRadius::new(self.scene, self.settings);
         let samples = self.settings.samples_per_pixel.get();
         let mut branches = Vec::new();
         for pixel in pixels {
@@ -163,7 +163,7 @@ impl EyePass<'_> {
 /// One eye sample on its way.
 struct Walk<'a, 'b> {
     pass: &'a EyePass<'b>,
-    radius: RadiusRule,
+    radius: FirstRadius,
     stream: Stream,
     /// Stratified over the pixel's samples, for the first rough lobe that is followed.
     facet: Option<Vec2>,

@@ -47,6 +47,8 @@ pub(crate) struct Tally {
 #[derive(Clone, Copy)]
 pub(crate) struct Rule {
     pub(crate) alpha: Alpha,
+    /// What all r² are multiplied by, where they shrink together.
+    pub(crate) common: Option<f64>,
     /// r² never falls below.
     pub(crate) smallest2: f64,
     pub(crate) arch: Arch,
@@ -352,7 +354,11 @@ fn conclude<const LAYERS: usize>(
             *out = Rgb::new(flux[0][l], flux[1][l], flux[2][l]) * per_area;
         }
         let count = found.count[l];
-        tally.floored += u64::from(statistics[l].refine(u64::from(count), rule.alpha, rule.smallest2));
+        let floored = match rule.common {
+            None => statistics[l].refine(u64::from(count), rule.alpha, rule.smallest2),
+            Some(rho) => statistics[l].shrink(u64::from(count), rho, rule.smallest2),
+        };
+        tally.floored += u64::from(floored);
         tally.accepted += u64::from(count);
         tally.unknown += u64::from(statistics[l].is_unknown());
         tally.radius2 += statistics[l].radius2();

@@ -29,6 +29,7 @@ mod refine;
 mod sampling;
 mod settings;
 mod state;
+mod variants;
 
 pub use cancel::{Cancel, Cancelled};
 pub use error::{ErrorEstimate, TileError};
@@ -41,5 +42,6 @@ pub use memory::MemoryEstimate;
 pub use photon::PathClass;
 pub use ppm::{PassReport, Ppm, Stage, Start};
 pub use refine::Statistics;
-pub use settings::{Alpha, Change, DirectLight, Settings};
+pub use settings::{Alpha, Change, DirectLight, RadiusRule, RadiusScale, Settings};
 pub use state::StateError;
+pub use variants::{Step, Variants};

@@ -20,7 +20,7 @@ use crate::light_use::LightUse;
 use crate::photon::{PathClass, Photon};
 use crate::photon_map::PhotonMap;
 use crate::photon_pass::{Chunk, PhotonPass};
-use crate::radius::RadiusRule;
+use crate::radius::FirstRadius;
 use crate::refine::Statistics;
 use crate::settings::{Change, DirectLight, Settings};
 
@@ -200,13 +200,24 @@ impl Ppm {
         let shot = self.photon_pass(photons).shoot(&mut chunks, cancel);
         self.chunks = chunks;
         shot?;
+        self.take_photons(photons, watch, cancel)
+    }
+
+    /// What a pass does once its photons lie in `chunks`.
+    pub(crate) fn take_photons(
+        &mut self,
+        photons: u64,
+        watch: &mut dyn FnMut(Stage),
+        cancel: &Cancel,
+    ) -> Result<PassReport, Cancelled> {
         watch(Stage::Sort);
         self.map.build(&self.chunks, self.grid.touched());
         cancel.check()?;
         watch(Stage::Gather);
         let rule = Rule {
             alpha: self.settings.alpha,
-            smallest2: RadiusRule::new(&self.scene, self.settings.radius).smallest2(),
+            common: self.settings.radius_rule.common(self.settings.alpha, self.photons_emitted, photons),
+            smallest2: FirstRadius::new(&self.scene, &self.settings).smallest2(),
             arch: self.arch,
         };
         let tally = self.light.gather(&mut self.hit_points, &self.map, &self.grid, rule, self.error.as_mut());
@@ -237,7 +248,7 @@ impl Ppm {
         Ok(self.report(photons, rays, &tally))
     }
 
-    fn photon_pass(&self, photons: u64) -> PhotonPass<'_> {
+    pub(crate) fn photon_pass(&self, photons: u64) -> PhotonPass<'_> {
         PhotonPass {
             scene: &self.scene,
             grid: &self.grid,
@@ -459,6 +470,10 @@ impl Ppm {
 
     pub(crate) const fn light(&self) -> &Light {
         &self.light
+    }
+
+    pub(crate) fn chunks_and_grid(&mut self) -> (&mut Vec<Chunk>, &Grid) {
+        (&mut self.chunks, &self.grid)
     }
 
     pub(crate) const fn map(&self) -> &PhotonMap {

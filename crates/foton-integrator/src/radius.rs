@@ -8,6 +8,8 @@ use std::f32::consts::PI;
 
 use foton_scene::{Scene, Surface};
 
+use crate::settings::Settings;
+
 /// c: a disc of four footprints' radius holds some 16 footprints.
 const FOOTPRINTS: f32 = 4.0;
 
@@ -19,18 +21,23 @@ const SMALLEST_COSINE: f32 = 0.05;
 
 /// The rule, for one scene and setting. Lengths in scene units.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct RadiusRule {
+pub(crate) struct FirstRadius {
     fixed: Option<f32>,
+    /// Factor on what the rule gives.
+    scale: f32,
     largest: f32,
     smallest: f32,
 }
 
-impl RadiusRule {
-    pub(crate) fn new(scene: &Scene, radius: Option<f64>) -> Self {
+impl FirstRadius {
+    pub(crate) fn new(scene: &Scene, settings: &Settings) -> Self {
         let largest_coordinate = scene.bounds().min.abs().max(scene.bounds().max.abs()).max_element();
         Self {
             // A disc beyond the whole scene finds what one of its size finds, and its square must stay finite.
-            fixed: radius.map(|r| scene.normalisation().length(r).min(2.0 * scene.bounds().radius())),
+            fixed: settings
+                .radius
+                .map(|r| scene.normalisation().length(r).min(2.0 * scene.bounds().radius())),
+            scale: settings.radius_scale.get() as f32,
             largest: LARGEST_SHARE * scene.bounds().radius(),
             smallest: smallest_radius(largest_coordinate),
         }
@@ -43,7 +50,7 @@ impl RadiusRule {
             let area = distance * distance * solid_angle / cosine.max(SMALLEST_COSINE);
             (FOOTPRINTS * (area / PI).sqrt()).min(self.largest)
         });
-        let radius = radius.max(self.smallest);
+        let radius = (radius * self.scale).max(self.smallest);
         radius * radius
     }
 
@@ -73,13 +80,15 @@ mod tests {
 
     #[test]
     fn the_radius_grows_with_the_footprint_and_is_clamped() {
-        let rule = RadiusRule { fixed: None, largest: 10.0, smallest: 0.01 };
+        let rule = FirstRadius { fixed: None, scale: 1.0, largest: 10.0, smallest: 0.01 };
         let r = |distance, cosine| rule.radius2(1e-4, distance, cosine).sqrt();
         assert!((r(20.0, 1.0) / r(10.0, 1.0) - 2.0).abs() < 1e-5);
         assert!((r(10.0, 0.25) / r(10.0, 1.0) - 2.0).abs() < 1e-5);
         assert!((r(1e9, 1.0) - 10.0).abs() < 1e-5 && (r(0.0, 1.0) - 0.01).abs() < 1e-7);
-        let fixed = RadiusRule { fixed: Some(50.0), ..rule };
+        let fixed = FirstRadius { fixed: Some(50.0), ..rule };
         assert_eq!(fixed.radius2(1e-4, 1.0, 1.0), 2500.0);
+        let half = FirstRadius { scale: 0.5, ..rule };
+        assert!((half.radius2(1e-4, 20.0, 1.0) / rule.radius2(1e-4, 20.0, 1.0) - 0.25).abs() < 1e-5);
     }
 
     #[test]

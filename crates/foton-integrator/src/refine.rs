@@ -67,6 +67,11 @@ impl Statistics {
         // 1 − (1−α)M/(N+M) keeps its digits when N is far larger than M; (N+αM)/(N+M) would not.
         let rho = if n == 0.0 { alpha } else { 1.0 - (1.0 - alpha) * m / (n + m) };
         self.kept = n + alpha * m;
+        self.shrink(photons, rho, smallest2)
+    }
+
+    /// Counts photons and multiplies r² by `rho`; `smallest2` bounds it from below; returns whether it did.
+    pub(crate) fn shrink(&mut self, photons: u64, rho: f64, smallest2: f64) -> bool {
         self.found += photons;
         let shrunk = self.radius2 * rho;
         let floored = shrunk < smallest2;

@@ -46,6 +46,57 @@ pub enum DirectLight {
     ShadowRays,
 }
 
+/// A factor on first radii, above zero.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct RadiusScale(f64);
+
+impl RadiusScale {
+    /// `None` unless above zero and finite.
+    #[must_use]
+    pub fn new(scale: f64) -> Option<Self> {
+        (scale > 0.0 && scale.is_finite()).then_some(Self(scale))
+    }
+
+    /// The value.
+    #[must_use]
+    pub const fn get(self) -> f64 {
+        self.0
+    }
+}
+
+impl Default for RadiusScale {
+    fn default() -> Self {
+        Self(1.0)
+    }
+}
+
+impl fmt::Display for RadiusScale {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// How radii shrink.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RadiusRule {
+    /// Each by the photons that its own hit point finds: fast where there is light `[PPM08]`.
+    #[default]
+    Local,
+    /// All by one factor that the photons emitted alone decide: r² ∝ Γ(n+α)/(Γ(1+α) Γ(n+1)) after n equal passes `[KZ11]`.
+    Global,
+}
+
+impl RadiusRule {
+    /// The factor that all r² take after a pass of `photons` that follows `emitted` others; `None` where each has its own.
+    ///
+    /// `[KZ11]` has r²ᵢ₊₁/r²ᵢ = (i + α)/(i + 1) after pass i. Counted in photons, so that passes may differ:
+    /// 1 − (1−α) n/(E + n) with E photons up to and with this pass of n.
+    pub(crate) fn common(self, alpha: Alpha, emitted: u64, photons: u64) -> Option<f64> {
+        let (n, total) = (photons as f64, (emitted + photons) as f64);
+        (self == Self::Global).then(|| 1.0 - (1.0 - alpha.get()) * n / (total + n))
+    }
+}
+
 /// Everything that decides an image, beside the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -59,6 +110,10 @@ pub struct Settings {
     pub samples_per_pixel: NonZeroU32,
     /// First radius of every hit point in world units; `None`: from the pixel's footprint.
     pub radius: Option<f64>,
+    /// Factor on the first radius, whichever it is.
+    pub radius_scale: RadiusScale,
+    /// How radii shrink.
+    pub radius_rule: RadiusRule,
     /// How direct light is estimated.
     pub direct_light: DirectLight,
     /// Longest path in edges, as Mitsuba counts them; `None`: what the scene says.
@@ -84,6 +139,8 @@ impl Default for Settings {
             first_pass: number(1 << 14),
             samples_per_pixel: number(4),
             radius: None,
+            radius_scale: RadiusScale::default(),
+            radius_rule: RadiusRule::default(),
             direct_light: DirectLight::default(),
             max_depth: None,
             seed: 0,
@@ -145,6 +202,24 @@ mod tests {
         assert_eq!(settings.photons_after(1 << 40).get(), 100);
         let small = Settings { photons_per_pass: number(7), ..settings };
         assert_eq!(small.photons_after(0).get(), 7, "never more than asked for");
+    }
+
+    #[test]
+    fn common_factors_multiply_to_their_gamma_formula() {
+        // Γ(n+α)/(Γ(1+α) Γ(n+1)) for n = 1000 by its own recurrence, and passes of twice the photons count twice.
+        let alpha = Alpha::new(0.7).expect("in range");
+        let product = |sizes: &[u64]| {
+            let mut emitted = 0;
+            sizes.iter().fold(1.0, |r2, &n| {
+                let factor = RadiusRule::Global.common(alpha, emitted, n).expect("common");
+                emitted += n;
+                r2 * factor
+            })
+        };
+        let expected: f64 = (1..1000).map(|i| (f64::from(i) + 0.7) / (f64::from(i) + 1.0)).product();
+        assert!((product(&[5; 999]) / expected - 1.0).abs() < 1e-12);
+        assert!((product(&[10; 500]) / product(&[5; 1000]) / 2f64.powf(0.3) - 1.0).abs() < 1e-2);
+        assert_eq!(RadiusRule::Local.common(alpha, 1, 1), None);
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! How far an image is from its reference: RMSE, relMSE, means, FLIP, and a picture of where they differ.
 //!
 //! All of it works on linear images in memory; reading and writing them is `foton-film`'s. A pixel that is not finite
-//! in either image is counted, left out of every figure and marked in every map, never averaged. Not here: sweeps
-//! over settings, and judging whether a difference is noise: that takes several renders with different seeds.
+//! in either image is counted, left out of every figure and marked in every map, never averaged. Whether a
+//! difference is noise takes several renders with different seeds: [`sweep`] makes them.
 //!
 //! ```
 //! use foton_film::Image;
@@ -24,6 +24,8 @@ mod convolve;
 mod flip;
 mod heat;
 mod pair;
+pub mod plot;
+pub mod sweep;
 
 pub use flip::{Flip, PIXELS_PER_DEGREE};
 pub use heat::{heat, scale_top, viridis};

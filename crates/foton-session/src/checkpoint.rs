@@ -153,12 +153,14 @@ fn identity(ppm: &Ppm, scene: &SceneIdentity) -> u64 {
     // Writing to a string does not fail.
     let _ = write!(
         text,
-        "{:016x} {} {} {} {:?} {} {} {direct} {} {} {} {} {}",
+        "{:016x} {} {} {} {:?} {} {:?} {} {} {direct} {} {} {} {} {}",
         scene.hash,
         sensor.name,
         sensor.width,
         sensor.height,
         s.radius.map(f64::to_bits),
+        s.radius_scale,
+        s.radius_rule,
         s.samples_per_pixel,
         s.first_pass,
         Ppm::max_depth(ppm.scene(), s),

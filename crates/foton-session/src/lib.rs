@@ -25,6 +25,7 @@ pub mod engine;
 mod interrupt;
 mod metadata;
 mod panic;
+mod preset;
 mod session;
 pub mod snapshot;
 mod stop;
@@ -32,9 +33,12 @@ mod threads;
 
 pub use clock::StageTimes;
 pub use engine::Engine;
-pub use foton_integrator::{Alpha, Change, DirectLight, ErrorEstimate, PathClass, Radii, Settings, Stage};
+pub use foton_integrator::{
+    Alpha, Change, DirectLight, ErrorEstimate, PathClass, Radii, RadiusRule, RadiusScale, Settings, Stage,
+};
 pub use interrupt::Interrupt;
 pub use metadata::SceneIdentity;
 pub use panic::Panic;
+pub use preset::Preset;
 pub use session::{PassError, Progress, Session, StartError, StopCause};
 pub use stop::StopRule;

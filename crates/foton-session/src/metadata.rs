@@ -1,7 +1,7 @@
 //! What travels with an image: enough to make it again. Nothing of when or where, so that equal renders give equal files.
 
 use foton_film::Metadata;
-use foton_integrator::{DirectLight, Ppm};
+use foton_integrator::{DirectLight, Ppm, RadiusRule, RadiusScale};
 
 /// The scene as metadata names it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -17,12 +17,21 @@ pub(crate) fn of(ppm: &Ppm, scene: &SceneIdentity) -> Metadata {
     let s = ppm.settings();
     let sensor = &ppm.scene().sensors()[s.sensor];
     let radius = s.radius.map_or("footprint".to_owned(), |r| r.to_string());
+    let radius = if s.radius_scale == RadiusScale::default() {
+        radius
+    } else {
+        format!("{radius}*{}", s.radius_scale)
+    };
+    let rule = match s.radius_rule {
+        RadiusRule::Local => "local",
+        RadiusRule::Global => "global",
+    };
     let direct = match s.direct_light {
         DirectLight::Photons => "photons",
         DirectLight::ShadowRays => "shadow-rays",
     };
     let settings = format!(
-        "integrator=ppm alpha={} photons={} first_pass={} radius={radius} direct={direct} max_depth={} spp={} \
+        "integrator=ppm alpha={} photons={} first_pass={} radius={radius} radius_rule={rule} direct={direct} max_depth={} spp={} \
          size={}x{} sensor={} hit_points_per_sample={} layers={}",
         s.alpha,
         s.photons_per_pass,

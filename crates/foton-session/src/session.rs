@@ -91,7 +91,15 @@ impl Session {
         threads: Option<usize>,
         cancel: &Cancel,
     ) -> Result<Self, StartError> {
-        Self::start_on(threads::pool(threads, Rank::Equal)?, scene, settings, cancel)
+        Self::start_on(Self::pool(threads)?, scene, settings, cancel)
+    }
+
+    /// Threads to render on, by default as many as the machine has; one pool serves any number of renders, one at a time.
+    ///
+    /// # Errors
+    /// When the system gives no threads.
+    pub fn pool(threads: Option<usize>) -> Result<Arc<ThreadPool>, ThreadPoolBuildError> {
+        threads::pool(threads, Rank::Equal)
     }
 
     /// Collects hit points on the threads of `pool`.

@@ -36,7 +36,8 @@ impl StopRule {
     }
 
     /// Whether to stop after `passes` in `elapsed`, given how long another pass would take. There is always one pass.
-    pub(crate) fn is_reached(
+    #[must_use]
+    pub fn is_reached(
         &self,
         passes: u64,
         elapsed: Duration,

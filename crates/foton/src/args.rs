@@ -1,13 +1,18 @@
 //! The command line. Its words are stable: scripts rely on them.
 
+mod measure;
+
 use std::num::NonZeroU32;
 use std::path::PathBuf;
 use std::str::FromStr;
 use std::time::Duration;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
-use foton_integrator::{Alpha, DirectLight, LayerKind, Settings};
+use foton_integrator::{Alpha, DirectLight, LayerKind, RadiusRule, RadiusScale, Settings};
+use foton_session::Preset;
 use foton_session::snapshot::Format;
+
+pub(crate) use measure::Measure;
 
 /// Progressive photon mapping that a person can watch, steer and trust.
 #[derive(Debug, Parser)]
@@ -34,6 +39,8 @@ pub(crate) enum Command {
     Info(Info),
     /// Say how far an image is from a reference: RMSE, relMSE, means, FLIP
     Compare(Compare),
+    /// Measure what accuracy costs in a scene: sweeps over α, photons, radii and direct light, as tables and a page
+    Measure(Box<Measure>),
 }
 
 /// `foton compare`.
@@ -100,6 +107,10 @@ pub(crate) struct Render {
     /// samples as they are. `off` leaves the estimate out, which saves a little time
     #[arg(long, value_name = "SHARE|off", value_parser = error_wish)]
     pub(crate) error: Option<ErrorWish>,
+    /// Settings for a purpose: something to look at soon, the defaults, or minutes of rendering. What is set by itself comes
+    /// before it, and it comes before what the scene says
+    #[arg(long, value_name = "NAME", value_enum)]
+    pub(crate) preset: Option<PresetName>,
     #[arg(long, value_name = "N", help = with_default(
         "Photons emitted in a pass: fewer answer sooner, more cost less a photon [as the scene says, else ",
         Settings::default().photons_per_pass,
@@ -110,9 +121,12 @@ pub(crate) struct Render {
         Settings::default().alpha,
     ))]
     pub(crate) alpha: Option<Alpha>,
-    /// First radius in world units [from each pixel's footprint]
-    #[arg(long, value_name = "R", value_parser = radius)]
-    pub(crate) radius: Option<f64>,
+    /// First radius: in world units, or x0.5 for half of what each pixel's footprint gives [x1]
+    #[arg(long, value_name = "R|xF", value_parser = radius)]
+    pub(crate) radius: Option<Radius>,
+    /// How radii shrink
+    #[arg(long, value_name = "RULE", value_enum, default_value_t = Rule::Local)]
+    pub(crate) radius_rule: Rule,
     /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = Settings::default().seed)]
     pub(crate) seed: u64,
@@ -181,6 +195,69 @@ pub(crate) enum Direct {
     Photons,
     /// By shadow rays: sharp shadows from the first pass on
     ShadowRays,
+}
+
+/// `--radius`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Radius {
+    /// In world units.
+    World(f64),
+    /// Times what the pixel's footprint gives.
+    Footprint(RadiusScale),
+}
+
+impl Radius {
+    /// What settings say of it; without one, what the scene suggests, times `scale`.
+    pub(crate) fn split(
+        wish: Option<Self>,
+        suggested: Option<f64>,
+        scale: RadiusScale,
+    ) -> (Option<f64>, RadiusScale) {
+        match wish {
+            None => (suggested, scale),
+            Some(Self::World(radius)) => (Some(radius), RadiusScale::default()),
+            Some(Self::Footprint(scale)) => (None, scale),
+        }
+    }
+}
+
+/// `--preset`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum PresetName {
+    /// Small passes: the next picture comes sooner
+    Preview,
+    /// The defaults
+    Balanced,
+    /// A smaller α: edges are sharper after minutes
+    Final,
+}
+
+impl From<PresetName> for Preset {
+    fn from(name: PresetName) -> Self {
+        match name {
+            PresetName::Preview => Self::Preview,
+            PresetName::Balanced => Self::Balanced,
+            PresetName::Final => Self::Final,
+        }
+    }
+}
+
+/// `--radius-rule`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Rule {
+    /// Each by the photons that it finds
+    Local,
+    /// All by one factor, by the photons emitted
+    Global,
+}
+
+impl From<Rule> for RadiusRule {
+    fn from(rule: Rule) -> Self {
+        match rule {
+            Rule::Local => Self::Local,
+            Rule::Global => Self::Global,
+        }
+    }
 }
 
 /// `--integrator`.
@@ -257,9 +334,19 @@ fn alpha(s: &str) -> Result<Alpha, String> {
     s.parse().ok().and_then(Alpha::new).ok_or_else(|| "expected a number above 0 and up to 1".to_owned())
 }
 
-fn radius(s: &str) -> Result<f64, String> {
-    let good = s.parse().ok().filter(|r: &f64| *r > 0.0 && r.is_finite());
-    good.ok_or_else(|| "expected a length above 0, in world units".to_owned())
+fn radius(s: &str) -> Result<Radius, String> {
+    let wish = match s.strip_prefix(['x', 'X', '×']) {
+        Some(factor) => factor.parse().ok().and_then(RadiusScale::new).map(Radius::Footprint),
+        None => s.parse().ok().filter(|r: &f64| *r > 0.0 && r.is_finite()).map(Radius::World),
+    };
+    wish.ok_or_else(|| "expected a length above 0 in world units, or a factor such as x0.5".to_owned())
+}
+
+fn exr(s: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(s);
+    let fits = Format::of(&path) == Some(Format::Exr);
+    fits.then_some(path)
+        .ok_or_else(|| "expected a name that ends in .exr: only those hold radiance".to_owned())
 }
 
 fn image(s: &str) -> Result<(PathBuf, Format), String> {
@@ -349,6 +436,12 @@ mod tests {
         assert_eq!(("pow2".parse(), "3".parse()), (Ok(Every::PowersOfTwo), Ok(Every::Nth(3))));
         assert!("0".parse::<Every>().is_err());
         assert!(Every::Nth(3).is_due(6) && !Every::Nth(3).is_due(7) && Every::PowersOfTwo.is_due(8));
+        let half = RadiusScale::new(0.5).map(Radius::Footprint);
+        assert_eq!((radius("0.2").ok(), radius("x0.5").ok()), (Some(Radius::World(0.2)), half));
+        for bad in ["0", "-1", "x", "x0", "0.5x", "xNaN", "inf"] {
+            assert!(radius(bad).is_err(), "{bad}");
+        }
+        assert!(exr("a.exr").is_ok() && exr("a.png").is_err());
         for bad in ["0", "1.01", "NaN", "-1"] {
             assert!(alpha(bad).is_err(), "{bad}");
         }

@@ -6,13 +6,13 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use foton_film::check_writable;
-use foton_format::{Opened, Options};
+use foton_format::{Opened, Options, Suggested};
 use foton_integrator::{Alpha, Cancelled, LayerKind, Ppm, Settings};
 use foton_scene::Scene;
 use foton_session::snapshot::{self, Format};
-use foton_session::{Interrupt, SceneIdentity, Session, StartError, StopRule, checkpoint};
+use foton_session::{Interrupt, Preset, SceneIdentity, Session, StartError, StopRule, checkpoint};
 
-use crate::args::{ErrorWish, Render, Size};
+use crate::args::{ErrorWish, Radius, Render, Size};
 use crate::memory;
 use crate::talk::{Failure, Talk};
 
@@ -33,14 +33,23 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let suggested = opened.suggested;
     let (scene, identity) = build(opened, &name, args.size, talk)?;
-    let defaults = Settings::default();
+    let (defaults, suggested) = match args.preset {
+        Some(preset) => (
+            Preset::from(preset).apply(Settings::default()),
+            Suggested { passes: suggested.passes, ..Suggested::default() },
+        ),
+        None => (Settings::default(), suggested),
+    };
     let suggested_alpha = suggested.alpha.and_then(Alpha::new);
     let suggested_photons = suggested.photons_per_pass.and_then(NonZeroU32::new);
+    let (radius, radius_scale) = Radius::split(args.radius, suggested.radius, defaults.radius_scale);
     let settings = Settings {
         alpha: args.alpha.or(suggested_alpha).unwrap_or(defaults.alpha),
         photons_per_pass: args.photons.or(suggested_photons).unwrap_or(defaults.photons_per_pass),
         samples_per_pixel: args.spp,
-        radius: args.radius.or(suggested.radius),
+        radius,
+        radius_scale,
+        radius_rule: args.radius_rule.into(),
         direct_light: args.direct.into(),
         max_depth: args.max_depth,
         seed: args.seed,

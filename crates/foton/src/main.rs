@@ -8,6 +8,7 @@ mod convert;
 mod embedded;
 mod info;
 mod job;
+mod measure;
 mod memory;
 mod quick;
 mod talk;
@@ -52,6 +53,10 @@ fn main() -> ExitCode {
         Some(Command::Compare(args)) => {
             let talk = Talk::new(args.json);
             (compare::run(args, &talk), talk)
+        }
+        Some(Command::Measure(args)) => {
+            let mut talk = Talk::new(args.json);
+            (measure::run(args, &mut talk), talk)
         }
         None => {
             let mut talk = Talk::new(false);

@@ -7,6 +7,7 @@ use foton_film::{ReadError, WriteError};
 use foton_format::{Diagnostic, OpenError};
 use foton_integrator::{DirectLight, ErrorEstimate, Ledger, Ppm};
 use foton_measure::CompareError;
+use foton_measure::sweep::SweepError;
 use foton_scene::BuildError;
 use foton_session::checkpoint::ResumeError;
 use foton_session::{Panic, Progress, Session, StartError, StopRule};
@@ -39,6 +40,7 @@ pub(crate) enum Failure {
         passes: Option<u64>,
     },
     Resume(ResumeError),
+    Sweep(SweepError),
     Write(WriteError),
     Read(ReadError),
     #[cfg(feature = "window")]
@@ -70,6 +72,7 @@ impl fmt::Display for Failure {
             }
             Self::Panicked { panic, passes: None } => write!(f, "{panic}. No image was written"),
             Self::Resume(cause) => cause.fmt(f),
+            Self::Sweep(cause) => cause.fmt(f),
             Self::Write(cause) => cause.fmt(f),
             Self::Read(cause) => cause.fmt(f),
             #[cfg(feature = "window")]
@@ -88,6 +91,12 @@ impl From<WriteError> for Failure {
 impl From<ReadError> for Failure {
     fn from(cause: ReadError) -> Self {
         Self::Read(cause)
+    }
+}
+
+impl From<SweepError> for Failure {
+    fn from(cause: SweepError) -> Self {
+        Self::Sweep(cause)
     }
 }
 
@@ -177,6 +186,17 @@ impl Talk {
         let style = ProgressStyle::with_template("{bar:32} {elapsed}  {msg}");
         self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         self.bar.set_message("collecting hit points");
+    }
+
+    /// Says how far something is, from 0 to 1, and what it is at.
+    pub(crate) fn progress(&self, fraction: f64, what: String) {
+        self.bar.set_position((fraction * 1000.0) as u64);
+        self.bar.set_message(what);
+    }
+
+    /// Ends the bar.
+    pub(crate) fn end(&self) {
+        self.bar.finish_and_clear();
     }
 
     /// Says how a render stands after a pass.

@@ -1,4 +1,7 @@
-//! `foton compare` from outside: figures, warnings, pictures, exit codes.
+//! `foton compare` from outside: figures, warnings, pictures, exit codes. Beside it, `foton measure`.
+
+#[path = "measure/sweeps.rs"]
+mod sweeps;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -26,10 +29,22 @@ impl Folder {
         write_png(&self.0.join(name), image, ToneMap::Linear, 0.0, &Metadata::default()).unwrap();
     }
 
-    /// `foton compare` in this folder.
-    fn compare(&self, args: &[&str]) -> Output {
+    fn text(&self, name: &str, text: &str) {
+        fs::write(self.path(name), text).unwrap();
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+
+    /// A command of `foton` in this folder.
+    fn foton(&self, command: &str, args: &[&str]) -> Output {
         let program = Path::new(env!("CARGO_BIN_EXE_foton"));
-        Command::new(program).arg("compare").args(args).current_dir(&self.0).output().unwrap()
+        Command::new(program).arg(command).args(args).current_dir(&self.0).output().unwrap()
+    }
+
+    fn compare(&self, args: &[&str]) -> Output {
+        self.foton("compare", args)
     }
 
     /// Its JSON lines.

@@ -24,7 +24,7 @@ cargo xtask ci                      formatting, lints, documentation, then the t
 cargo xtask conformance [--quick]   the whole comparison with Mitsuba 3 (20 minutes and more), or the small one
 cargo xtask versus [--seconds N]    foton, Mitsuba 3 and LuxCore on one scene for N (30) seconds each, as a table and pictures
 cargo xtask bench census            what leaving out parts of the renderer saves, as a table
-cargo xtask calibrate               whether the live error can be believed, as a table (many minutes)
+cargo xtask calibrate [stops|slopes] whether the live error can be believed, where --error stops, how fast noise and bias fall (many minutes)
 cargo xtask assets                  writes the generated meshes in assets/ again
 cargo xtask pictures [--window]     renders every scene in assets/ to docs/pictures, and the window (some minutes); or it alone
 cargo xtask bench                   whole runs of the benchmark box, stage by stage (some minutes)
@@ -49,14 +49,10 @@ fn main() -> ExitCode {
             "--example",
             "census",
         ])),
-        ["calibrate"] => tools::run(&mut tools::cargo(&[
-            "run",
-            "--release",
-            "--package",
-            "foton-tests",
-            "--example",
-            "calibrate",
-        ])),
+        ["calibrate", rest @ ..] => tools::run(
+            tools::cargo(&["run", "--release", "--package", "foton-tests", "--example", "calibrate", "--"])
+                .args(rest),
+        ),
         ["assets"] => assets::write_all(&tools::root().join("assets"))
             .map_err(|cause| Trouble::Failed(cause.to_string())),
         ["bench"] => bench::all(),

@@ -1,0 +1,140 @@
+//! Renders that differ only in how they refine, over the same photons: each pass is traced once and gathered by all of them.
+//!
+//! Photon paths know nothing of hit points: neither α nor radii, nor whether direct light comes by shadow rays, change them.
+//! Each variant has the bits of a run of its own; only what its lights' photons came near is told of the widest. Not here: what the differences are worth (`foton-measure`).
+
+use std::sync::Arc;
+
+use foton_scene::Scene;
+use rayon::prelude::*;
+
+use crate::cancel::{Cancel, Cancelled};
+use crate::grid::Grid;
+use crate::photon::PathClass;
+use crate::photon_pass::{Chunk, PhotonPass};
+use crate::ppm::{PassReport, Ppm, Stage};
+use crate::settings::{DirectLight, Settings};
+
+/// Whose work begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Tracing for all: each would have done it alone.
+    Trace,
+    /// Handing photons out, which a run of its own has no need of.
+    Share,
+    /// A stage of the variant of that index.
+    Of(usize, Stage),
+}
+
+/// Renders under way that share their photons.
+pub struct Variants {
+    runs: Vec<Ppm>,
+    /// Touched by any disc of any variant, now or later: radii never grow.
+    everywhere: Grid,
+    chunks: Vec<Chunk>,
+}
+
+impl Variants {
+    /// Collects the hit points of each of `settings`, which may differ in α, radii, direct light, layers and error alone.
+    /// Photons then have the seed `photons`: with that of the settings, each variant is what a run of its own would be; with
+    /// others, runs are independent that see the same eye samples. `None` without settings, or if they differ otherwise.
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub fn start(
+        scene: &Arc<Scene>,
+        settings: &[Settings],
+        photons: u64,
+        watch: &mut dyn FnMut(Step),
+        cancel: &Cancel,
+    ) -> Result<Option<Self>, Cancelled> {
+        let Some(first) = settings.first() else { return Ok(None) };
+        if settings.iter().any(|s| !shares_photons(first, s)) {
+            return Ok(None);
+        }
+        let start = |(i, settings): (usize, &Settings)| {
+            let mut run = Ppm::start(
+                Arc::clone(scene),
+                settings.clone(),
+                &mut |stage| watch(Step::Of(i, stage)),
+                cancel,
+            )?;
+            run.settings_mut().seed = photons;
+            Ok(run)
+        };
+        let runs: Vec<Ppm> = settings.iter().enumerate().map(start).collect::<Result<_, _>>()?;
+        let widest = |run: &&Ppm| run.hit_points().statistics().map(|s| s.radius2()).sum::<f64>();
+        let widest = runs.iter().max_by(|a, b| widest(a).total_cmp(&widest(b)));
+        let Some(everywhere) = widest.map(|run| Grid::new(&run.hit_points().packets)) else {
+            return Ok(None);
+        };
+        Ok(Some(Self { runs, everywhere, chunks: Vec::new() }))
+    }
+
+    /// One pass of all variants, in their order.
+    ///
+    /// # Errors
+    /// When cancelled; the variants may then be a pass apart and are not to be used.
+    pub fn advance(
+        &mut self,
+        watch: &mut dyn FnMut(Step),
+        cancel: &Cancel,
+    ) -> Result<Vec<PassReport>, Cancelled> {
+        watch(Step::Trace);
+        let first = &self.runs[0];
+        let photons = u64::from(first.settings().photons_after(first.passes()).get());
+        let direct_light = DirectLight::Photons;
+        PhotonPass { grid: &self.everywhere, direct_light, ..first.photon_pass(photons) }
+            .shoot(&mut self.chunks, cancel)?;
+        let mut reports = Vec::with_capacity(self.runs.len());
+        for (i, run) in self.runs.iter_mut().enumerate() {
+            watch(Step::Share);
+            hand_out(&self.chunks, run);
+            reports.push(run.take_photons(photons, &mut |stage| watch(Step::Of(i, stage)), cancel)?);
+        }
+        Ok(reports)
+    }
+
+    /// The renders, in the order of their settings.
+    #[must_use]
+    pub fn runs(&self) -> &[Ppm] {
+        &self.runs
+    }
+}
+
+/// Whether two renders trace the same photons from the same eye samples.
+fn shares_photons(a: &Settings, b: &Settings) -> bool {
+    let same = Settings {
+        alpha: a.alpha,
+        radius: a.radius,
+        radius_scale: a.radius_scale,
+        radius_rule: a.radius_rule,
+        direct_light: a.direct_light,
+        layers: a.layers,
+        error: a.error,
+        ..b.clone()
+    };
+    same == *a
+}
+
+/// Gives a render those photons that its discs can reach.
+fn hand_out(all: &[Chunk], run: &mut Ppm) {
+    let skip_direct = run.settings().direct_light == DirectLight::ShadowRays;
+    let (own, grid) = run.chunks_and_grid();
+    own.resize_with(all.len(), Chunk::default);
+    own.par_iter_mut().zip(all).for_each(|(own, all)| {
+        own.photons.clear();
+        own.cells.clear();
+        for photon in &all.photons {
+            if skip_direct && photon.class_index() == PathClass::Direct as usize {
+                continue;
+            }
+            if let Some(cell) = grid.number(photon.position) {
+                own.photons.push(*photon);
+                own.cells.push(cell);
+            }
+        }
+        (own.ledger, own.rays) = (all.ledger, all.rays);
+        own.lights.clone_from(&all.lights);
+    });
+}

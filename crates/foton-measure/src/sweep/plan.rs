@@ -1,0 +1,204 @@
+//! What a sweep renders: a star around one configuration, and the plane of α and photons a pass.
+
+use std::fmt;
+use std::num::NonZeroU32;
+
+use foton_integrator::{Alpha, DirectLight, RadiusRule, RadiusScale, Settings};
+
+use crate::plot::short;
+
+/// Shares of new photons kept.
+const ALPHAS: [f64; 7] = [0.5, 0.6, 2.0 / 3.0, 0.7, 0.8, 0.9, 1.0];
+
+/// Factors on first radii.
+const SCALES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
+
+/// Photons a pass, as powers of two.
+const PHOTONS: std::ops::RangeInclusive<u32> = 14..=22;
+
+/// What one run differs in from others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Configuration {
+    /// Share of new photons kept.
+    pub alpha: Alpha,
+    /// Photons a pass, once passes have grown.
+    pub photons: NonZeroU32,
+    /// Factor on first radii.
+    pub radius_scale: RadiusScale,
+    /// How radii shrink.
+    pub radius_rule: RadiusRule,
+    /// How direct light is estimated.
+    pub direct_light: DirectLight,
+}
+
+impl Configuration {
+    /// That of a render's settings.
+    #[must_use]
+    pub const fn of(settings: &Settings) -> Self {
+        Self {
+            alpha: settings.alpha,
+            photons: settings.photons_per_pass,
+            radius_scale: settings.radius_scale,
+            radius_rule: settings.radius_rule,
+            direct_light: settings.direct_light,
+        }
+    }
+
+    /// Settings with this configuration.
+    #[must_use]
+    pub fn settings(&self, base: &Settings) -> Settings {
+        Settings {
+            alpha: self.alpha,
+            photons_per_pass: self.photons,
+            radius_scale: self.radius_scale,
+            radius_rule: self.radius_rule,
+            direct_light: self.direct_light,
+            ..base.clone()
+        }
+    }
+
+    /// The options of `foton render` that ask for it.
+    #[must_use]
+    pub fn options(&self) -> String {
+        let mut options = format!("--alpha {:.4} --photons {}", self.alpha.get(), self.photons);
+        if self.radius_scale != RadiusScale::default() {
+            options += &format!(" --radius x{}", self.radius_scale);
+        }
+        if self.radius_rule == RadiusRule::Global {
+            options += " --radius-rule global";
+        }
+        if self.direct_light == DirectLight::ShadowRays {
+            options += " --direct shadow-rays";
+        }
+        options
+    }
+}
+
+impl fmt::Display for Configuration {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "α {}, {} photons, radius × {}",
+            share(self.alpha),
+            count(self.photons.get().into()),
+            scale(self.radius_scale.get())
+        )?;
+        if self.radius_rule == RadiusRule::Global {
+            write!(f, " shrinking globally")?;
+        }
+        if self.direct_light == DirectLight::ShadowRays {
+            write!(f, ", shadow rays")?;
+        }
+        Ok(())
+    }
+}
+
+/// α as a person writes it.
+pub(crate) fn share(alpha: Alpha) -> String {
+    if alpha == Alpha::default() { "⅔".to_owned() } else { short(alpha.get()) }
+}
+
+/// A factor as a person writes it.
+pub(crate) fn scale(v: f64) -> String {
+    match v {
+        0.25 => "¼".to_owned(),
+        0.5 => "½".to_owned(),
+        v => short(v),
+    }
+}
+
+/// A count in thousands or millions.
+pub(crate) fn count(n: u64) -> String {
+    match n {
+        0..10_000 => n.to_string(),
+        10_000..1_000_000 => format!("{:.0} k", n as f64 / 1e3),
+        _ => format!("{} M", short((n as f64 / 1e5).round() / 10.0)),
+    }
+}
+
+/// Runs that share their photons, and so run together.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Job {
+    pub(crate) photons: NonZeroU32,
+    pub(crate) configurations: Vec<Configuration>,
+}
+
+/// All jobs, the centre's first, then the others by how far from it they are.
+pub(crate) fn jobs(centre: &Configuration) -> Vec<Job> {
+    let mut alphas: Vec<Alpha> = ALPHAS.into_iter().filter_map(Alpha::new).collect();
+    if !alphas.contains(&centre.alpha) {
+        alphas.push(centre.alpha);
+    }
+    alphas.sort_by(|a, b| a.get().total_cmp(&b.get()));
+    let mut photons: Vec<NonZeroU32> = PHOTONS.filter_map(|power| NonZeroU32::new(1 << power)).collect();
+    if !photons.contains(&centre.photons) {
+        photons.push(centre.photons);
+    }
+    let distance =
+        |photons: &NonZeroU32| (f64::from(photons.get()) / f64::from(centre.photons.get())).log2().abs();
+    photons.sort_by(|a, b| distance(a).total_cmp(&distance(b)).then(a.cmp(b)));
+    let plane = |photons: NonZeroU32| {
+        alphas.iter().map(move |&alpha| Configuration { alpha, photons, ..*centre }).collect::<Vec<_>>()
+    };
+    let job = |photons| Job { photons, configurations: plane(photons) };
+    let mut jobs: Vec<Job> = photons.into_iter().map(job).collect();
+    if let Some(first) = jobs.first_mut() {
+        first.configurations.extend(arms(centre));
+    }
+    jobs
+}
+
+/// The star's arms beside α and photons.
+fn arms(centre: &Configuration) -> Vec<Configuration> {
+    let scales = SCALES.into_iter().filter_map(|s| RadiusScale::new(s * centre.radius_scale.get()));
+    let mut arms: Vec<Configuration> =
+        scales.map(|radius_scale| Configuration { radius_scale, ..*centre }).collect();
+    arms.push(Configuration {
+        direct_light: match centre.direct_light {
+            DirectLight::Photons => DirectLight::ShadowRays,
+            DirectLight::ShadowRays => DirectLight::Photons,
+        },
+        ..*centre
+    });
+    arms.push(Configuration {
+        radius_rule: match centre.radius_rule {
+            RadiusRule::Local => RadiusRule::Global,
+            RadiusRule::Global => RadiusRule::Local,
+        },
+        ..*centre
+    });
+    arms.retain(|arm| arm != centre);
+    arms
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_centre_is_in_the_first_job_once_and_the_plane_is_whole() {
+        let centre = Configuration::of(&Settings::default());
+        let jobs = jobs(&centre);
+        assert_eq!(jobs.len(), 9);
+        assert_eq!(jobs[0].configurations.len(), 7 + 4 + 2);
+        assert_eq!(jobs[0].configurations.iter().filter(|c| **c == centre).count(), 1);
+        assert!(jobs[1..].iter().all(|job| job.configurations.len() == 7));
+        let mut photons: Vec<u32> = jobs.iter().map(|job| job.photons.get()).collect();
+        assert_eq!(&photons[..3], [1 << 18, 1 << 17, 1 << 19]);
+        photons.sort_unstable();
+        assert_eq!(photons, (14..=22).map(|power| 1 << power).collect::<Vec<u32>>());
+    }
+
+    #[test]
+    fn a_centre_of_its_own_joins_the_plane() {
+        let alpha = Alpha::new(0.75).expect("in range");
+        let photons = NonZeroU32::new(100_000).expect("above 0");
+        let centre = Configuration { alpha, photons, ..Configuration::of(&Settings::default()) };
+        let jobs = jobs(&centre);
+        assert_eq!((jobs.len(), jobs[0].photons), (10, photons));
+        assert_eq!(jobs[0].configurations.iter().filter(|c| **c == centre).count(), 1);
+        assert_eq!(centre.to_string(), "α 0.75, 100 k photons, radius × 1");
+        let shadow = Configuration { direct_light: DirectLight::ShadowRays, ..centre };
+        assert_eq!(shadow.options(), "--alpha 0.7500 --photons 100000 --direct shadow-rays");
+    }
+}

@@ -1,0 +1,31 @@
+//! Settings for a purpose, as `foton measure` found them: docs/measure.md has the figures.
+
+use std::num::NonZeroU32;
+
+use foton_integrator::{Alpha, Settings};
+
+/// What an image is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Preset {
+    /// Something to look at within seconds: small passes answer sooner and cost a few per cent of error at equal time.
+    Preview,
+    /// The defaults.
+    Balanced,
+    /// Minutes and more: blur across edges is then most of the error, and a smaller α takes it away faster.
+    Final,
+}
+
+impl Preset {
+    /// `settings` with what the preset says.
+    #[must_use]
+    pub fn apply(self, settings: Settings) -> Settings {
+        match self {
+            Self::Preview => Settings {
+                photons_per_pass: NonZeroU32::new(1 << 16).unwrap_or(settings.photons_per_pass),
+                ..settings
+            },
+            Self::Balanced => settings,
+            Self::Final => Settings { alpha: Alpha::new(0.6).unwrap_or(settings.alpha), ..settings },
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! `foton measure`: what accuracy costs in a scene, as tables and a page in a folder.
+
+use std::num::NonZeroU32;
+
+use foton_film::read_exr;
+use foton_format::Options;
+use foton_integrator::{Alpha, Settings};
+use foton_measure::sweep::{Event, Outcome, Sweep};
+use foton_session::{Session, StartError};
+use serde_json::json;
+
+use crate::args::{Measure, Radius};
+use crate::job::{build, choose_sensor, interrupt_on_signals, refuse_beyond_memory};
+use crate::talk::{Failure, Talk};
+
+/// Runs `foton measure`.
+pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
+    let given = args.reference.as_deref().map(read_exr).transpose()?;
+    let options = Options { defines: args.defines.clone() };
+    let opened = foton_format::open(&args.scene, &options).map_err(Failure::Open)?;
+    let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
+    let suggested = opened.suggested;
+    let (scene, identity) = build(opened, &name, args.size, talk)?;
+    let defaults = Settings::default();
+    let suggested_alpha = suggested.alpha.and_then(Alpha::new);
+    let suggested_photons = suggested.photons_per_pass.and_then(NonZeroU32::new);
+    let (radius, radius_scale) = Radius::split(args.radius, suggested.radius, defaults.radius_scale);
+    let centre = Settings {
+        alpha: args.alpha.or(suggested_alpha).unwrap_or(defaults.alpha),
+        photons_per_pass: args.photons.or(suggested_photons).unwrap_or(defaults.photons_per_pass),
+        samples_per_pixel: args.spp,
+        radius,
+        radius_scale,
+        direct_light: args.direct.into(),
+        max_depth: args.max_depth,
+        seed: args.seed,
+        sensor,
+        ..defaults
+    };
+    refuse_beyond_memory(&scene, &centre, None)?;
+    let given = given.map(|(image, _)| {
+        let path = args.reference.as_deref().unwrap_or(&args.scene);
+        (image, format!("the image {}", path.display()))
+    });
+    let sweep = Sweep {
+        scene,
+        name: scene_name(args),
+        hash: identity.hash,
+        centre,
+        seeds: args.seeds,
+        budget: args.budget,
+        given,
+        folder: args.output.clone(),
+    };
+    let interrupt = interrupt_on_signals(talk);
+    talk.begin();
+    let pool = Session::pool(args.threads.map(usize::from)).map_err(StartError::from)?;
+    let outcome = {
+        let mut tell = |event: &Event| say(event, talk);
+        pool.install(|| sweep.run(&|| interrupt.is_requested(), interrupt.cancel(), &mut tell))
+    };
+    talk.end();
+    conclude(&outcome?, interrupt.is_requested(), talk);
+    Ok(())
+}
+
+/// What headings call the scene: its folder's name where the file is one of many called `scene.xml`.
+fn scene_name(args: &Measure) -> String {
+    let stem = args.scene.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let folder = args.scene.parent().and_then(|folder| folder.file_name());
+    folder.filter(|_| stem == "scene").map_or(stem, |folder| folder.to_string_lossy().into_owned())
+}
+
+fn say(event: &Event, talk: &Talk) {
+    match event {
+        Event::Progress { what, fraction } => talk.progress(*fraction, what.clone()),
+        Event::Reference { origin, noise, smooth_share } => {
+            talk.event(&json!({
+                "event": "reference", "origin": origin, "noise": noise, "smooth_share": smooth_share,
+            }));
+            talk.line(&format!("reference: {origin}; noise {:.2} %", 100.0 * noise));
+        }
+        Event::Job { photons, configurations, passes, least_error, is_old } => {
+            talk.event(&json!({
+                "event": "job", "photons_per_pass": photons, "configurations": configurations, "passes": passes,
+                "least_error": least_error, "was_finished": is_old,
+            }));
+            let old = if *is_old { " (finished before)" } else { "" };
+            talk.line(&format!(
+                "{photons} photons a pass: {configurations} configurations, {passes} passes, least error {:.2} %{old}",
+                100.0 * least_error
+            ));
+        }
+        Event::Note(message) => talk.note(message),
+    }
+}
+
+fn conclude(outcome: &Outcome, interrupted: bool, talk: &Talk) {
+    let outputs: Vec<String> = outcome.outputs.iter().map(|path| path.display().to_string()).collect();
+    let (done, all) = outcome.jobs;
+    talk.event(&json!({
+        "event": "done", "outputs": outputs, "recommendation": outcome.recommendation,
+        "jobs_done": done, "jobs": all, "interrupted": interrupted,
+    }));
+    if interrupted {
+        talk.line(&format!("interrupted after {done} of {all} parts; the same command goes on from there"));
+    }
+    for path in &outputs {
+        talk.line(&format!("wrote {path}"));
+    }
+    if let Some(sentence) = &outcome.recommendation {
+        talk.line(sentence);
+    }
+}

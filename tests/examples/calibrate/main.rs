@@ -1,0 +1,206 @@
+//! Whether the live error can be believed: estimated against true error, how often bounds of tiles hold, where `--error` stops, and
+//! how fast noise and bias fall.
+//!
+//! `cargo run --release -p foton-tests --example calibrate` prints the table of docs/error.md and writes its plot; `stops` and
+//! `slopes` print the other two. Names of assets, `seeds=4` and `truth=64` (its passes) may be given. The truth has the same eye
+//! samples and photons of its own, a fifth of the first radius throughout, and direct light by shadow rays. Its noise, known
+//! from its passes, is taken off the squared error.
+#![allow(clippy::print_stdout, reason = "a program that prints a table")]
+
+mod stops;
+mod truth;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use foton_integrator::{LayerKind, Ppm, Settings};
+use foton_measure::plot::{Plot, Series, colour};
+use foton_scene::Scene;
+use foton_tests::slopes;
+use truth::{SIDE, TILE, Truth, open, settings};
+
+const ASSETS: [&str; 7] =
+    ["furnace", "cornell-diffuse", "cornell-spheres", "box-spheres", "ring", "glass-and-ring", "pool"];
+const CHECKPOINTS: [u64; 4] = [16, 32, 64, 128];
+const PHOTONS: u32 = 1 << 14;
+/// Standard deviations of nominal 50, 90 and 99 % bounds.
+const Z: [f64; 3] = [0.674, 1.645, 2.576];
+
+/// What a checkpoint found, of one seed.
+struct Found {
+    estimated: [f64; 3],
+    truth: f64,
+    is_within: bool,
+    /// Tiles within each bound, and all, of smooth tiles and of others.
+    covered: [([f64; 3], f64); 2],
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let number = |name: &str, default: u64| {
+        arguments.iter().find_map(|a| a.strip_prefix(name)?.parse().ok()).unwrap_or(default)
+    };
+    let (seeds, passes) = (number("seeds=", 4), number("truth=", 48));
+    let mut named: Vec<&str> = arguments.iter().map(String::as_str).filter(|a| !a.contains('=')).collect();
+    match named.first() {
+        Some(&"stops") => stops::print(&named.split_off(1), 1, passes),
+        Some(&"slopes") => print_slopes(seeds.max(8)),
+        _ => coverage(&named, seeds, passes),
+    }
+}
+
+fn print_slopes(seeds: u64) {
+    let checkpoints: Vec<u64> = (2..10).map(|power| 1 << power).collect();
+    println!("| α | smooth: noise | bias | both | edge: bias | both |\n|---|---|---|---|---|---|");
+    for alpha in [2.0 / 3.0, 0.5] {
+        let parts = slopes::measure(alpha, 16_000, seeds, &checkpoints);
+        let cell = |f: &dyn Fn(&slopes::Parts) -> f64, theory: f64| {
+            format!("{:.3} ({theory:.3})", slopes::slope_of(&parts, f))
+        };
+        println!(
+            "| {alpha:.3} | {} | {} | {} | {} | {} |",
+            cell(&|p| p.noise, -0.5 * alpha),
+            cell(&|p| p.bias, alpha - 1.0),
+            cell(&|p| p.smooth, -(0.5 * alpha).min(1.0 - alpha)),
+            cell(&|p| p.edge_bias, -0.25 * (1.0 - alpha)),
+            cell(&|p| p.edge, -(0.5 * alpha).min(0.25 * (1.0 - alpha))),
+        );
+    }
+}
+
+fn coverage(named: &[&str], seeds: u64, passes: u64) {
+    println!(
+        "| scene | passes | true % | estimated % (noise, bias) | estimated/true | true within low..high | smooth tiles: 50 90 99 % | other tiles: 50 90 99 % |"
+    );
+    println!("|---|---|---|---|---|---|---|---|");
+    let mut plotted = Vec::new();
+    for name in if named.is_empty() { ASSETS.to_vec() } else { named.to_vec() } {
+        let scene = open(name);
+        let runs: Vec<Vec<Found>> = (0..seeds).map(|seed| run(&scene, seed, passes)).collect();
+        for (i, passes) in CHECKPOINTS.iter().enumerate() {
+            row(name, *passes, &runs.iter().map(|run| &run[i]).collect::<Vec<_>>());
+        }
+        plotted.push((name, runs));
+    }
+    plot(&plotted);
+}
+
+/// Estimated over true error, a marker a checkpoint: means over seeds.
+fn plot(plotted: &[(&str, Vec<Vec<Found>>)]) {
+    let mean = |runs: &[Vec<Found>], i: usize, f: &dyn Fn(&Found) -> f64| {
+        100.0 * runs.iter().map(|run| f(&run[i])).sum::<f64>() / runs.len() as f64
+    };
+    let mut series: Vec<Series> = plotted
+        .iter()
+        .enumerate()
+        .map(|(i, (name, runs))| {
+            let point = |c| (mean(runs, c, &|f| f.truth), mean(runs, c, &|f| f.estimated[0]));
+            Series::new(*name, colour(i), i, (0..CHECKPOINTS.len()).map(point).collect())
+        })
+        .collect();
+    let all = || series.iter().flat_map(|s| &s.points).map(|p| p.0);
+    let (low, high) = (all().fold(f64::MAX, f64::min), all().fold(0.0, f64::max));
+    let mut equal =
+        Series::new("as it should be", "var(--dim)".to_owned(), 0, vec![(low, low), (high, high)]);
+    equal.dashed = true;
+    series.push(equal);
+    let plot = Plot {
+        title: "The live error against the true one, at 16 to 128 passes",
+        x: "true error (% of mean light)",
+        y: "estimated error (%)",
+        series,
+    };
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the repository");
+    let path = root.join("docs/pictures/calibration.svg");
+    if let Some(svg) = plot.file() {
+        std::fs::write(&path, svg).expect("docs/pictures can be written");
+        eprintln!("wrote {}", path.display());
+    }
+}
+
+fn run(scene: &Arc<Scene>, seed: u64, passes: u64) -> Vec<Found> {
+    let settings = Settings { error: true, ..settings(PHOTONS, seed) };
+    let truth = Truth::render(scene, &settings, passes);
+    let mut runs = truth::start(scene, settings, seed);
+    let mut found = Vec::new();
+    for pass in 1..=CHECKPOINTS[CHECKPOINTS.len() - 1] {
+        truth::advance(&mut runs);
+        if CHECKPOINTS.contains(&pass) {
+            found.push(judge(&runs.runs()[0], &truth));
+        }
+    }
+    found
+}
+
+fn judge(ppm: &Ppm, truth: &Truth) -> Found {
+    let error = ppm.error().expect("passes and light");
+    let relative = truth.error(&truth::reflected(ppm));
+    let mut covered = [([0.0; 3], 0.0); 2];
+    for (i, (tile, (t, variance))) in ppm.error_tiles().iter().zip(&truth.tiles).enumerate() {
+        if tile.pixels < (TILE * TILE) as u32 {
+            continue;
+        }
+        let kind = usize::from(!is_smooth(i, truth, ppm));
+        // The truth's noise widens what is compared, not the error: the bound is widened by as much.
+        let widened = |z: f64| {
+            let noise = (tile.noise * tile.noise + variance).sqrt();
+            foton_integrator::TileError { noise, ..*tile }.bound(z)
+        };
+        let off = (tile.mean - t).abs();
+        for (sum, z) in covered[kind].0.iter_mut().zip(Z) {
+            *sum += f64::from(u8::from(off <= widened(z)));
+        }
+        covered[kind].1 += 1.0;
+    }
+    Found {
+        estimated: [error.total, error.noise, error.bias],
+        truth: relative,
+        is_within: (error.low..=error.high).contains(&relative),
+        covered,
+    }
+}
+
+/// A tile that sees one shape, and whose light differs from its neighbours' by less than a third.
+fn is_smooth(tile: usize, truth: &Truth, ppm: &Ppm) -> bool {
+    let across = SIDE as usize / TILE;
+    let (x, y) = ((tile % across) as i64, (tile / across) as i64);
+    let around = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (x + dx, y + dy)));
+    let mean = truth.tiles[tile].0;
+    let is_even = around
+        .filter(|(x, y)| (0..across as i64).contains(x) && (0..across as i64).contains(y))
+        .all(|(x, y)| (truth.tiles[y as usize * across + x as usize].0 / mean - 1.0).abs() < 1.0 / 3.0);
+    let shapes = match ppm.layer(LayerKind::ShapeId).map(|l| l.channels) {
+        Some(foton_film::LayerData::U32(plane)) => plane.values,
+        _ => return false,
+    };
+    let corner = y as usize * TILE * SIDE as usize + x as usize * TILE;
+    let pixels = (0..TILE).flat_map(|dy| (0..TILE).map(move |dx| corner + dy * SIDE as usize + dx));
+    is_even && pixels.into_iter().all(|p| shapes[p] == shapes[corner])
+}
+
+fn row(name: &str, passes: u64, found: &[&Found]) {
+    let n = found.len() as f64;
+    let mean = |f: &dyn Fn(&Found) -> f64| found.iter().map(|x| f(x)).sum::<f64>() / n;
+    let quotients: Vec<f64> = found.iter().map(|f| f.estimated[0] / f.truth).collect();
+    let (least, most) = quotients.iter().fold((f64::MAX, 0f64), |(a, b), q| (a.min(*q), b.max(*q)));
+    let within = found.iter().filter(|f| f.is_within).count();
+    let coverage = |kind: usize| {
+        let all: f64 = found.iter().map(|f| f.covered[kind].1).sum();
+        if all == 0.0 {
+            return "none".to_owned();
+        }
+        let share = |i: usize| 100.0 * found.iter().map(|f| f.covered[kind].0[i]).sum::<f64>() / all;
+        format!("{:.0} {:.0} {:.0} (of {all})", share(0), share(1), share(2))
+    };
+    println!(
+        "| {name} | {passes} | {:.2} | {:.2} ({:.2}, {:.2}) | {:.2} ({least:.2}–{most:.2}) | {within}/{} | {} | {} |",
+        100.0 * mean(&|f| f.truth),
+        100.0 * mean(&|f| f.estimated[0]),
+        100.0 * mean(&|f| f.estimated[1]),
+        100.0 * mean(&|f| f.estimated[2]),
+        mean(&|f| f.estimated[0] / f.truth),
+        found.len(),
+        coverage(0),
+        coverage(1),
+    );
+}

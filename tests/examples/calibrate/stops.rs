@@ -1,0 +1,69 @@
+//! Where `--error` stops against the error that is there: at the same eye samples, and with antialiasing in it.
+
+use std::num::NonZeroU32;
+use std::sync::Arc;
+
+use foton_integrator::Settings;
+use foton_scene::Scene;
+use foton_session::StopRule;
+
+use crate::truth::{self, Truth};
+
+const SCENES: [&str; 5] = ["cornell-diffuse", "cornell-spheres", "furnace", "ring", "glass-and-ring"];
+const GOALS: [f64; 2] = [0.2, 0.1];
+const PHOTONS: u32 = 1 << 16;
+const MOST_PASSES: u64 = 4000;
+/// Eye samples a pixel of the image that has none of the antialiasing error.
+const MANY_SAMPLES: NonZeroU32 = NonZeroU32::new(16).expect("above 0");
+
+/// Prints the table.
+pub(crate) fn print(named: &[&str], seed: u64, passes: u64) {
+    println!(
+        "| scene | asked % | passes | estimated % (low–high) | true % | true/asked | total with antialiasing % |"
+    );
+    println!("|---|---|---|---|---|---|---|");
+    for name in if named.is_empty() { SCENES.to_vec() } else { named.to_vec() } {
+        rows(name, &truth::open(name), seed, passes);
+    }
+}
+
+fn rows(name: &str, scene: &Arc<Scene>, seed: u64, truth_passes: u64) {
+    let settings = Settings { error: true, ..truth::settings(PHOTONS, seed) };
+    let same_eyes = Truth::render(scene, &settings, truth_passes);
+    let other = Settings { samples_per_pixel: MANY_SAMPLES, seed: seed + 1000, ..settings.clone() };
+    let many_eyes = Truth::render(scene, &other, truth_passes / 2);
+    let mut runs = truth::start(scene, settings, seed);
+    for goal in GOALS {
+        let rule = StopRule { error: Some(goal), ..StopRule::default() };
+        let time = std::time::Duration::ZERO;
+        loop {
+            let ppm = &runs.runs()[0];
+            if rule.is_reached(ppm.passes(), time, time, ppm.error().as_ref()) || ppm.passes() >= MOST_PASSES
+            {
+                break;
+            }
+            truth::advance(&mut runs);
+        }
+        let ppm = &runs.runs()[0];
+        let Some(error) = ppm.error() else { continue };
+        let reflected = truth::reflected(ppm);
+        let (real, total) = (same_eyes.error(&reflected), many_eyes.error(&reflected));
+        let never = if ppm.passes() >= MOST_PASSES { " (never stopped)" } else { "" };
+        println!(
+            "| {name} | {:.0} | {}{never} | {:.1} ({:.1}–{:.1}) | {:.1} | {:.2} | {:.1} |",
+            100.0 * goal,
+            ppm.passes(),
+            100.0 * error.total,
+            100.0 * error.low,
+            100.0 * error.high,
+            100.0 * real,
+            real / goal,
+            100.0 * total,
+        );
+    }
+    eprintln!(
+        "{name}: noise of the truths {:.1}, {:.1} %",
+        100.0 * same_eyes.noise(),
+        100.0 * many_eyes.noise()
+    );
+}
