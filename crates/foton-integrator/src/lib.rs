@@ -28,6 +28,7 @@ mod radius;
 mod refine;
 mod sampling;
 mod settings;
+mod stage;
 mod state;
 mod variants;
 
@@ -40,8 +41,9 @@ pub use ledger::{Ledger, Loss};
 pub use light_use::LightUse;
 pub use memory::MemoryEstimate;
 pub use photon::PathClass;
-pub use ppm::{PassReport, Ppm, Stage, Start};
+pub use ppm::{PassReport, Ppm, Start};
 pub use refine::Statistics;
 pub use settings::{Alpha, Change, DirectLight, RadiusRule, RadiusScale, Settings};
+pub use stage::Stage;
 pub use state::StateError;
 pub use variants::{Step, Variants};

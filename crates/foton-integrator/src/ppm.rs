@@ -23,58 +23,13 @@ use crate::photon_pass::{Chunk, PhotonPass};
 use crate::radius::FirstRadius;
 use crate::refine::Statistics;
 use crate::settings::{Change, DirectLight, Settings};
+use crate::stage::Stage;
 
 /// Longest path that is followed, whatever is asked for. What that cuts off stands in the ledger.
 const LONGEST_PATH: u32 = 250;
 
 /// Cells are marked anew when the mean r² has shrunk by this factor since the last time.
 const MARK_AGAIN: f64 = 0.7;
-
-/// The parts of a render, in the order in which they come. Those from `Trace` on come once a pass.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Stage {
-    /// Following eye paths.
-    EyePass,
-    /// Laying hit points out.
-    Layout,
-    /// Tracing photons.
-    Trace,
-    /// Sorting photons by cell.
-    Sort,
-    /// Gathering photons and refining hit points.
-    Gather,
-    /// Direct light by shadow rays.
-    ShadowRays,
-    /// Adding the pass to the pixels.
-    Radiance,
-}
-
-impl Stage {
-    /// All stages.
-    pub const ALL: [Self; 7] = [
-        Self::EyePass,
-        Self::Layout,
-        Self::Trace,
-        Self::Sort,
-        Self::Gather,
-        Self::ShadowRays,
-        Self::Radiance,
-    ];
-
-    /// The name in output.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::EyePass => "eye_pass",
-            Self::Layout => "layout",
-            Self::Trace => "trace",
-            Self::Sort => "sort",
-            Self::Gather => "gather",
-            Self::ShadowRays => "shadow_rays",
-            Self::Radiance => "radiance",
-        }
-    }
-}
 
 /// What the start of a render found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -12,8 +12,9 @@ use crate::cancel::{Cancel, Cancelled};
 use crate::grid::Grid;
 use crate::photon::PathClass;
 use crate::photon_pass::{Chunk, PhotonPass};
-use crate::ppm::{PassReport, Ppm, Stage};
+use crate::ppm::{PassReport, Ppm};
 use crate::settings::{DirectLight, Settings};
+use crate::stage::Stage;
 
 /// Whose work begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -162,7 +162,7 @@ impl Runner<'_> {
                 .into_iter()
                 .map(|(judge, rows)| Gathered { spread: judge.spread(self.reference), rows })
                 .collect();
-            if let Some(by_class) = gathered.get(own).map(|g| g.spread.classes.clone()) {
+            if let Some(by_class) = gathered.get(own).map(|g| g.spread.classes) {
                 gathered.truncate(own);
                 for g in gathered.iter_mut().filter(|g| g.rows[0].configuration == *centre) {
                     g.spread.classes.clone_from(&by_class);

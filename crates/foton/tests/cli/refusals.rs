@@ -1,0 +1,120 @@
+//! What is refused, and what comes of a fault: exit codes, words, and nothing half-written.
+
+use super::*;
+
+#[test]
+fn an_unknown_sensor_is_refused_with_the_known_names() {
+    let folder = Folder::new("sensor");
+    let said = folder.fails(1, "render scene.xml -o x.exr --passes 1 --sensor back");
+    assert!(["\"back\"", "\"front\"", "\"from above\""].iter().all(|name| said.contains(name)), "{said}");
+    assert_eq!(folder.images(), [""; 0]);
+}
+
+#[test]
+fn a_bad_scene_is_refused_with_the_place_in_the_file() {
+    let folder = Folder::new("bad");
+    folder.write("scene.xml", &SCENE.replace("type=\"dielectric\"", "type=\"dielectrc\""));
+    let line = 1 + SCENE.lines().position(|line| line.contains("dielectric")).expect("glass");
+    let said = folder.fails(1, "render scene.xml -o x.exr --passes 1");
+    let (_, column) = said.split_once(&format!("scene.xml:{line}:")).unwrap_or_else(|| panic!("{said}"));
+    assert!(column.starts_with(|c: char| c.is_ascii_digit()) && said.contains("\"dielectric\""), "{said}");
+    let output = folder.run("render scene.xml -o x.exr --passes 1 --json");
+    let event = &events(&output.stdout)[0];
+    assert_eq!((&event["event"], &event["line"]), (&json!("error"), &json!(line)));
+    assert_eq!(event["file"], "scene.xml");
+    assert!(number(event, "column") > 1.0 && event["message"].is_string(), "{event}");
+    let said = folder.fails(1, "render nowhere.xml -o x.exr");
+    assert!(said.contains("nowhere.xml"), "{said}");
+    assert_eq!(folder.images(), [""; 0]);
+}
+
+#[test]
+fn bad_usage_exits_with_2_and_writes_nothing() {
+    let folder = Folder::new("usage");
+    for arguments in [
+        "--alpha 0",
+        "--alpha 1.01",
+        "--alpha x",
+        "--size 0x3",
+        "--size 640",
+        "--passes 0",
+        "--photons 0",
+        "--time 0s",
+        "--radius -1",
+        "--threads 0",
+        "--every 0",
+        "--layers shadow",
+        "--memory much",
+        "-D nothing",
+        "--integrator bdpt",
+        "--frobnicate",
+    ] {
+        folder.fails(2, &format!("render scene.xml -o x.exr {arguments}"));
+    }
+    for arguments in ["scene.xml -o x.jpg", "scene.xml -o exr", "scene.xml", "-o x.exr"] {
+        folder.fails(2, &format!("render {arguments}"));
+    }
+    assert_eq!(folder.images(), [""; 0]);
+}
+
+#[test]
+fn a_render_beyond_the_memory_limit_is_refused_with_the_numbers() {
+    let folder = Folder::new("memory");
+    let said = folder.fails(1, "render scene.xml -o x.exr --passes 1 --memory 1K");
+    assert!(said.contains("MiB") && said.contains("--memory"), "{said}");
+    assert!(said.chars().any(|c| ('1'..='9').contains(&c)), "{said}");
+    assert_eq!(folder.images(), [""; 0]);
+}
+
+/// Programs built without debug assertions cannot be made to fail, and have nothing to show here.
+#[cfg(debug_assertions)]
+#[test]
+fn a_fault_in_a_pass_saves_the_image_of_the_passes_before() {
+    let folder = Folder::new("fault");
+    let render = "render scene.xml --photons 500 --threads 3 -o";
+    let two = folder.done(&format!("{render} two.exr --passes 2"));
+    assert!(two.status.success());
+    let fails = |fault: &str, output: &str| {
+        let arguments =
+            format!("{render} {output} --passes 9 --checkpoint {output}.ck --checkpoint-every 10ms --json");
+        let failed = folder.command(&arguments).env("FOTON_FAULT", fault).output().expect("starts");
+        assert_eq!(failed.status.code(), Some(1), "{fault}");
+        let last = events(&failed.stdout).pop().expect("an event");
+        assert_eq!(last["event"], "error");
+        last["message"].as_str().expect("a message").to_owned()
+    };
+    for stage in ["trace", "sort", "gather"] {
+        let said = fails(&format!("0:{stage}:3"), "part.exr");
+        assert_eq!(
+            said,
+            format!(
+                "foton has a fault and the render stops, in its stage \"{stage}\": FOTON_FAULT asked for this. What was written is \
+                 the image after 2 complete passes"
+            )
+        );
+        assert!(folder.exr("part.exr").0 == folder.exr("two.exr").0, "{stage}: the image of two passes");
+        fs::remove_file(folder.file("part.exr")).expect("written");
+    }
+    // While a pass is added to the pixels there is no whole image, and before the first there is none at all.
+    for fault in ["0:radiance:3", "0:eye_pass:0", "0:trace:1"] {
+        let said = fails(fault, "none.exr");
+        assert!(said.contains("FOTON_FAULT asked") && !folder.file("none.exr").exists(), "{fault}: {said}");
+    }
+}
+
+#[test]
+fn a_place_that_cannot_be_written_is_refused_before_rendering() {
+    let folder = Folder::new("places");
+    fs::create_dir(folder.file("folder.exr")).expect("a folder");
+    for (output, named) in
+        [("missing/x.exr", "missing"), ("folder.exr", "folder.exr"), ("gem.obj/x.png", "gem.obj")]
+    {
+        let output = folder.run(&format!("render scene.xml -o {output} --passes 3 --photons 500 --json"));
+        assert_eq!(output.status.code(), Some(1));
+        assert!(text(&output.stderr).contains(named), "{}", text(&output.stderr));
+        let events = events(&output.stdout);
+        assert_eq!(events.len(), 1, "no pass was rendered: {events:?}");
+        assert_eq!(events[0]["event"], "error");
+    }
+    assert_eq!(folder.images(), ["folder.exr"]);
+}
