@@ -107,13 +107,15 @@ impl App {
         self.watch();
         let Some(live) = self.live.as_mut().filter(|l| l.is_visible() && !self.occluded) else { return };
         let begin = Instant::now();
-        live.draw(&mut self.state);
-        let commands: Vec<_> = self.state.outbox.drain(..).collect();
-        for command in commands {
-            if !self.engine.send(command) {
-                self.state.error("The engine does not answer");
+        let engine = &self.engine;
+        live.draw(&mut self.state, |state| {
+            let commands: Vec<_> = state.outbox.drain(..).collect();
+            for command in commands {
+                if !engine.send(command) {
+                    state.error("The engine does not answer");
+                }
             }
-        }
+        });
         self.drawn = Instant::now();
         let since_input = self.unanswered.take().map(|at| self.drawn - at);
         if let Some(log) = &mut self.log {

@@ -81,6 +81,7 @@ fn describe(frame: &Frame) -> Value {
     let mut line = json!({
         "number": frame.number,
         "render": frame.render,
+        "pictured": frame.pictured,
         "activity": format!("{:?}", frame.activity).to_lowercase(),
         "pass": n.passes,
         "photons": n.photons,

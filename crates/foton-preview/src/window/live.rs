@@ -109,14 +109,16 @@ impl Live {
         size.width > 0 && size.height > 0 && self.window.is_minimized() != Some(true)
     }
 
-    /// Draws the state.
-    pub(super) fn draw(&mut self, state: &mut State) {
+    /// Draws the state. What was asked of the panels goes to `ask` before anything is painted, so that the engine works on it
+    /// meanwhile.
+    pub(super) fn draw(&mut self, state: &mut State, ask: impl FnOnce(&mut State)) {
         let theme = if state.preferences.dark { egui::Theme::Dark } else { egui::Theme::Light };
         if self.context.theme() != theme {
             self.context.set_theme(theme);
         }
         let input = self.egui.take_egui_input(&self.window);
         let mut output = self.context.run_ui(input, |ui| panels::show(ui, state));
+        ask(state);
         let platform = std::mem::take(&mut output.platform_output);
         self.egui.handle_platform_output(&self.window, platform);
         let shapes = std::mem::take(&mut output.shapes);

@@ -166,6 +166,8 @@ pub struct Frame {
     pub number: u64,
     /// Counts starts: another number is another render.
     pub render: u64,
+    /// The number of the render that the picture is of: of the one before while the next has none.
+    pub pictured: u64,
     /// What goes on.
     pub activity: Activity,
     /// Whether another scene is being opened.

@@ -75,6 +75,8 @@ pub(super) struct Worker {
     frames: u64,
     /// The whole picture as it last was: kept while the next render has none.
     picture: Option<Picture>,
+    /// The render that it is of.
+    pictured: u64,
     last_frame: Instant,
     /// Whether there is something that no frame has shown.
     unseen: bool,
@@ -107,6 +109,7 @@ impl Worker {
             taking_up: None,
             frames: 0,
             picture: None,
+            pictured: 0,
             last_frame: Instant::now(),
             unseen: true,
         }
@@ -338,7 +341,10 @@ impl Worker {
             Some(render) => render.next_level(self.eye_samples(stage)),
         };
         let started = level.map(|level| {
-            self.publish(true);
+            // A small picture is there so soon that a frame without it would only keep the window busy.
+            if level != Level::Small || self.picture.is_none() {
+                self.publish(true);
+            }
             if level == Level::Whole
                 && let Some(message) = self.beyond_memory(&scene)
             {
@@ -445,6 +451,7 @@ impl Worker {
         let mut probed = None;
         if let Some(render) = self.render.as_mut().filter(|r| r.ppm().passes() > 0) {
             self.picture = Some(render.picture(self.shown));
+            self.pictured = self.render_number;
             if render.is_whole() {
                 numbers = render.numbers();
                 if self.show_photons {
@@ -462,6 +469,7 @@ impl Worker {
         self.channels.frames.send(Frame {
             number: self.frames,
             render: self.render_number,
+            pictured: self.pictured,
             activity,
             opening: self.opening.as_ref().map(|o| o.name.clone()),
             size: facts.sensors.get(sensor).map_or([0, 0], |s| s.size),

@@ -40,6 +40,7 @@ fn frame() -> Frame {
     Frame {
         number: 7,
         render: 1,
+        pictured: 1,
         activity: Activity::Rendering,
         opening: None,
         size: SIZE,
