@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 
 use foton_session::Engine;
+use foton_session::engine::Frame;
 use winit::application::ApplicationHandler;
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
@@ -17,6 +18,10 @@ use crate::state::{State, Tone};
 
 /// Between frames that only new passes ask for, where drawing takes the cores that render.
 const SOFTWARE_GAP: Duration = Duration::from_millis(330);
+
+/// The same while a person acts, and between frames that only egui asks for: a frame that shows nothing new to the person would
+/// hold up the render of one that does.
+const SOFTWARE_ATTENTIVE_GAP: Duration = Duration::from_millis(120);
 
 /// The same where a graphics card draws.
 const HARDWARE_GAP: Duration = Duration::from_millis(33);
@@ -89,7 +94,8 @@ impl App {
         if let Some(frame) = self.engine.frame() {
             // Where a render begins or ends, the picture is due at once.
             let before = self.state.frame.as_ref();
-            is_news = before.is_none_or(|old| old.activity != frame.activity || old.render != frame.render);
+            let place = |f: &Frame| (f.activity, f.render, f.pictured);
+            is_news = before.is_none_or(|old| place(old) != place(&frame));
             self.state.show(frame);
         }
         while let Some(event) = self.engine.event() {
@@ -97,9 +103,17 @@ impl App {
             is_news = true;
         }
         let attentive = self.last_input.is_some_and(|at| at.elapsed() < ATTENTION);
-        let is_software = self.live.as_ref().is_some_and(|l| l.is_software);
-        let gap = if is_software && !is_news && !attentive { SOFTWARE_GAP } else { HARDWARE_GAP };
+        let gap = match (self.is_software(), is_news, attentive) {
+            (false, ..) | (_, true, _) => HARDWARE_GAP,
+            (true, false, true) => SOFTWARE_ATTENTIVE_GAP,
+            (true, false, false) => SOFTWARE_GAP,
+        };
         self.draw_at(self.drawn + gap);
+    }
+
+    /// Whether drawing takes the cores that render.
+    fn is_software(&self) -> bool {
+        self.live.as_ref().is_some_and(|l| l.is_software)
     }
 
     fn draw(&mut self) {
@@ -192,7 +206,8 @@ impl ApplicationHandler<UserEvent> for App {
             UserEvent::Wake => self.listen(),
             UserEvent::Repaint(delay) => {
                 if let Some(when) = Instant::now().checked_add(delay) {
-                    self.draw_at(when);
+                    let soonest = self.drawn + SOFTWARE_ATTENTIVE_GAP;
+                    self.draw_at(if self.is_software() { when.max(soonest) } else { when });
                 }
             }
             UserEvent::DeviceLost => {
