@@ -2,6 +2,8 @@
 //!
 //! Not here: whether images are right. Signals are sent with `kill`, so their part runs on Unix alone.
 
+#[cfg(debug_assertions)]
+mod faults;
 mod refusals;
 mod scene_says;
 #[cfg(unix)]
