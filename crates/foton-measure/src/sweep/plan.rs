@@ -60,7 +60,8 @@ impl Configuration {
     /// The options of `foton render` that ask for it.
     #[must_use]
     pub fn options(&self) -> String {
-        let mut options = format!("--alpha {:.4} --photons {}", self.alpha.get(), self.photons);
+        let mut options =
+            format!("--alpha {} --photons {}", (self.alpha.get() * 1e4).round() / 1e4, self.photons);
         if self.radius_scale != RadiusScale::default() {
             options += &format!(" --radius x{}", self.radius_scale);
         }
@@ -199,6 +200,6 @@ mod tests {
         assert_eq!(jobs[0].configurations.iter().filter(|c| **c == centre).count(), 1);
         assert_eq!(centre.to_string(), "α 0.75, 100 k photons, radius × 1");
         let shadow = Configuration { direct_light: DirectLight::ShadowRays, ..centre };
-        assert_eq!(shadow.options(), "--alpha 0.7500 --photons 100000 --direct shadow-rays");
+        assert_eq!(shadow.options(), "--alpha 0.75 --photons 100000 --direct shadow-rays");
     }
 }

@@ -37,7 +37,7 @@ svg{display:block;width:100%;height:auto}svg .on-light{fill:#10151a}svg .on-dark
 .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(11rem,1fr));gap:1rem}\
 .pictures img{display:block;width:100%;image-rendering:pixelated;border-radius:4px;margin-bottom:4px}\
 table{border-collapse:collapse;font-variant-numeric:tabular-nums}th,td{padding:.25rem .7rem;text-align:right;\
-border-bottom:1px solid var(--line)}th:first-child,td:first-child{text-align:left}th{color:var(--dim);font-weight:600}\
+border-bottom:1px solid var(--line)}td{white-space:nowrap}th:first-child,td:first-child{text-align:left}th{color:var(--dim);font-weight:600}\
 .wide{overflow-x:auto}";
 
 impl Report<'_> {
