@@ -90,7 +90,7 @@ pub fn measure(alpha: f64, photons: u32, seeds: u64, checkpoints: &[u64]) -> Vec
     };
     // Eye samples of seed 0 for all: only photons differ.
     let base = settings(alpha, photons, 0);
-    let mut exact = start(Settings { direct_light: DirectLight::ShadowRays, ..base.clone() }, 0);
+    let mut exact = start(Settings { direct_light: DirectLight::ShadowRays, ..base }, 0);
     exact.advance(&mut |_| (), &cancel).expect("not cancelled");
     let light = |runs: &foton_integrator::Variants| -> Vec<f64> {
         runs.runs()[0].image().pixels.iter().map(|p| f64::from(p.luminance())).collect()

@@ -30,7 +30,7 @@ pub(crate) fn print(named: &[&str], seed: u64, passes: u64) {
 fn rows(name: &str, scene: &Arc<Scene>, seed: u64, truth_passes: u64) {
     let settings = Settings { error: true, ..truth::settings(PHOTONS, seed) };
     let same_eyes = Truth::render(scene, &settings, truth_passes);
-    let other = Settings { samples_per_pixel: MANY_SAMPLES, seed: seed + 1000, ..settings.clone() };
+    let other = Settings { samples_per_pixel: MANY_SAMPLES, seed: seed + 1000, ..settings };
     let many_eyes = Truth::render(scene, &other, truth_passes / 2);
     let mut runs = truth::start(scene, settings, seed);
     for goal in GOALS {

@@ -368,7 +368,12 @@ fn the_bar_pauses_steps_restarts_saves_and_opens() {
 fn checkpoints_are_kept_and_taken_up_by_the_file_dialog() {
     let folder = std::env::temp_dir().join(format!("foton-panels-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
-    let mut harness = window(|state| state.preferences.scene_folder.clone_from(&folder));
+    // The dialog begins beside the scene's file.
+    let beside = |state: &mut State| {
+        let facts = Arc::make_mut(&mut state.frame.as_mut().expect("there").scene);
+        facts.file = Some(folder.join("box.xml"));
+    };
+    let mut harness = window(beside);
     let stem = harness.state().frame.as_ref().expect("there").scene.name.replace(".xml", "");
     let path = folder.join(format!("{stem}.checkpoint"));
     click(&mut harness, Role::Button, "Scene");
@@ -376,7 +381,7 @@ fn checkpoints_are_kept_and_taken_up_by_the_file_dialog() {
     click(&mut harness, Role::Button, "Save");
     assert_asked(&mut harness, &Command::KeepCheckpoint(path.clone()));
     std::fs::write(&path, "").expect("written");
-    let mut harness = window(|state| state.preferences.scene_folder.clone_from(&folder));
+    let mut harness = window(beside);
     click(&mut harness, Role::Button, "Scene");
     click(&mut harness, Role::Button, "Go on from a checkpoint…");
     find(&harness, Role::TextInput, "Name").focus();
