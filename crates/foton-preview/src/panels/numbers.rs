@@ -6,6 +6,9 @@ use foton_session::engine::{Activity, Frame};
 use super::{error, grouped, heading, short};
 use crate::state::{State, Trace};
 
+/// A share of the light cut off at the longest path that is worth a warning, as in `foton render`.
+const MUCH_CUT_OFF: f64 = 1e-3;
+
 /// The line at the bottom.
 pub(super) fn status(ui: &mut egui::Ui, state: &State) {
     ui.horizontal(|ui| {
@@ -68,11 +71,13 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
     let n = &frame.numbers;
     heading(ui, "Numbers");
     egui::Grid::new("numbers").num_columns(2).spacing([12.0, 3.0]).show(ui, |ui| {
-        let mut row = |name: &str, value: String, help: &str| {
+        let warning = ui.visuals().warn_fg_color;
+        let mut row_of = |name: &str, value: egui::RichText, help: &str| {
             ui.weak(name).on_hover_text(help);
-            ui.monospace(value);
+            ui.label(value.monospace());
             ui.end_row();
         };
+        let mut row = |name: &str, value: String, help: &str| row_of(name, value.into(), help);
         row("time", format!("{:.1} s", n.elapsed.as_secs_f64()), "Of rendering; pauses do not count");
         for (name, value, help) in error::rows(state) {
             row(name, value, help);
@@ -93,6 +98,25 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
             "Scene, hit points and photons",
         );
         row("image", format!("{} × {}", frame.size[0], frame.size[1]), "In pixels");
+        let ledger = &n.ledger;
+        if ledger.emitted > 0.0 {
+            let percent = |power: f64| format!("{:.2} %", 100.0 * power / ledger.emitted);
+            row(
+                "absorbed, escaped",
+                format!("{}, {}", percent(ledger.absorbed), percent(ledger.escaped)),
+                "Of the emitted light: kept by surfaces, and gone from the scene",
+            );
+            let missing = format!("{}, {}", percent(ledger.truncated), grouped(ledger.dropped));
+            let mut missing = egui::RichText::new(missing);
+            if ledger.truncated > MUCH_CUT_OFF * ledger.emitted || ledger.dropped > 0 {
+                missing = missing.color(warning);
+            }
+            row_of(
+                "cut off, dropped",
+                missing,
+                "Light still under way at the longest path, and photons whose power was no number; --max-depth moves the end",
+            );
+        }
     });
     let all: f64 = n.stages.iter().map(|(_, t)| t.as_secs_f64()).sum();
     if all > 0.0 {

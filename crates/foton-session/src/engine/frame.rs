@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use foton_film::{Image, Plane};
-use foton_integrator::{ErrorEstimate, PathClass, Radii, Settings};
+use foton_integrator::{ErrorEstimate, Ledger, PathClass, Radii, Settings};
 use foton_math::Rgb;
 
 use super::command::Shown;
@@ -153,6 +153,8 @@ pub struct Numbers {
     pub no_photon_share: f64,
     /// How wrong the image still is, once there are passes enough to tell.
     pub error: Option<ErrorEstimate>,
+    /// Where the emitted power went.
+    pub ledger: Ledger,
     /// Spread of radii in world units.
     pub radii: Radii,
     /// Bytes held.

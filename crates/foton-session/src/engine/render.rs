@@ -188,6 +188,7 @@ impl Render {
             hit_points: ppm.start_report().hit_points,
             no_photon_share: self.no_photon_share,
             error: ppm.error(),
+            ledger: *ppm.ledger(),
             radii,
             bytes: ppm.bytes(),
         }

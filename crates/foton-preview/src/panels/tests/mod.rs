@@ -19,7 +19,7 @@ use foton_session::engine::{
     Activity, Command, Configuration, Event, Frame, Numbers, Picture, SceneFacts, Selection, SensorFacts,
     Shown, Source,
 };
-use foton_session::{Alpha, Change, DirectLight, Settings, StopRule};
+use foton_session::{Alpha, Change, DirectLight, Ledger, Settings, StopRule};
 
 use crate::preferences::Preferences;
 use crate::state::State;
@@ -53,6 +53,7 @@ fn frame() -> Frame {
             elapsed: Duration::from_secs(9),
             photons_per_s: 1.5e6,
             hit_points: 2400,
+            ledger: Ledger { emitted: 8.0, absorbed: 6.0, escaped: 1.9, truncated: 0.1, ..Ledger::default() },
             ..Numbers::default()
         },
         settings: Settings::default(),
@@ -362,6 +363,16 @@ fn the_bar_pauses_steps_restarts_saves_and_opens() {
     assert_asked(&mut harness, &Command::ResetCamera);
     click(&mut harness, Role::CheckBox, "at passes 1, 2, 4, 8, …");
     assert_asked(&mut harness, &Command::AutoSnapshots(Some("/pictures".into())));
+}
+
+#[test]
+fn where_the_light_went_stands_among_the_numbers() {
+    let harness = window(|_| ());
+    for text in ["absorbed, escaped", "75.00 %, 23.75 %", "cut off, dropped", "1.25 %, 0"] {
+        assert!(harness.query_by_label(text).is_some(), "{text}");
+    }
+    let dark = window(|state| state.frame.as_mut().expect("there").numbers.ledger = Ledger::default());
+    assert!(dark.query_by_label("absorbed, escaped").is_none(), "nothing was emitted");
 }
 
 #[test]
