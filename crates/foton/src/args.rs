@@ -121,7 +121,7 @@ pub(crate) struct Render {
         Settings::default().alpha,
     ))]
     pub(crate) alpha: Option<Alpha>,
-    /// First radius: in world units, or x0.5 for half of what each pixel's footprint gives [x1]
+    /// First radius: in world units, or x0.5 for half of what each pixel's footprint gives (x1)
     #[arg(long, value_name = "R|xF", value_parser = radius)]
     pub(crate) radius: Option<Radius>,
     /// How radii shrink

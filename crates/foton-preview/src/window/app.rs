@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 
 use foton_session::Engine;
-use foton_session::engine::Frame;
+use foton_session::engine::{Change, Command, Frame};
 use winit::application::ApplicationHandler;
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
@@ -29,6 +29,9 @@ const HARDWARE_GAP: Duration = Duration::from_millis(33);
 /// For so long after an input a person is taken to be waiting for the picture.
 const ATTENTION: Duration = Duration::from_millis(500);
 
+/// So long a frame waits for the picture of a move, where drawing would take the cores that make it.
+const PATIENCE: Duration = Duration::from_millis(70);
+
 /// Between looks at whether the scene's file has changed.
 const WATCH: Duration = Duration::from_secs(1);
 
@@ -46,6 +49,8 @@ pub(super) struct App {
     unanswered: Option<Instant>,
     last_input: Option<Instant>,
     occluded: bool,
+    /// Whether the last frame was left to the picture that follows.
+    waited: bool,
     watched: Option<(PathBuf, Option<SystemTime>)>,
     looked: Instant,
 }
@@ -69,6 +74,7 @@ impl App {
             unanswered: None,
             last_input: None,
             occluded: false,
+            waited: false,
             watched: None,
             looked: Instant::now(),
         }
@@ -122,14 +128,23 @@ impl App {
         let Some(live) = self.live.as_mut().filter(|l| l.is_visible() && !self.occluded) else { return };
         let begin = Instant::now();
         let engine = &self.engine;
-        live.draw(&mut self.state, |state| {
+        // Not twice in a row: a hand that never rests would see nothing.
+        let may_wait = live.is_software && !self.waited;
+        let painted = live.draw(&mut self.state, |state| {
             let commands: Vec<_> = state.outbox.drain(..).collect();
+            let waits = may_wait && commands.iter().any(answers_soon);
             for command in commands {
                 if !engine.send(command) {
                     state.error("The engine does not answer");
                 }
             }
+            !waits
         });
+        self.waited = !painted;
+        if !painted {
+            self.draw_at(begin + PATIENCE);
+            return;
+        }
         self.drawn = Instant::now();
         let since_input = self.unanswered.take().map(|at| self.drawn - at);
         if let Some(log) = &mut self.log {
@@ -192,6 +207,11 @@ impl App {
             }
         }
     }
+}
+
+/// Whether a small picture follows at once, so that a frame without it is not worth its time.
+const fn answers_soon(command: &Command) -> bool {
+    matches!(command, Command::Camera { moving: true, .. } | Command::Edit(Change::DragTo(_)))
 }
 
 impl ApplicationHandler<UserEvent> for App {

@@ -110,17 +110,21 @@ impl Live {
     }
 
     /// Draws the state. What was asked of the panels goes to `ask` before anything is painted, so that the engine works on it
-    /// meanwhile.
-    pub(super) fn draw(&mut self, state: &mut State, ask: impl FnOnce(&mut State)) {
+    /// meanwhile. If that returns `false`, nothing is painted: something better follows at once. Returns whether it was.
+    pub(super) fn draw(&mut self, state: &mut State, ask: impl FnOnce(&mut State) -> bool) -> bool {
         let theme = if state.preferences.dark { egui::Theme::Dark } else { egui::Theme::Light };
         if self.context.theme() != theme {
             self.context.set_theme(theme);
         }
         let input = self.egui.take_egui_input(&self.window);
         let mut output = self.context.run_ui(input, |ui| panels::show(ui, state));
-        ask(state);
+        let is_worth_it = ask(state);
         let platform = std::mem::take(&mut output.platform_output);
         self.egui.handle_platform_output(&self.window, platform);
+        // Textures are handed over once.
+        if !is_worth_it && output.textures_delta.is_empty() {
+            return false;
+        }
         let shapes = std::mem::take(&mut output.shapes);
         let ground = panels::ground(&self.context.style_of(theme).visuals);
         let primitives = self.context.tessellate(shapes, output.pixels_per_point);
@@ -133,5 +137,6 @@ impl Live {
             Vec::new(),
             &self.window,
         );
+        true
     }
 }
