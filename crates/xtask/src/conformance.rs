@@ -16,8 +16,8 @@ const SCRIPTS: &str = "tests/conformance";
 /// One small diffuse scene, with the dev build that the tests have just made.
 pub(crate) fn quick() -> Result<(), Trouble> {
     let python = environment()?;
-    // As `cargo test --workspace` does, so that the dependencies are built with the same features, hence only once.
-    tools::run(&mut tools::cargo(&["build", "--workspace", "--bin", "foton"]))?;
+    // By the same command as the tests, so that the dependencies are built with the same features, hence only once.
+    tools::run(&mut tools::cargo(&["test", "--workspace", "--no-run"]))?;
     compare(&python, "debug", &["--quick"])
 }
 

@@ -53,5 +53,6 @@ pub(crate) fn all(install: bool) -> Result<(), Trouble> {
 
 /// Unit tests, integration tests and the examples in the documentation, all in the optimised dev profile.
 fn cargo_test() -> Result<(), Trouble> {
-    tools::run(&mut tools::cargo(&["test", "--workspace", "--no-fail-fast"]))
+    let program = tools::target_dir().join("debug/foton").with_extension(std::env::consts::EXE_EXTENSION);
+    tools::run(tools::cargo(&["test", "--workspace", "--no-fail-fast"]).env("FOTON_PROGRAM", program))
 }
