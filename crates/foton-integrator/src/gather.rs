@@ -203,13 +203,20 @@ fn collect<const LAYERS: usize, const SHADED: bool, const ERROR: bool>(
         if !any(&counts) {
             continue;
         }
-        let factor = if SHADED { shading_factor(packet, shading_normals, photon) } else { [1.0; LANES] };
+        let mut factor = [1.0; LANES];
+        if SHADED {
+            // What does not count is zero from here on: masks that are asked for again below were taken apart lane by lane.
+            factor = shading_factor(packet, shading_normals, photon);
+            for l in 0..LANES {
+                factor[l] = f32::from_bits(factor[l].to_bits() & counts[l]);
+            }
+        }
         let layer = &mut found.flux[Found::<LAYERS>::layer(photon)];
         for (channel, power) in [photon.power.r, photon.power.g, photon.power.b].into_iter().enumerate() {
             let sums = &mut layer[channel];
             for l in 0..LANES {
-                let term = if SHADED { power * factor[l] } else { power };
-                sums[l] += f32::from_bits(term.to_bits() & counts[l]);
+                sums[l] +=
+                    if SHADED { power * factor[l] } else { f32::from_bits(power.to_bits() & counts[l]) };
             }
         }
         for l in 0..LANES {
