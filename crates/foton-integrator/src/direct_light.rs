@@ -12,7 +12,7 @@ use crate::packet::LANES;
 use crate::photon::PathClass;
 
 /// Shadow rays end this share before a sampled point on a surface, which must not shadow itself.
-const SHORTENED: f32 = 1e-4;
+pub(crate) const SHORTENED: f32 = 1e-4;
 
 /// Slots that one task looks after.
 const BLOCK: usize = 256 * LANES;

@@ -9,13 +9,11 @@ use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Frame, Ray, Rgb, Stream};
 use foton_scene::{Scattering, Scene, Surface};
 
+use crate::direct_light::SHORTENED;
 use crate::eye_pass::leaves_wrongly;
 
 /// So many lights without extent are all looked up; of more, so many are chosen by chance.
 const MOST: usize = 16;
-
-/// Shadow rays end this share before a sampled point on a surface, which must not shadow itself.
-const SHORTENED: f32 = 1e-4;
 
 /// Where an eye path follows rough lobes.
 #[derive(Clone, Copy)]
