@@ -137,7 +137,7 @@ def ring(report, foton, theirs, scene, out):
         return theirs.cached(prepared, f"ptracer-1024spp-s{seed}", image)
 
     reference = np.stack([light_traced(seed) for seed in (1, 2, 3, 4)])
-    ours = np.stack([foton.render(prepared, seed, 48, 1 << 19, 8, 0.004) for seed in (1, 2, 3, 4)])
+    ours = np.stack([foton.render(prepared, seed, 48, 1 << 19, 8, 0.004) for seed in range(1, 17)])
     with theirs.scalar_scene(prepared) as built:
         table = first_shapes(built, RING_SIZE, lambda s: s.bsdf().id()) == "wood"
     shown = [np.where(table[..., None], images.mean(axis=0), 0.0) for images in (ours, reference)]

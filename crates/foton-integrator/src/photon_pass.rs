@@ -1,17 +1,19 @@
 //! One pass of photons: from emitters, from surface to surface, stored wherever light spreads near a hit point.
 
+mod scatter;
+
+pub(crate) use scatter::SMALLEST_COSINE;
+
 use std::ops::Range;
 
-use foton_math::glam::Vec3;
 use foton_math::{Purpose, Ray, Rgb, Stream};
-use foton_scene::{Lobe, Scene, Surface, Transport};
+use foton_scene::{Hit, Scene};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 use crate::cancel::{Cancel, Cancelled};
-use crate::eye_pass::{leaves_wrongly, on_the_right_side, shading_normal_towards};
 use crate::grid::Grid;
-use crate::ledger::{Ledger, Loss, energy, left_out};
+use crate::ledger::{Ledger, Loss, energy};
 use crate::light_use::LightUse;
 use crate::photon::{PathClass, Photon};
 use crate::settings::DirectLight;
@@ -19,11 +21,11 @@ use crate::settings::DirectLight;
 /// Photons that one task emits.
 const CHUNK: u64 = 4096;
 
+/// Photons followed side by side: few enough for the nearest cache.
+const WAVE: usize = 256;
+
 /// Numbers that each edge of a path may draw, and that come before the first.
 const DIMENSIONS: u64 = 8;
-
-/// |ω·n_g| counts as at least this in the shading normals' correction.
-pub(crate) const SMALLEST_COSINE: f32 = 1e-2;
 
 /// Everything a photon pass needs to know.
 pub(crate) struct PhotonPass<'a> {
@@ -64,8 +66,21 @@ struct Flight {
     edges: u32,
 }
 
-/// The work on a chunk, compiled for each instruction set; the best that the machine has is taken. Everything that each photon
-/// runs through is inlined into it. No instruction set changes a result.
+/// One photon among those that are followed side by side.
+struct Path {
+    flight: Flight,
+    stream: Stream,
+    /// Index of the emitter.
+    emitter: u32,
+    /// Whether it was stored anywhere.
+    stored: bool,
+}
+
+/// The work on a chunk, compiled for each instruction set; the best that the machine has is taken. No instruction set changes a
+/// result.
+///
+/// Photons go in waves: all to their next surface, then all on from there. A processor then works on several at once, where each
+/// step of one photon waits for the last.
 struct Follow<'a, 'b> {
     pass: &'a PhotonPass<'b>,
     range: Range<u64>,
@@ -78,18 +93,20 @@ impl WithSimd for Follow<'_, '_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { pass, range, chunk } = self;
-        for index in range {
-            let stream = Stream::new(pass.seed, Purpose::Photon, pass.pass, index);
-            let Some((emitter, flight)) = pass.emit(index, stream.clone()) else { continue };
-            if !flight.power.is_finite() {
-                chunk.ledger.dropped += 1;
-                chunk.lights[emitter].emitted += 1;
-                chunk.lights[emitter].dropped += 1;
-                continue;
+        let mut paths = Vec::with_capacity(WAVE);
+        let mut hits = Vec::with_capacity(WAVE);
+        for first in range.clone().step_by(WAVE) {
+            for index in first..range.end.min(first + WAVE as u64) {
+                paths.extend(pass.start(index, chunk));
             }
-            let stored = chunk.photons.len();
-            pass.follow(flight, &stream, chunk);
-            chunk.lights[emitter].count(chunk.photons.len() > stored);
+            while !paths.is_empty() {
+                chunk.rays += paths.len() as u64;
+                hits.clear();
+                for path in &paths {
+                    hits.push(pass.scene.nearest_hit(path.flight.ray));
+                }
+                pass.go_on(&mut paths, &hits, chunk);
+            }
         }
     }
 }
@@ -115,24 +132,52 @@ impl PhotonPass<'_> {
         })
     }
 
+    /// Emits a photon; `None` where there is no emitter, or where its power is no number.
     #[inline(always)]
-    fn follow(&self, mut flight: Flight, stream: &Stream, chunk: &mut Chunk) {
+    fn start(&self, index: u64, chunk: &mut Chunk) -> Option<Path> {
+        let stream = Stream::new(self.seed, Purpose::Photon, self.pass, index);
+        let (emitter, flight) = self.emit(index, stream.clone())?;
+        if !flight.power.is_finite() {
+            chunk.ledger.dropped += 1;
+            chunk.lights[emitter].emitted += 1;
+            chunk.lights[emitter].dropped += 1;
+            return None;
+        }
         chunk.ledger.emitted += energy(flight.power);
-        loop {
-            chunk.rays += 1;
-            let Some(surface) = self.scene.nearest(flight.ray) else {
+        Some(Path { flight, stream, emitter: emitter as u32, stored: false })
+    }
+
+    /// Sends all paths on from where they hit, and keeps those that go on.
+    #[inline(always)]
+    fn go_on(&self, paths: &mut Vec<Path>, hits: &[Option<Hit>], chunk: &mut Chunk) {
+        let mut kept = 0;
+        // A loop and no closure: closures are not compiled for the chosen instruction set.
+        for (i, hit) in hits.iter().enumerate() {
+            let flight = paths[i].flight;
+            let next = if let Some(hit) = hit {
+                let surface = self.scene.surface(&flight.ray, hit);
+                let mut numbers = paths[i].stream.from_dimension(u64::from(flight.edges) * DIMENSIONS);
+                let before = chunk.photons.len();
+                let next = self.scatter(&flight, &surface, &mut numbers, chunk);
+                paths[i].stored |= chunk.photons.len() > before;
+                next
+            } else {
                 chunk.ledger.escaped += energy(flight.power);
-                return;
+                None
             };
-            let mut numbers = stream.from_dimension(u64::from(flight.edges) * DIMENSIONS);
-            match self.scatter(flight, &surface, &mut numbers, chunk) {
-                Some(next) => flight = next,
-                None => return,
+            if let Some(next) = next {
+                paths[i].flight = next;
+                paths.swap(kept, i);
+                kept += 1;
+            } else {
+                chunk.lights[paths[i].emitter as usize].count(paths[i].stored);
             }
         }
+        paths.truncate(kept);
     }
 
     /// The index of the emitter, and the photon as it leaves it.
+    #[inline(always)]
     fn emit(&self, index: u64, mut numbers: Stream) -> Option<(usize, Flight)> {
         // Stratified over the pass: each emitter gets its share of photons up to one.
         let u = (index as f64 + f64::from(numbers.next_1d())) / self.photons as f64;
@@ -147,121 +192,4 @@ impl PhotonPass<'_> {
         };
         Some((index, flight))
     }
-
-    /// Stores the photon where light spreads, and sends it on.
-    #[inline(always)]
-    fn scatter(
-        &self,
-        flight: Flight,
-        surface: &Surface,
-        numbers: &mut Stream,
-        chunk: &mut Chunk,
-    ) -> Option<Flight> {
-        let wo = -flight.ray.direction;
-        let outward = wo.dot(surface.normal) > 0.0;
-        let Some(scattering) = self.scene.scattering(surface, outward) else {
-            chunk.ledger.absorbed += energy(flight.power);
-            return None;
-        };
-        if scattering.bsdf.keeps() {
-            self.store(&flight, surface, wo, chunk);
-        }
-        let normal = shading_normal_towards(surface, wo);
-        let frame = self.scene.shading_frame(surface, normal);
-        let local = frame.to_local(wo);
-        let sample = scattering.sample(local, Transport::Importance, numbers.next_1d(), numbers.next_2d());
-        let Some(sample) = sample else {
-            chunk.ledger.absorbed += energy(flight.power);
-            return None;
-        };
-        let scattered = flight.power * sample.weight;
-        let direction = frame.to_outer(sample.wi).normalize();
-        let reflects = sample.wi.z * local.z > 0.0;
-        let followed = sample.lobe == Lobe::Followed;
-        let correction = if !followed && leaves_wrongly(surface, wo, direction, reflects) {
-            0.0
-        } else if sample.wi == -local {
-            // Straight on, as if there were no surface.
-            1.0
-        } else {
-            adjoint_correction(surface.normal, normal, wo, direction)
-        };
-        let corrected = scattered * correction;
-        let material = self.scene.shapes()[surface.shape as usize].material as usize;
-        if !corrected.is_finite() {
-            // Dropped before it reaches a sum: one NaN would be all that is left of the image.
-            chunk.ledger.dropped += 1;
-            chunk.ledger.lost += energy(flight.power);
-            chunk.losses[material].dropped += 1;
-            return None;
-        }
-        chunk.ledger.absorbed += left_out(flight.power, sample.weight);
-        if correction != 1.0 {
-            chunk.ledger.shading_normals += left_out(scattered, Rgb::splat(correction));
-        }
-        if corrected.is_black() {
-            return None;
-        }
-        if flight.edges + 1 >= self.max_depth {
-            chunk.ledger.truncated += energy(corrected);
-            chunk.losses[material].truncated += energy(corrected);
-            return None;
-        }
-        let power = roulette(corrected, flight.power, numbers.next_1d(), &mut chunk.ledger)?;
-        let direction =
-            if followed { on_the_right_side(surface, wo, direction, reflects) } else { direction };
-        Some(Flight {
-            ray: Ray::new(surface.ray_origin(direction), direction),
-            power,
-            class: flight.class.scattered(followed),
-            edges: flight.edges + 1,
-        })
-    }
-
-    #[inline(always)]
-    fn store(&self, flight: &Flight, surface: &Surface, wo: Vec3, chunk: &mut Chunk) {
-        if flight.class == PathClass::Direct && self.direct_light == DirectLight::ShadowRays {
-            return;
-        }
-        if let Some(cell) = self.grid.number(surface.position) {
-            let normal = surface.normal * 1f32.copysign(wo.dot(surface.normal));
-            let edges = flight.edges.min(255) as u8;
-            let from = self.directions.then_some(wo);
-            chunk.photons.push(Photon::new(
-                surface.position,
-                normal,
-                from,
-                flight.power,
-                flight.class,
-                edges,
-            ));
-            chunk.cells.push(cell);
-        }
-    }
-}
-
-/// |ωi·n_s| |ωo·n_g| / (|ωi·n_g| |ωo·n_s|) for light from `wo` scattered to `wi`: photons see the adjoint of a BSDF with
-/// interpolated normals. `[VEA97]` section 5.3
-fn adjoint_correction(n_g: Vec3, n_s: Vec3, wo: Vec3, wi: Vec3) -> f32 {
-    if n_g == n_s {
-        return 1.0;
-    }
-    let upper = wo.dot(n_s).abs() * wi.dot(n_g).abs();
-    let lower = wo.dot(n_g).abs().max(SMALLEST_COSINE) * wi.dot(n_s).abs().max(SMALLEST_COSINE);
-    upper / lower
-}
-
-/// Survival in proportion to the power that is left, so that all photons carry about the same.
-fn roulette(power: Rgb, before: Rgb, u: f32, ledger: &mut Ledger) -> Option<Rgb> {
-    let chance = power.max_component() / before.max_component();
-    if chance >= 1.0 {
-        return Some(power);
-    }
-    ledger.roulette += energy(power);
-    if u >= chance {
-        return None;
-    }
-    let survivor = power / chance;
-    ledger.roulette -= energy(survivor);
-    Some(survivor)
 }

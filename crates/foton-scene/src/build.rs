@@ -133,6 +133,8 @@ impl Scene {
         if scene.census.rough_coats {
             scene.coats = scene.materials.iter().map(Material::coats).collect();
         }
+        scene.lambertian =
+            scene.shapes.iter().map(|s| scene.materials[s.material as usize].lambertian()).collect();
         scene.max_depth = description.max_depth;
         scene.sensors = description.sensors.iter().map(|s| Sensor::new(s, &normalisation)).collect();
         scene.census.lights_without_extent |= emitters.iter().any(Emitter::is_without_extent);
@@ -163,6 +165,16 @@ impl Material {
     /// Whether its roughness differs along u and v.
     pub(crate) fn is_anisotropic(&self) -> bool {
         self.bsdfs().filter_map(Bsdf::roughness).any(|r| r.alpha_u != r.alpha_v)
+    }
+
+    /// The colours of its sides where they are Lambertian and nothing else.
+    fn lambertian(&self) -> [Option<Colour>; 2] {
+        let colour = |bsdf: Option<&Bsdf>| match bsdf {
+            Some(Bsdf::Diffuse { reflectance }) if self.opacity.is_none() => Some(*reflectance),
+            _ => None,
+        };
+        let back = if self.front.transmits() { Some(&self.front) } else { self.back.as_ref() };
+        [colour(Some(&self.front)), colour(back)]
     }
 
     /// The rough coats of its sides.

@@ -20,6 +20,7 @@ mod sensor;
 mod surface;
 mod texture;
 
+pub use accel::Hit;
 pub use bsdf::{BsdfSample, Coat, FollowedLobe, Lobe, Scattering, Transport};
 pub use build::BuildError;
 pub use census::Census;

@@ -94,6 +94,7 @@ impl ShearedRay {
     ///
     /// Products of single precision numbers are exact in double precision: signs are right, on edges too, and a sliver keeps
     /// the digits of its weights.
+    #[inline(always)]
     fn edges(&self, vertices: &[Vec3; 3]) -> [f64; 3] {
         let sheared = |vertex: Vec3| {
             let v = self.permuted(vertex - self.ray.origin);

@@ -48,6 +48,8 @@ pub struct Scene {
     pub(crate) materials: Vec<Material>,
     /// Front and back of each material; empty when no coat is rough.
     pub(crate) coats: Vec<[Option<Coat>; 2]>,
+    /// Colours of each shape's front and back where that is Lambertian and nothing else.
+    pub(crate) lambertian: Vec<[Option<Colour>; 2]>,
     pub(crate) emitters: Arc<[Emitter]>,
     pub(crate) emitter_choice: Discrete,
     pub(crate) sensors: Vec<Sensor>,
@@ -71,8 +73,17 @@ impl Scene {
         self.accel.occluded(ray)
     }
 
+    /// What is the nearest on a ray, to be looked at by [`Scene::surface`].
+    #[must_use]
     #[inline(always)]
-    fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
+    pub fn nearest_hit(&self, ray: Ray) -> Option<Hit> {
+        self.accel.nearest(ray)
+    }
+
+    /// The point that a ray hits.
+    #[must_use]
+    #[inline(always)]
+    pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
         let i = hit.primitive as usize;
         let primitive = &self.accel.primitives()[i];
         let (position, error, normal) = match *primitive {
@@ -126,6 +137,17 @@ impl Scene {
             Colour::Texture(t) => self.textures[t].colour(uv()),
         };
         Some(Scattering { bsdf: bsdf.map(colour), opacity: opacity.clamp(0.0, 1.0), coat })
+    }
+
+    /// The reflectance of a side that is Lambertian and nothing else, its colour looked up: what most photons meet, and with a
+    /// fraction of what [`Scene::scattering`] costs. `None` for all others.
+    #[must_use]
+    #[inline(always)]
+    pub fn lambertian(&self, surface: &Surface, outward: bool) -> Option<Rgb> {
+        match self.lambertian[surface.shape as usize][usize::from(!outward)]? {
+            Colour::Constant(c) => Some(c),
+            Colour::Texture(t) => Some(self.textures[t].colour(self.texture_coordinate(surface))),
+        }
     }
 
     /// The frame in which the surface's BSDF is stated, around `normal`: along texture coordinates where roughness differs

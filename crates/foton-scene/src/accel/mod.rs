@@ -34,7 +34,7 @@ pub(crate) struct Accel {
 
 /// The nearest thing on a ray.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Hit {
+pub struct Hit {
     /// Distance in scene units.
     pub(crate) t: f32,
     /// Index of the primitive, in the tree's order.

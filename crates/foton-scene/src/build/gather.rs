@@ -160,6 +160,7 @@ impl Gathered {
             shapes: Vec::new(),
             materials: Vec::new(),
             coats: Vec::new(),
+            lambertian: Vec::new(),
             emitters: Arc::default(),
             emitter_choice: Discrete::default(),
             sensors: Vec::new(),

@@ -1,0 +1,200 @@
+//! What happens to a photon at a surface: it is stored where light spreads, absorbed, or sent on.
+
+use foton_math::glam::Vec3;
+use foton_math::{Frame, Ray, Rgb, Stream, warp};
+use foton_scene::{Lobe, Surface, Transport};
+
+use super::{Chunk, Flight, PhotonPass};
+use crate::eye_pass::{leaves_wrongly, on_the_right_side, shading_normal_towards};
+use crate::ledger::{Ledger, energy, left_out};
+use crate::photon::{PathClass, Photon};
+use crate::settings::DirectLight;
+
+/// |ω·n_g| counts as at least this in the shading normals' correction.
+pub(crate) const SMALLEST_COSINE: f32 = 1e-2;
+
+/// A direction that a photon leaves in, before it is known whether it does.
+struct Leaving {
+    direction: Vec3,
+    /// `f · |cos θ| / pdf` by the shading normal.
+    weight: Rgb,
+    /// The shading normal.
+    normal: Vec3,
+    /// Whether by a lobe that eye paths follow.
+    followed: bool,
+    /// Whether on the side that it came from.
+    reflects: bool,
+    /// Whether as if there were no surface.
+    straight: bool,
+}
+
+impl PhotonPass<'_> {
+    /// Stores the photon where light spreads, and sends it on.
+    #[inline(always)]
+    pub(super) fn scatter(
+        &self,
+        flight: &Flight,
+        surface: &Surface,
+        numbers: &mut Stream,
+        chunk: &mut Chunk,
+    ) -> Option<Flight> {
+        let wo = -flight.ray.direction;
+        let Some(reflectance) = self.scene.lambertian(surface, wo.dot(surface.normal) > 0.0) else {
+            return self.scatter_otherwise(flight, surface, numbers, chunk);
+        };
+        self.store(flight, surface, wo, chunk);
+        let normal = shading_normal_towards(surface, wo);
+        // The number that chooses among lobes, where there are several.
+        numbers.next_1d();
+        let up = warp::square_to_cosine_hemisphere(numbers.next_2d());
+        let wi = if wo.dot(normal) < 0.0 { -up } else { up };
+        let leaving = Leaving {
+            direction: Frame::from_normal(normal).to_outer(wi).normalize(),
+            weight: reflectance,
+            normal,
+            followed: false,
+            reflects: true,
+            straight: false,
+        };
+        self.send_on(flight, surface, &leaving, numbers, chunk)
+    }
+
+    /// The same for everything but Lambertian surfaces. Kept apart, so that the loop around the others stays small.
+    #[inline(never)]
+    fn scatter_otherwise(
+        &self,
+        flight: &Flight,
+        surface: &Surface,
+        numbers: &mut Stream,
+        chunk: &mut Chunk,
+    ) -> Option<Flight> {
+        let wo = -flight.ray.direction;
+        let Some(scattering) = self.scene.scattering(surface, wo.dot(surface.normal) > 0.0) else {
+            chunk.ledger.absorbed += energy(flight.power);
+            return None;
+        };
+        if scattering.bsdf.keeps() {
+            self.store(flight, surface, wo, chunk);
+        }
+        let normal = shading_normal_towards(surface, wo);
+        let frame = self.scene.shading_frame(surface, normal);
+        let local = frame.to_local(wo);
+        let sample = scattering.sample(local, Transport::Importance, numbers.next_1d(), numbers.next_2d());
+        let Some(sample) = sample else {
+            chunk.ledger.absorbed += energy(flight.power);
+            return None;
+        };
+        let leaving = Leaving {
+            direction: frame.to_outer(sample.wi).normalize(),
+            weight: sample.weight,
+            normal,
+            followed: sample.lobe == Lobe::Followed,
+            reflects: sample.wi.z * local.z > 0.0,
+            straight: sample.wi == -local,
+        };
+        self.send_on(flight, surface, &leaving, numbers, chunk)
+    }
+
+    /// Weighs and thins out a photon that leaves, and says in the ledger what became of the rest.
+    #[inline(always)]
+    fn send_on(
+        &self,
+        flight: &Flight,
+        surface: &Surface,
+        leaving: &Leaving,
+        numbers: &mut Stream,
+        chunk: &mut Chunk,
+    ) -> Option<Flight> {
+        let wo = -flight.ray.direction;
+        let &Leaving { direction, weight, normal, followed, reflects, straight } = leaving;
+        let scattered = flight.power * weight;
+        let correction = if !followed && leaves_wrongly(surface, wo, direction, reflects) {
+            0.0
+        } else if straight {
+            1.0
+        } else {
+            adjoint_correction(surface.normal, normal, wo, direction)
+        };
+        let corrected = scattered * correction;
+        if !corrected.is_finite() {
+            // Dropped before it reaches a sum: one NaN would be all that is left of the image.
+            chunk.ledger.dropped += 1;
+            chunk.ledger.lost += energy(flight.power);
+            chunk.losses[self.material(surface)].dropped += 1;
+            return None;
+        }
+        chunk.ledger.absorbed += left_out(flight.power, weight);
+        if correction != 1.0 {
+            chunk.ledger.shading_normals += left_out(scattered, Rgb::splat(correction));
+        }
+        if corrected.is_black() {
+            return None;
+        }
+        if flight.edges + 1 >= self.max_depth {
+            chunk.ledger.truncated += energy(corrected);
+            chunk.losses[self.material(surface)].truncated += energy(corrected);
+            return None;
+        }
+        let power = roulette(corrected, flight.power, numbers.next_1d(), &mut chunk.ledger)?;
+        let direction =
+            if followed { on_the_right_side(surface, wo, direction, reflects) } else { direction };
+        Some(Flight {
+            ray: Ray::new(surface.ray_origin(direction), direction),
+            power,
+            class: flight.class.scattered(followed),
+            edges: flight.edges + 1,
+        })
+    }
+
+    /// Index of the surface's material.
+    fn material(&self, surface: &Surface) -> usize {
+        self.scene.shapes()[surface.shape as usize].material as usize
+    }
+
+    #[inline(always)]
+    fn store(&self, flight: &Flight, surface: &Surface, wo: Vec3, chunk: &mut Chunk) {
+        if flight.class == PathClass::Direct && self.direct_light == DirectLight::ShadowRays {
+            return;
+        }
+        if let Some(cell) = self.grid.number(surface.position) {
+            let normal = surface.normal * 1f32.copysign(wo.dot(surface.normal));
+            let edges = flight.edges.min(255) as u8;
+            let from = self.directions.then_some(wo);
+            chunk.photons.push(Photon::new(
+                surface.position,
+                normal,
+                from,
+                flight.power,
+                flight.class,
+                edges,
+            ));
+            chunk.cells.push(cell);
+        }
+    }
+}
+
+/// |ωi·n_s| |ωo·n_g| / (|ωi·n_g| |ωo·n_s|) for light from `wo` scattered to `wi`: photons see the adjoint of a BSDF with
+/// interpolated normals. `[VEA97]` section 5.3
+fn adjoint_correction(n_g: Vec3, n_s: Vec3, wo: Vec3, wi: Vec3) -> f32 {
+    if n_g == n_s {
+        return 1.0;
+    }
+    let upper = wo.dot(n_s).abs() * wi.dot(n_g).abs();
+    let lower = wo.dot(n_g).abs().max(SMALLEST_COSINE) * wi.dot(n_s).abs().max(SMALLEST_COSINE);
+    upper / lower
+}
+
+/// Survival in proportion to the power that is left, so that all photons carry about the same.
+fn roulette(power: Rgb, before: Rgb, u: f32, ledger: &mut Ledger) -> Option<Rgb> {
+    let chance = power.max_component() / before.max_component();
+    if chance >= 1.0 {
+        return Some(power);
+    }
+    ledger.roulette += energy(power);
+    if u >= chance {
+        return None;
+    }
+    let survivor = power / chance;
+    ledger.roulette -= energy(survivor);
+    Some(survivor)
+}
