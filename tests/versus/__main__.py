@@ -97,6 +97,7 @@ def by_luxcore(options, scene):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise SystemExit(f"LuxCore failed:\n{done.stdout}{done.stderr}")
+    print("\n".join(line for line in done.stdout.splitlines() if line.startswith("LuxCore: ")), flush=True)
     return np.load(image).astype(np.float64)
 
 

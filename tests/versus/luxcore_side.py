@@ -46,6 +46,9 @@ def main():
     while time.monotonic() - begin < seconds:
         time.sleep(min(0.5, max(0.0, seconds - (time.monotonic() - begin))))
         session.UpdateStats()
+    rate = session.GetStats().Get("stats.renderengine.total.samplesec").GetFloat()
+    # Pairs of an eye path and a light path; what the machine is worth, beside figures from another.
+    print(f"LuxCore: {rate / 1e3:.1f} k path pairs/s", flush=True)
     session.Stop()
     pixels = np.zeros(width * height * 3, dtype=np.float32)
     session.GetFilm().GetOutputFloat(pyluxcore.FilmOutputType.RGB, pixels)

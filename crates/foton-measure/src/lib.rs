@@ -30,3 +30,4 @@ pub mod sweep;
 pub use flip::{Flip, PIXELS_PER_DEGREE};
 pub use heat::{heat, scale_top, viridis};
 pub use pair::{Channels, CompareError, NonFinite, Pair};
+pub use sweep::processor_time;

@@ -4,7 +4,6 @@
 #![allow(clippy::print_stdout, reason = "these tasks talk to the person who started them")]
 
 mod assets;
-mod bench;
 mod ci;
 mod conformance;
 mod pictures;
@@ -23,11 +22,11 @@ cargo xtask test [--install]        all tests, and a small comparison with Mitsu
 cargo xtask ci                      formatting, lints, documentation, then the tests
 cargo xtask conformance [--quick]   the whole comparison with Mitsuba 3 (20 minutes and more), or the small one
 cargo xtask versus [--seconds N]    foton, Mitsuba 3 and LuxCore on one scene for N (30) seconds each, as a table and pictures
-cargo xtask bench census            what leaving out parts of the renderer saves, as a table
 cargo xtask calibrate [stops|slopes] whether the live error can be believed, where --error stops, how fast noise and bias fall (many minutes)
 cargo xtask assets                  writes the generated meshes in assets/ again
 cargo xtask pictures [--window]     renders every scene in assets/ to docs/pictures, and the window (some minutes); or it alone
-cargo xtask bench                   whole runs of the benchmark box, stage by stage (some minutes)
+cargo xtask bench [WHAT]            how fast, on a quiet machine: whole (the benchmark box, stage by stage), parts (by criterion), scaling,
+                                    wide, accuracy (error a processor second), census (what leaving parts out saves)
 cargo xtask monkey [--minutes N]    random clicks and keys in the window for N (10) minutes: no error, no memory that grows";
 
 fn main() -> ExitCode {
@@ -41,21 +40,14 @@ fn main() -> ExitCode {
         ["conformance", "--quick"] => conformance::quick(),
         ["versus"] => versus::run("30"),
         ["versus", "--seconds", seconds] => versus::run(seconds),
-        ["bench", "census"] => tools::run(&mut tools::cargo(&[
-            "run",
-            "--release",
-            "--package",
-            "foton-tests",
-            "--example",
-            "census",
-        ])),
-        ["calibrate", rest @ ..] => tools::run(
-            tools::cargo(&["run", "--release", "--package", "foton-tests", "--example", "calibrate", "--"])
-                .args(rest),
-        ),
+        ["bench", "parts"] => {
+            tools::run(&mut tools::cargo(&["bench", "--manifest-path", "benches/Cargo.toml"]))
+        }
+        ["bench", "census"] => example("census", &[]),
+        ["bench", rest @ ..] => example("bench", rest),
+        ["calibrate", rest @ ..] => example("calibrate", rest),
         ["assets"] => assets::write_all(&tools::root().join("assets"))
             .map_err(|cause| Trouble::Failed(cause.to_string())),
-        ["bench"] => bench::all(),
         ["pictures"] => pictures::render_all(),
         ["pictures", "--window"] => pictures::of_window(),
         ["monkey"] => window::monkey("10"),
@@ -72,4 +64,11 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Runs a program of the test crate, optimised.
+fn example(name: &str, arguments: &[&str]) -> Result<(), Trouble> {
+    let mut command =
+        tools::cargo(&["run", "--release", "--package", "foton-tests", "--example", name, "--"]);
+    tools::run(command.args(arguments))
 }

@@ -38,14 +38,14 @@ impl Clock {
     /// Ends the step under way and begins another.
     pub(crate) fn begin(&mut self, step: Step) {
         self.pause();
-        self.running = Some((step, Instant::now(), cpu()));
+        self.running = Some((step, Instant::now(), processor_time()));
     }
 
     /// Ends the step under way.
     pub(crate) fn pause(&mut self) {
         let Some((step, wall, before)) = self.running.take() else { return };
         let wall = wall.elapsed().as_secs_f64();
-        let cpu = if before.is_zero() { wall } else { cpu().saturating_sub(before).as_secs_f64() };
+        let cpu = if before.is_zero() { wall } else { processor_time().saturating_sub(before).as_secs_f64() };
         let spent = Spent { wall, cpu };
         match step {
             Step::Trace => self.trace.add(spent),
@@ -69,16 +69,18 @@ impl Clock {
     }
 }
 
-/// Processor time of all threads; zero where the system does not tell.
+/// Processor time of all threads of this process; zero where the system does not tell.
 #[cfg(unix)]
-pub(crate) fn cpu() -> Duration {
+#[must_use]
+pub fn processor_time() -> Duration {
     use nix::time::{ClockId, clock_gettime};
     clock_gettime(ClockId::CLOCK_PROCESS_CPUTIME_ID).map_or(Duration::ZERO, Duration::from)
 }
 
-/// Processor time of all threads; zero where the system does not tell.
+/// Processor time of all threads of this process; zero where the system does not tell.
 #[cfg(not(unix))]
-pub(crate) fn cpu() -> Duration {
+#[must_use]
+pub fn processor_time() -> Duration {
     Duration::ZERO
 }
 

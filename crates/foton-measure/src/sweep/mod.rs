@@ -25,6 +25,7 @@ use foton_integrator::{Cancel, Cancelled, Ppm, Settings};
 use foton_scene::Scene;
 use thiserror::Error;
 
+pub use clock::processor_time;
 pub use plan::Configuration;
 
 use crate::CompareError;

@@ -1,0 +1,25 @@
+//! How fast, by whole runs. `cargo xtask bench [WHAT]` runs it; docs/performance.md keeps what it prints.
+//!
+//! `whole` (also without a word): stages, rates, efficiency and memory of the benchmark box. `scaling`: a pass over triangles, photons
+//! and hit points. `wide`: scenes that ask for more. `accuracy`: error a processor second. Figures are medians over passes of
+//! the wall's time: they mean little on a machine that does anything else.
+#![allow(clippy::print_stdout, reason = "a program that prints tables")]
+
+mod accuracy;
+mod rig;
+mod scaling;
+mod whole;
+mod wide;
+
+fn main() {
+    match std::env::args().nth(1).as_deref() {
+        None | Some("whole") => whole::print(),
+        Some("scaling") => scaling::print(),
+        Some("wide") => wide::print(),
+        Some("accuracy") => accuracy::print(),
+        Some(other) => {
+            eprintln!("no benchmark \"{other}\": whole, scaling, wide, accuracy");
+            std::process::exit(2);
+        }
+    }
+}
