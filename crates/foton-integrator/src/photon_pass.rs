@@ -1,4 +1,4 @@
-//! One pass of photons: from emitters, from surface to surface, stored wherever light spreads near a hit point.
+//! A batch of photons: from emitters, from surface to surface, stored wherever light spreads near a hit point.
 
 use std::ops::Range;
 
@@ -8,6 +8,7 @@ use foton_scene::{Lobe, Scene, Surface, Transport};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
+use crate::batch::Batch;
 use crate::cancel::{Cancel, Cancelled};
 use crate::eye_pass::{leaves_wrongly, on_the_right_side, shading_normal_towards};
 use crate::grid::Grid;
@@ -37,7 +38,10 @@ pub(crate) struct PhotonPass<'a> {
     pub(crate) max_depth: u32,
     pub(crate) seed: u64,
     pub(crate) pass: u64,
+    /// Photons of the whole pass.
     pub(crate) photons: u64,
+    /// Which of them are emitted now.
+    pub(crate) batch: Batch,
 }
 
 /// What one task emits. Kept between passes, so that no pass allocates once they have grown.
@@ -78,7 +82,7 @@ impl WithSimd for Follow<'_, '_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { pass, range, chunk } = self;
-        for index in range {
+        for index in pass.batch.indices(range) {
             let stream = Stream::new(pass.seed, Purpose::Photon, pass.pass, index);
             let Some((emitter, flight)) = pass.emit(index, stream.clone()) else { continue };
             if !flight.power.is_finite() {
@@ -95,9 +99,10 @@ impl WithSimd for Follow<'_, '_> {
 }
 
 impl PhotonPass<'_> {
-    /// Emits and follows all photons of the pass into `chunks`, the same ones for any number of threads.
+    /// Emits and follows all photons of the batch into `chunks`, the same ones for any number of threads.
     pub(crate) fn shoot(&self, chunks: &mut Vec<Chunk>, cancel: &Cancel) -> Result<(), Cancelled> {
-        chunks.resize_with(self.photons.div_ceil(CHUNK) as usize, Chunk::default);
+        let photons = self.batch.photons(self.photons);
+        chunks.resize_with(photons.div_ceil(CHUNK) as usize, Chunk::default);
         chunks.par_iter_mut().enumerate().try_for_each(|(i, chunk)| {
             cancel.check()?;
             let first = i as u64 * CHUNK;
@@ -109,7 +114,7 @@ impl PhotonPass<'_> {
             chunk.lights.resize(self.scene.emitters().len(), LightUse::default());
             chunk.losses.clear();
             chunk.losses.resize(self.scene.materials().len(), Loss::default());
-            let range = first..self.photons.min(first + CHUNK);
+            let range = first..photons.min(first + CHUNK);
             self.arch.dispatch(Follow { pass: self, range, chunk });
             Ok(())
         })
