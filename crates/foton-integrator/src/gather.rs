@@ -1,24 +1,27 @@
-//! Photons to hit points: which count, what light they bring, and the refinement that follows, fused.
+//! Photons to hit points: which count, what light they bring, and the refinement that follows, fused. A pass in several batches
+//! leaves its sums in the slots until the last one.
 //!
 //! One photon at a time is tested against the sixteen hit points of a packet. Sums run in the order of the sorted photons,
 //! multiplication and addition apart, so the bits are the same for any number of threads and any instruction set.
 #![allow(clippy::needless_range_loop, reason = "rows of lanes advance together; indices are what vectorises")]
 
 use std::f32::consts::PI;
+use std::ops::AddAssign;
 
 use foton_math::Rgb;
 use foton_math::glam::Vec3;
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
+use crate::batch::Batch;
 use crate::grid::Grid;
 use crate::hit_point::{Gloss, HitPoints, Irradiance};
 use crate::packet::{LANES, Packet};
 use crate::photon::Photon;
 use crate::photon_map::PhotonMap;
 use crate::photon_pass::SMALLEST_COSINE;
-use crate::refine::Statistics;
 use crate::settings::Alpha;
+use crate::slots::{Found, Slots};
 
 /// A photon counts only where its surface faces about the same way: the cosine between the normals must exceed this.
 const SMALLEST_NORMAL_COSINE: f32 = 0.1;
@@ -51,21 +54,26 @@ pub(crate) struct Rule {
     pub(crate) common: Option<f64>,
     /// r² never falls below.
     pub(crate) smallest2: f64,
+    pub(crate) batch: Batch,
     pub(crate) arch: Arch,
 }
 
-/// Light found by a packet's lanes.
-struct Found<const LAYERS: usize> {
-    flux: [[[f32; LANES]; 3]; LAYERS],
-    count: [u32; LANES],
-    /// Σ d² Φ in luminance, where the error is asked for.
-    moment: [f32; LANES],
+impl AddAssign for Tally {
+    fn add_assign(&mut self, o: Self) {
+        self.candidates += o.candidates;
+        self.accepted += o.accepted;
+        self.unknown += o.unknown;
+        self.floored += o.floored;
+        self.dropped += o.dropped;
+        self.radius2 += o.radius2;
+    }
 }
 
-/// Gathers all photons for all hit points and refines them. Fills `irradiance_slots` with this pass's estimates.
+/// Gathers the photons of a batch for all hit points. With the last batch of a pass they are refined, and `irradiance_slots`
+/// hold the pass's estimates; before, they and the other slots hold sums.
 ///
 /// `LAYERS` is 3 to keep path classes apart, or 1. With `ERROR`, `moment_slots` get what the bias is estimated from; without,
-/// there are none.
+/// there are none. There are `count_slots` where a pass has more than one batch.
 pub(crate) fn all<const LAYERS: usize, const ERROR: bool>(
     hit_points: &mut HitPoints,
     map: &PhotonMap,
@@ -73,10 +81,11 @@ pub(crate) fn all<const LAYERS: usize, const ERROR: bool>(
     rule: Rule,
     irradiance_slots: &mut [Irradiance<LAYERS>],
     moment_slots: &mut [f32],
+    count_slots: &mut [u64],
 ) -> Tally {
-    let mut moments = moment_slots.chunks_mut(BLOCK * LANES);
     let blocks = hit_points.packets.len().div_ceil(BLOCK);
-    let moments: Vec<&mut [f32]> = (0..blocks).map(|_| moments.next().unwrap_or_default()).collect();
+    let moments = by_block(moment_slots, blocks);
+    let counts = by_block(count_slots, blocks);
     let shading = &hit_points.shading_normals;
     let (first_glossy, gloss_slots) = (hit_points.first_glossy, &hit_points.gloss_slots);
     let tallies: Vec<Tally> = hit_points
@@ -85,22 +94,24 @@ pub(crate) fn all<const LAYERS: usize, const ERROR: bool>(
         .zip(hit_points.statistics_slots.par_chunks_mut(BLOCK * LANES))
         .zip(irradiance_slots.par_chunks_mut(BLOCK * LANES))
         .zip(moments)
+        .zip(counts)
         .enumerate()
-        .map(|(block, (((packets, statistics), irradiance), moments))| {
+        .map(|(block, ((((packets, statistics), irradiance), moments), counts))| {
             let first = block * BLOCK;
-            let block =
-                Block { first, first_glossy, packets, statistics, irradiance, moments, shading, gloss_slots };
+            let slots = Slots { statistics, irradiance, moments, counts };
+            let block = Block { first, first_glossy, packets, slots, shading, gloss_slots };
             rule.arch.dispatch(Gather::<LAYERS, ERROR> { block, map, grid, rule })
         })
         .collect();
-    tallies.into_iter().fold(Tally::default(), |a, b| Tally {
-        candidates: a.candidates + b.candidates,
-        accepted: a.accepted + b.accepted,
-        unknown: a.unknown + b.unknown,
-        floored: a.floored + b.floored,
-        dropped: a.dropped + b.dropped,
-        radius2: a.radius2 + b.radius2,
-    })
+    let mut tally = Tally::default();
+    tallies.into_iter().for_each(|t| tally += t);
+    tally
+}
+
+/// Slots in the shares of blocks; empty shares of none.
+fn by_block<T>(slots: &mut [T], blocks: usize) -> Vec<&mut [T]> {
+    let mut shares = slots.chunks_mut(BLOCK * LANES);
+    (0..blocks).map(|_| shares.next().unwrap_or_default()).collect()
 }
 
 /// Packets that one task looks after, and all that belongs to them.
@@ -109,10 +120,7 @@ struct Block<'a, const LAYERS: usize> {
     first: usize,
     first_glossy: usize,
     packets: &'a mut [Packet],
-    statistics: &'a mut [Statistics],
-    irradiance: &'a mut [Irradiance<LAYERS>],
-    /// Empty without `ERROR`.
-    moments: &'a mut [f32],
+    slots: Slots<'a, LAYERS>,
     shading: &'a [[[f32; LANES]; 3]],
     gloss_slots: &'a [Option<Gloss>],
 }
@@ -136,19 +144,19 @@ impl<const LAYERS: usize, const ERROR: bool> WithSimd for Gather<'_, LAYERS, ERR
         let mut runs = Vec::new();
         // On the heap: else the compiler takes the sums apart into registers of the wrong shapes.
         let mut found = Box::new(Found::<LAYERS>::NONE);
-        let slots = block.statistics.chunks_mut(LANES).zip(block.irradiance.chunks_mut(LANES));
-        for (i, (packet, (statistics, irradiance))) in block.packets.iter_mut().zip(slots).enumerate() {
-            let index = block.first + i;
+        let Block { first, first_glossy, packets, mut slots, shading, gloss_slots } = block;
+        for (i, packet) in packets.iter_mut().enumerate() {
+            let index = first + i;
             runs.clear();
             grid.for_each_run(&packet.bounds(), |first, end| runs.push((first, end)));
             *found = Found::NONE;
-            if let Some(glossy) = index.checked_sub(block.first_glossy) {
-                let gloss = &block.gloss_slots[glossy * LANES..(glossy + 1) * LANES];
+            if let Some(glossy) = index.checked_sub(first_glossy) {
+                let gloss = &gloss_slots[glossy * LANES..(glossy + 1) * LANES];
                 for &(first, end) in &runs {
                     let photons = map.run(first, end);
                     collect_gloss::<LAYERS, ERROR>(packet, gloss, photons, &mut found, &mut tally);
                 }
-            } else if let Some(normals) = block.shading.get(index) {
+            } else if let Some(normals) = shading.get(index) {
                 for &(first, end) in &runs {
                     let photons = map.run(first, end);
                     collect::<LAYERS, true, ERROR>(packet, normals, photons, &mut found, &mut tally);
@@ -160,31 +168,20 @@ impl<const LAYERS: usize, const ERROR: bool> WithSimd for Gather<'_, LAYERS, ERR
                     collect::<LAYERS, false, ERROR>(packet, normals, photons, &mut found, &mut tally);
                 }
             }
-            if ERROR {
-                found.write_moments(packet, &mut block.moments[i * LANES..(i + 1) * LANES]);
+            let mut slots = slots.of_packet::<ERROR>(i);
+            if !rule.batch.is_first() {
+                slots.add_earlier::<ERROR>(&mut found);
             }
-            conclude(packet, &found, statistics, irradiance, rule, &mut tally);
+            if !rule.batch.is_last() {
+                slots.keep::<ERROR>(&found);
+                continue;
+            }
+            if ERROR {
+                found.write_moments(packet, slots.moments);
+            }
+            conclude(packet, &found, slots, rule, &mut tally);
         }
         tally
-    }
-}
-
-impl<const LAYERS: usize> Found<LAYERS> {
-    const NONE: Self = Self { flux: [[[0.0; LANES]; 3]; LAYERS], count: [0; LANES], moment: [0.0; LANES] };
-
-    #[inline(always)]
-    const fn layer(photon: &Photon) -> usize {
-        if LAYERS == 1 { 0 } else { photon.class_index() }
-    }
-
-    /// Σ 6(s − ½) Φ/(π r²) with s = d²/r²: see [`crate::error`].
-    fn write_moments(&self, packet: &Packet, moments: &mut [f32]) {
-        for (l, moment) in moments.iter_mut().enumerate() {
-            let radius2 = packet.radius2[l];
-            let flux: f32 = self.flux.iter().map(|f| Rgb::new(f[0][l], f[1][l], f[2][l]).luminance()).sum();
-            // Lanes without a hit point have found nothing.
-            *moment = (6.0 * self.moment[l] / radius2 - 3.0 * flux) / (PI * radius2);
-        }
     }
 }
 
@@ -346,11 +343,11 @@ fn cosine_ratio(shading: f32, geometric: f32) -> f32 {
 fn conclude<const LAYERS: usize>(
     packet: &mut Packet,
     found: &Found<LAYERS>,
-    statistics: &mut [Statistics],
-    irradiance: &mut [Irradiance<LAYERS>],
+    slots: Slots<'_, LAYERS>,
     rule: Rule,
     tally: &mut Tally,
 ) {
+    let Slots { statistics, irradiance, counts, .. } = slots;
     for l in 0..LANES {
         let radius2 = packet.radius2[l];
         if radius2 < 0.0 {
@@ -360,13 +357,13 @@ fn conclude<const LAYERS: usize>(
         for (out, flux) in irradiance[l].iter_mut().zip(&found.flux) {
             *out = Rgb::new(flux[0][l], flux[1][l], flux[2][l]) * per_area;
         }
-        let count = found.count[l];
+        let count = u64::from(found.count[l]) + counts.get(l).copied().unwrap_or(0);
         let floored = match rule.common {
-            None => statistics[l].refine(u64::from(count), rule.alpha, rule.smallest2),
-            Some(rho) => statistics[l].shrink(u64::from(count), rho, rule.smallest2),
+            None => statistics[l].refine(count, rule.alpha, rule.smallest2),
+            Some(rho) => statistics[l].shrink(count, rho, rule.smallest2),
         };
         tally.floored += u64::from(floored);
-        tally.accepted += u64::from(count);
+        tally.accepted += count;
         tally.unknown += u64::from(statistics[l].is_unknown());
         tally.radius2 += statistics[l].radius2();
         packet.radius2[l] = statistics[l].radius2() as f32;

@@ -23,14 +23,14 @@ pub struct Disc {
     pub photons_found: u64,
 }
 
-/// A photon of the last pass.
+/// A photon of the last pass: of its last batch, where it was so large that it had several.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StoredPhoton {
     /// Where it was stored.
     pub position: DVec3,
     /// How it came there.
     pub class: PathClass,
-    /// Its power per channel, its share of the emitters' whole (W).
+    /// Its power per channel, its share of the emitters' whole (W): photons of one pass, or of one batch, add up to that.
     pub power: Rgb,
 }
 
@@ -108,7 +108,7 @@ impl Ppm {
     fn stored(&self, photon: &Photon) -> StoredPhoton {
         let normalisation = self.scene().normalisation();
         let scale = normalisation.scale();
-        let watts = 1.0 / (self.photons_in_last_pass().max(1) as f64 * scale * scale);
+        let watts = 1.0 / (self.photons_in_last_batch().max(1) as f64 * scale * scale);
         StoredPhoton {
             position: normalisation.world_point(photon.position),
             class: PathClass::ALL[photon.class_index()],

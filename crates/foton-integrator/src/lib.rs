@@ -3,6 +3,7 @@
 //! [`Ppm`] is the algorithm in one screen; each stage has a file of its own. There are no files, windows or clocks here: a
 //! caller that wants to time stages is told when they begin.
 
+mod batch;
 mod cancel;
 mod direct_light;
 mod error;
@@ -28,8 +29,11 @@ mod radius;
 mod refine;
 mod sampling;
 mod settings;
+mod slots;
 mod stage;
 mod state;
+#[cfg(test)]
+mod test_scene;
 mod variants;
 
 pub use cancel::{Cancel, Cancelled};

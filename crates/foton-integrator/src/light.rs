@@ -69,7 +69,7 @@ impl Light {
         }
     }
 
-    /// Gathers a pass and refines the hit points.
+    /// Gathers a batch, and refines the hit points if it is the last of its pass.
     pub(crate) fn gather(
         &mut self,
         hit_points: &mut HitPoints,
@@ -77,12 +77,13 @@ impl Light {
         grid: &Grid,
         rule: Rule,
         error: Option<&mut ErrorSums>,
+        counts: &mut [u64],
     ) -> Tally {
         each!(self, s => {
             let irradiance = &mut s.irradiance_slots;
             match error {
-                None => gather::all::<_, false>(hit_points, map, grid, rule, irradiance, &mut []),
-                Some(e) => gather::all::<_, true>(hit_points, map, grid, rule, irradiance, e.moment_slots()),
+                None => gather::all::<_, false>(hit_points, map, grid, rule, irradiance, &mut [], counts),
+                Some(e) => gather::all::<_, true>(hit_points, map, grid, rule, irradiance, e.moment_slots(), counts),
             }
         })
     }

@@ -82,11 +82,6 @@ impl PhotonMap {
         &self.photons[self.cell_start[first as usize] as usize..self.cell_start[end as usize] as usize]
     }
 
-    /// How many there are.
-    pub(crate) const fn len(&self) -> usize {
-        self.photons.len()
-    }
-
     /// Bytes held.
     pub(crate) const fn bytes(&self) -> usize {
         self.photons.capacity() * size_of::<Photon>() + self.cell_start.capacity() * size_of::<u32>()
@@ -134,7 +129,7 @@ mod tests {
                 assert_eq!(got, expected, "{threads} threads, cell {cell}");
                 seen += got.len();
             }
-            assert_eq!((seen, map.len()), (1800, 1800));
+            assert_eq!((seen, map.photons().len()), (1800, 1800));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! One pass of photons: from emitters, from surface to surface, stored wherever light spreads near a hit point.
+//! A batch of photons: from emitters, from surface to surface, stored wherever light spreads near a hit point.
 
 mod scatter;
 
@@ -11,6 +11,7 @@ use foton_scene::{Hit, Scene};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
+use crate::batch::Batch;
 use crate::cancel::{Cancel, Cancelled};
 use crate::grid::Grid;
 use crate::ledger::{Ledger, Loss, energy};
@@ -39,7 +40,10 @@ pub(crate) struct PhotonPass<'a> {
     pub(crate) max_depth: u32,
     pub(crate) seed: u64,
     pub(crate) pass: u64,
+    /// Photons of the whole pass.
     pub(crate) photons: u64,
+    /// Which of them are emitted now.
+    pub(crate) batch: Batch,
 }
 
 /// What one task emits. Kept between passes, so that no pass allocates once they have grown.
@@ -96,7 +100,7 @@ impl WithSimd for Follow<'_, '_> {
         let mut paths = Vec::with_capacity(WAVE);
         let mut hits = Vec::with_capacity(WAVE);
         for first in range.clone().step_by(WAVE) {
-            for index in first..range.end.min(first + WAVE as u64) {
+            for index in pass.batch.indices(first..range.end.min(first + WAVE as u64)) {
                 paths.extend(pass.start(index, chunk));
             }
             while !paths.is_empty() {
@@ -112,9 +116,10 @@ impl WithSimd for Follow<'_, '_> {
 }
 
 impl PhotonPass<'_> {
-    /// Emits and follows all photons of the pass into `chunks`, the same ones for any number of threads.
+    /// Emits and follows all photons of the batch into `chunks`, the same ones for any number of threads.
     pub(crate) fn shoot(&self, chunks: &mut Vec<Chunk>, cancel: &Cancel) -> Result<(), Cancelled> {
-        chunks.resize_with(self.photons.div_ceil(CHUNK) as usize, Chunk::default);
+        let photons = self.batch.photons(self.photons);
+        chunks.resize_with(photons.div_ceil(CHUNK) as usize, Chunk::default);
         chunks.par_iter_mut().enumerate().try_for_each(|(i, chunk)| {
             cancel.check()?;
             let first = i as u64 * CHUNK;
@@ -126,7 +131,7 @@ impl PhotonPass<'_> {
             chunk.lights.resize(self.scene.emitters().len(), LightUse::default());
             chunk.losses.clear();
             chunk.losses.resize(self.scene.materials().len(), Loss::default());
-            let range = first..self.photons.min(first + CHUNK);
+            let range = first..photons.min(first + CHUNK);
             self.arch.dispatch(Follow { pass: self, range, chunk });
             Ok(())
         })

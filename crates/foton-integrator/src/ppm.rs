@@ -2,22 +2,22 @@
 
 use std::sync::Arc;
 
-use foton_film::{Image, Layer, LayerData, Plane};
+use foton_film::Image;
 use foton_math::{Purpose, Rgb};
 use foton_scene::Scene;
 use pulp::Arch;
 
+use crate::batch::{self, Batch, Counts};
 use crate::cancel::{Cancel, Cancelled};
 use crate::error::ErrorSums;
 use crate::eye_pass::EyePass;
 use crate::gather::{Rule, Tally};
 use crate::grid::Grid;
 use crate::hit_point::HitPoints;
-use crate::layers::LayerKind;
 use crate::ledger::{Ledger, Loss};
 use crate::light::Light;
 use crate::light_use::LightUse;
-use crate::photon::{PathClass, Photon};
+use crate::photon::Photon;
 use crate::photon_map::PhotonMap;
 use crate::photon_pass::{Chunk, PhotonPass};
 use crate::radius::FirstRadius;
@@ -77,6 +77,10 @@ pub struct Ppm {
     marked_radius2: f64,
     chunks: Vec<Chunk>,
     map: PhotonMap,
+    /// See [`crate::slots::Slots::counts`].
+    count_slots: Vec<u64>,
+    /// Photons of a batch at most: [`batch::MOST_PHOTONS`] but in tests.
+    most_in_batch: u64,
     ledger: Ledger,
     lights: Vec<LightUse>,
     losses: Vec<Loss>,
@@ -128,6 +132,8 @@ impl Ppm {
             marked_radius2: f64::INFINITY,
             chunks: Vec::new(),
             map: PhotonMap::default(),
+            count_slots: Vec::new(),
+            most_in_batch: batch::MOST_PHOTONS,
             ledger: Ledger::default(),
             lights,
             losses,
@@ -140,7 +146,7 @@ impl Ppm {
         })
     }
 
-    /// One pass: photons from the emitters, sorted into a map, gathered by every hit point, added to the image.
+    /// One pass: photons from the emitters, sorted into a map, gathered by every hit point, batch by batch; then added to the image.
     ///
     /// # Errors
     /// When cancelled while photons are traced; the pass then has not happened.
@@ -149,34 +155,73 @@ impl Ppm {
         watch: &mut dyn FnMut(Stage),
         cancel: &Cancel,
     ) -> Result<PassReport, Cancelled> {
-        watch(Stage::Trace);
-        let photons = u64::from(self.settings.photons_after(self.passes).get());
-        let mut chunks = std::mem::take(&mut self.chunks);
-        let shot = self.photon_pass(photons).shoot(&mut chunks, cancel);
-        self.chunks = chunks;
-        shot?;
-        self.take_photons(photons, watch, cancel)
+        let mut counts = self.begin_pass();
+        for batch in self.batches(counts.photons) {
+            watch(Stage::Trace);
+            let mut chunks = std::mem::take(&mut self.chunks);
+            let shot = self.photon_pass(counts.photons, batch).shoot(&mut chunks, cancel);
+            self.chunks = chunks;
+            shot?;
+            self.take_batch(batch, &mut counts, watch, cancel)?;
+        }
+        Ok(self.conclude_pass(counts, watch))
     }
 
-    /// What a pass does once its photons lie in `chunks`.
-    pub(crate) fn take_photons(
+    /// Makes ready for the batches of a pass.
+    pub(crate) fn begin_pass(&mut self) -> Counts {
+        let photons = u64::from(self.settings.photons_after(self.passes).get());
+        self.count_slots.clear();
+        if self.batches(photons).nth(1).is_some() {
+            self.count_slots.resize(self.hit_points.statistics_slots.len(), 0);
+        } else {
+            self.count_slots = Vec::new();
+        }
+        Counts {
+            ledger: self.ledger,
+            lights: self.lights.clone(),
+            losses: self.losses.clone(),
+            photons,
+            rays: 0,
+            stored: 0,
+            tally: Tally::default(),
+        }
+    }
+
+    /// How a pass falls into batches.
+    pub(crate) fn batches(&self, photons: u64) -> impl Iterator<Item = Batch> + use<> {
+        Batch::all(photons, self.most_in_batch)
+    }
+
+    /// Sorts and gathers a batch whose photons lie in `chunks`. Hit points are refined with the last one.
+    pub(crate) fn take_batch(
         &mut self,
-        photons: u64,
+        batch: Batch,
+        counts: &mut Counts,
         watch: &mut dyn FnMut(Stage),
         cancel: &Cancel,
-    ) -> Result<PassReport, Cancelled> {
+    ) -> Result<(), Cancelled> {
         watch(Stage::Sort);
         self.map.build(&self.chunks, self.grid.touched());
         cancel.check()?;
         watch(Stage::Gather);
+        let (alpha, before) = (self.settings.alpha, self.photons_emitted);
         let rule = Rule {
-            alpha: self.settings.alpha,
-            common: self.settings.radius_rule.common(self.settings.alpha, self.photons_emitted, photons),
+            alpha,
+            common: self.settings.radius_rule.common(alpha, before, counts.photons),
             smallest2: FirstRadius::new(&self.scene, &self.settings).smallest2(),
+            batch,
             arch: self.arch,
         };
-        let tally = self.light.gather(&mut self.hit_points, &self.map, &self.grid, rule, self.error.as_mut());
-        let mut rays: u64 = self.chunks.iter().map(|c| c.rays).sum();
+        let (error, found) = (self.error.as_mut(), &mut self.count_slots);
+        let tally = self.light.gather(&mut self.hit_points, &self.map, &self.grid, rule, error, found);
+        counts.add(&self.chunks, &tally);
+        Ok(())
+    }
+
+    /// What a pass does once its hit points are refined.
+    pub(crate) fn conclude_pass(&mut self, counts: Counts, watch: &mut dyn FnMut(Stage)) -> PassReport {
+        let Counts { ledger, lights, losses, photons, mut rays, stored, tally } = counts;
+        (self.ledger, self.lights, self.losses) = (ledger, lights, losses);
         if self.settings.direct_light == DirectLight::ShadowRays {
             watch(Stage::ShadowRays);
             let key = (self.settings.seed, self.passes, photons);
@@ -187,12 +232,6 @@ impl Ppm {
         watch(Stage::Radiance);
         self.light.add_pass(&self.hit_points);
         self.mark_cells(&tally);
-        for chunk in &self.chunks {
-            self.ledger += chunk.ledger;
-            self.lights.iter_mut().zip(&chunk.lights).for_each(|(sum, &light)| *sum += light);
-            self.losses.iter_mut().zip(&chunk.losses).for_each(|(sum, &loss)| *sum += loss);
-        }
-        self.ledger.dropped += tally.dropped;
         self.photons_emitted += photons;
         if let Some(error) = &mut self.error {
             let power = self.ledger.emitted / self.photons_emitted.max(1) as f64;
@@ -200,10 +239,20 @@ impl Ppm {
         }
         self.last_photons = photons;
         self.passes += 1;
-        Ok(self.report(photons, rays, &tally))
+        PassReport {
+            pass: self.passes,
+            photons: self.photons_emitted,
+            photons_in_pass: photons,
+            stored,
+            rays,
+            candidates: tally.candidates,
+            accepted: tally.accepted,
+            no_photon_share: tally.unknown as f64 / (self.start.hit_points as f64).max(1.0),
+            floored: tally.floored,
+        }
     }
 
-    pub(crate) fn photon_pass(&self, photons: u64) -> PhotonPass<'_> {
+    pub(crate) fn photon_pass(&self, photons: u64, batch: Batch) -> PhotonPass<'_> {
         PhotonPass {
             scene: &self.scene,
             grid: &self.grid,
@@ -215,6 +264,7 @@ impl Ppm {
             pass: self.passes,
             // A path of one edge is an emitter seen directly: no photon can add to it.
             photons: if Self::max_depth(&self.scene, &self.settings) > 1 { photons } else { 0 },
+            batch,
         }
     }
 
@@ -225,20 +275,6 @@ impl Ppm {
         } else if tally.radius2 < MARK_AGAIN * self.marked_radius2 {
             self.grid.mark(&self.hit_points.packets);
             self.marked_radius2 = tally.radius2;
-        }
-    }
-
-    fn report(&self, photons_in_pass: u64, rays: u64, tally: &Tally) -> PassReport {
-        PassReport {
-            pass: self.passes,
-            photons: self.photons_emitted,
-            photons_in_pass,
-            stored: self.map.len() as u64,
-            rays,
-            candidates: tally.candidates,
-            accepted: tally.accepted,
-            no_photon_share: tally.unknown as f64 / (self.start.hit_points as f64).max(1.0),
-            floored: tally.floored,
         }
     }
 
@@ -310,12 +346,12 @@ impl Ppm {
     }
 
     /// Image size in pixels.
-    fn size(&self) -> (u32, u32) {
+    pub(crate) fn size(&self) -> (u32, u32) {
         let sensor = &self.scene.sensors()[self.settings.sensor];
         (sensor.width, sensor.height)
     }
 
-    fn as_image(&self, pixels: Vec<Rgb>) -> Image {
+    pub(crate) fn as_image(&self, pixels: Vec<Rgb>) -> Image {
         let (width, height) = self.size();
         Image { width, height, pixels }
     }
@@ -332,37 +368,6 @@ impl Ppm {
         let scale = 1.0 / self.last_photons.max(1) as f64;
         let pixels = self.light.last_pass().into_iter().map(|l| l * scale as f32);
         self.as_image(pixels.collect())
-    }
-
-    /// A layer beside the image; `None` for a path class when [`Settings::layers`] is off.
-    #[must_use]
-    pub fn layer(&self, kind: LayerKind) -> Option<Layer> {
-        let rgb = |kind| self.colour_layer(kind).map(LayerData::Rgb);
-        let (width, height) = self.size();
-        let channels = match kind {
-            LayerKind::Direct | LayerKind::Caustic | LayerKind::Indirect | LayerKind::Emission => rgb(kind)?,
-            LayerKind::Radius => LayerData::F32(Plane { width, height, values: self.mean_radii() }),
-            LayerKind::PhotonCount => LayerData::U32(Plane { width, height, values: self.photons_found() }),
-            LayerKind::ShapeId => LayerData::U32(Plane { width, height, values: self.shapes.clone() }),
-            LayerKind::ErrorNoise | LayerKind::ErrorBias | LayerKind::ErrorTotal => {
-                LayerData::F32(Plane { width, height, values: self.error_plane(kind)? })
-            }
-        };
-        Some(Layer { name: kind.name().to_owned(), channels })
-    }
-
-    /// A layer of light; `None` for one that is not kept, or no light.
-    #[must_use]
-    pub fn colour_layer(&self, kind: LayerKind) -> Option<Image> {
-        let class = |class| self.light.class(class, self.photons_emitted);
-        let pixels = match kind {
-            LayerKind::Direct => class(PathClass::Direct)?,
-            LayerKind::Caustic => class(PathClass::Caustic)?,
-            LayerKind::Indirect => class(PathClass::Indirect)?,
-            LayerKind::Emission => self.light.emission().to_vec(),
-            _ => return None,
-        };
-        Some(self.as_image(pixels))
     }
 
     pub(crate) fn per_pixel<T>(&self, f: impl Fn(&[Statistics]) -> T) -> Vec<T> {
@@ -423,6 +428,11 @@ impl Ppm {
         &self.hit_points
     }
 
+    /// The shape seen at the middle of each pixel.
+    pub(crate) fn shapes(&self) -> &[u32] {
+        &self.shapes
+    }
+
     pub(crate) const fn light(&self) -> &Light {
         &self.light
     }
@@ -447,6 +457,11 @@ impl Ppm {
         self.last_photons
     }
 
+    /// Of those, how many there were in the last batch, whose photons the map still holds.
+    pub(crate) fn photons_in_last_batch(&self) -> u64 {
+        self.batches(self.last_photons).last().map_or(0, |batch| batch.photons(self.last_photons))
+    }
+
     /// Bytes held, the scene included.
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -458,6 +473,7 @@ impl Ppm {
             + self.error.as_ref().map_or(0, ErrorSums::bytes)
             + self.grid.bytes()
             + self.map.bytes()
+            + self.count_slots.capacity() * size_of::<u64>()
             + self.chunks.iter().map(chunk).sum::<usize>()
             + self.shapes.len() * size_of::<u32>()
     }
@@ -466,3 +482,15 @@ impl Ppm {
 #[cfg(test)]
 #[path = "instruction_sets.rs"]
 mod instruction_sets;
+
+#[cfg(test)]
+#[path = "batches.rs"]
+mod batches;
+
+#[cfg(test)]
+impl Ppm {
+    /// Passes of more than `most` photons fall into batches from now on.
+    pub(crate) fn with_batches_of(self, most: u64) -> Self {
+        Self { most_in_batch: most, ..self }
+    }
+}

@@ -1,6 +1,7 @@
 //! The stages of a render, for those who time them.
 
-/// The parts of a render, in the order in which they come. Those from `Trace` on come once a pass.
+/// The parts of a render, in the order in which they come. Those from `Trace` on come once a pass, the first three
+/// of them once for each million photons of a larger pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stage {
     /// Following eye paths.

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use foton_scene::Scene;
 use rayon::prelude::*;
 
+use crate::batch::Counts;
 use crate::cancel::{Cancel, Cancelled};
 use crate::grid::Grid;
 use crate::photon::PathClass;
@@ -81,19 +82,21 @@ impl Variants {
         watch: &mut dyn FnMut(Step),
         cancel: &Cancel,
     ) -> Result<Vec<PassReport>, Cancelled> {
-        watch(Step::Trace);
-        let first = &self.runs[0];
-        let photons = u64::from(first.settings().photons_after(first.passes()).get());
-        let direct_light = DirectLight::Photons;
-        PhotonPass { grid: &self.everywhere, direct_light, ..first.photon_pass(photons) }
-            .shoot(&mut self.chunks, cancel)?;
-        let mut reports = Vec::with_capacity(self.runs.len());
-        for (i, run) in self.runs.iter_mut().enumerate() {
-            watch(Step::Share);
-            hand_out(&self.chunks, run);
-            reports.push(run.take_photons(photons, &mut |stage| watch(Step::Of(i, stage)), cancel)?);
+        let mut counts: Vec<Counts> = self.runs.iter_mut().map(Ppm::begin_pass).collect();
+        let photons = counts[0].photons;
+        for batch in self.runs[0].batches(photons) {
+            watch(Step::Trace);
+            let direct_light = DirectLight::Photons;
+            let pass = self.runs[0].photon_pass(photons, batch);
+            PhotonPass { grid: &self.everywhere, direct_light, ..pass }.shoot(&mut self.chunks, cancel)?;
+            for (i, (run, counts)) in self.runs.iter_mut().zip(&mut counts).enumerate() {
+                watch(Step::Share);
+                hand_out(&self.chunks, run);
+                run.take_batch(batch, counts, &mut |stage| watch(Step::Of(i, stage)), cancel)?;
+            }
         }
-        Ok(reports)
+        let runs = self.runs.iter_mut().zip(counts).enumerate();
+        Ok(runs.map(|(i, (run, counts))| run.conclude_pass(counts, &mut |s| watch(Step::Of(i, s)))).collect())
     }
 
     /// The renders, in the order of their settings.
@@ -137,5 +140,42 @@ fn hand_out(all: &[Chunk], run: &mut Ppm) {
         }
         (own.ledger, own.rays) = (all.ledger, all.rays);
         own.lights.clone_from(&all.lights);
+        own.losses.clone_from(&all.losses);
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::num::NonZeroU32;
+
+    use crate::settings::Alpha;
+    use crate::test_scene::scene;
+
+    #[test]
+    fn variants_in_batches_have_the_bits_of_runs_of_their_own_in_batches() {
+        let photons = NonZeroU32::new(20_000).expect("above 0");
+        let base = Settings { photons_per_pass: photons, first_pass: photons, ..Settings::default() };
+        let settings = [
+            base.clone(),
+            Settings { alpha: Alpha::new(0.3).expect("in range"), error: true, ..base.clone() },
+            Settings { direct_light: DirectLight::ShadowRays, ..base },
+        ];
+        let (scene, cancel) = (scene(), Cancel::default());
+        let started = Variants::start(&scene, &settings, 0, &mut |_| (), &cancel).expect("not cancelled");
+        let mut together = started.expect("they share their photons");
+        together.runs = together.runs.into_iter().map(|run| run.with_batches_of(6_000)).collect();
+        for _ in 0..3 {
+            together.advance(&mut |_| (), &cancel).expect("not cancelled");
+        }
+        for (settings, run) in settings.iter().zip(together.runs()) {
+            let alone = Ppm::start(Arc::clone(&scene), settings.clone(), &mut |_| (), &cancel);
+            let mut alone = alone.expect("not cancelled").with_batches_of(6_000);
+            for _ in 0..3 {
+                alone.advance(&mut |_| (), &cancel).expect("not cancelled");
+            }
+            assert!(run.image() == alone.image() && run.ledger() == alone.ledger());
+            assert_eq!(run.material_losses(), alone.material_losses());
+        }
+    }
 }

@@ -1,0 +1,88 @@
+//! What a gather finds for a packet, and the slots it goes to: those of a pass's results, which hold sums between its batches.
+
+use std::f32::consts::PI;
+
+use foton_math::Rgb;
+
+use crate::hit_point::Irradiance;
+use crate::packet::{LANES, Packet};
+use crate::photon::Photon;
+use crate::refine::Statistics;
+
+/// Light found by a packet's lanes.
+pub(crate) struct Found<const LAYERS: usize> {
+    pub(crate) flux: [[[f32; LANES]; 3]; LAYERS],
+    pub(crate) count: [u32; LANES],
+    /// Σ d² Φ in luminance, where the error is asked for.
+    pub(crate) moment: [f32; LANES],
+}
+
+impl<const LAYERS: usize> Found<LAYERS> {
+    pub(crate) const NONE: Self =
+        Self { flux: [[[0.0; LANES]; 3]; LAYERS], count: [0; LANES], moment: [0.0; LANES] };
+
+    #[inline(always)]
+    pub(crate) const fn layer(photon: &Photon) -> usize {
+        if LAYERS == 1 { 0 } else { photon.class_index() }
+    }
+
+    /// Σ 6(s − ½) Φ/(π r²) with s = d²/r²: see [`crate::error`].
+    pub(crate) fn write_moments(&self, packet: &Packet, moments: &mut [f32]) {
+        for (l, moment) in moments.iter_mut().enumerate() {
+            let radius2 = packet.radius2[l];
+            let flux: f32 = self.flux.iter().map(|f| Rgb::new(f[0][l], f[1][l], f[2][l]).luminance()).sum();
+            // Lanes without a hit point have found nothing.
+            *moment = (6.0 * self.moment[l] / radius2 - 3.0 * flux) / (PI * radius2);
+        }
+    }
+}
+
+/// What a gather fills, of some packets.
+pub(crate) struct Slots<'a, const LAYERS: usize> {
+    pub(crate) statistics: &'a mut [Statistics],
+    pub(crate) irradiance: &'a mut [Irradiance<LAYERS>],
+    /// Empty without `ERROR`.
+    pub(crate) moments: &'a mut [f32],
+    /// Photons that earlier batches found; empty where a pass is one batch.
+    pub(crate) counts: &'a mut [u64],
+}
+
+impl<const LAYERS: usize> Slots<'_, LAYERS> {
+    /// Those of the packet of that index.
+    pub(crate) fn of_packet<const ERROR: bool>(&mut self, index: usize) -> Slots<'_, LAYERS> {
+        let lanes = index * LANES..(index + 1) * LANES;
+        Slots {
+            statistics: &mut self.statistics[lanes.clone()],
+            irradiance: &mut self.irradiance[lanes.clone()],
+            moments: if ERROR { &mut self.moments[lanes.clone()] } else { &mut [] },
+            counts: self.counts.get_mut(lanes).unwrap_or_default(),
+        }
+    }
+
+    /// Adds what earlier batches of the pass found.
+    pub(crate) fn add_earlier<const ERROR: bool>(&self, found: &mut Found<LAYERS>) {
+        for (l, earlier) in self.irradiance.iter().enumerate() {
+            for (sums, earlier) in found.flux.iter_mut().zip(earlier) {
+                for (sums, earlier) in sums.iter_mut().zip(earlier.to_array()) {
+                    sums[l] += earlier;
+                }
+            }
+        }
+        if ERROR {
+            found.moment.iter_mut().zip(&*self.moments).for_each(|(sum, earlier)| *sum += earlier);
+        }
+    }
+
+    /// Keeps sums for the next batch: flux and moments that no area has divided yet.
+    pub(crate) fn keep<const ERROR: bool>(&mut self, found: &Found<LAYERS>) {
+        for (l, kept) in self.irradiance.iter_mut().enumerate() {
+            for (kept, flux) in kept.iter_mut().zip(&found.flux) {
+                *kept = Rgb::new(flux[0][l], flux[1][l], flux[2][l]);
+            }
+        }
+        self.counts.iter_mut().zip(found.count).for_each(|(sum, count)| *sum += u64::from(count));
+        if ERROR {
+            self.moments.copy_from_slice(&found.moment);
+        }
+    }
+}
