@@ -61,23 +61,17 @@ pub(crate) struct Chunk {
 }
 
 /// A photon on its way.
-#[derive(Clone, Copy)]
-struct Flight {
+struct Path {
     ray: Ray,
     power: Rgb,
     class: PathClass,
-    /// Edges up to the end of `ray`.
-    edges: u32,
-}
-
-/// One photon among those that are followed side by side.
-struct Path {
-    flight: Flight,
-    stream: Stream,
-    /// Index of the emitter.
-    emitter: u32,
     /// Whether it was stored anywhere.
     stored: bool,
+    /// Edges up to the end of `ray`.
+    edges: u32,
+    /// Index of the emitter.
+    emitter: u32,
+    stream: Stream,
 }
 
 /// The work on a chunk, compiled for each instruction set; the best that the machine has is taken. No instruction set changes a
@@ -98,18 +92,24 @@ impl WithSimd for Follow<'_, '_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { pass, range, chunk } = self;
         let mut paths = Vec::with_capacity(WAVE);
+        let mut next = Vec::with_capacity(WAVE);
         let mut hits = Vec::with_capacity(WAVE);
+        // Loops and no closures: those are not compiled for the chosen instruction set.
         for first in range.clone().step_by(WAVE) {
             for index in pass.batch.indices(first..range.end.min(first + WAVE as u64)) {
-                paths.extend(pass.start(index, chunk));
+                pass.start(index, chunk, &mut paths);
             }
             while !paths.is_empty() {
                 chunk.rays += paths.len() as u64;
                 hits.clear();
                 for path in &paths {
-                    hits.push(pass.scene.nearest_hit(path.flight.ray));
+                    hits.push(pass.scene.nearest_hit(path.ray));
                 }
-                pass.go_on(&mut paths, &hits, chunk);
+                for (path, hit) in paths.iter().zip(&hits) {
+                    pass.go_on(path, hit.as_ref(), chunk, &mut next);
+                }
+                std::mem::swap(&mut paths, &mut next);
+                next.clear();
             }
         }
     }
@@ -137,64 +137,48 @@ impl PhotonPass<'_> {
         })
     }
 
-    /// Emits a photon; `None` where there is no emitter, or where its power is no number.
+    /// Emits a photon, unless there is no emitter or its power is no number.
     #[inline(always)]
-    fn start(&self, index: u64, chunk: &mut Chunk) -> Option<Path> {
+    fn start(&self, index: u64, chunk: &mut Chunk, paths: &mut Vec<Path>) {
         let stream = Stream::new(self.seed, Purpose::Photon, self.pass, index);
-        let (emitter, flight) = self.emit(index, stream.clone())?;
-        if !flight.power.is_finite() {
+        let mut numbers = stream.clone();
+        // Stratified over the pass: each emitter gets its share of photons up to one.
+        let u = (index as f64 + f64::from(numbers.next_1d())) / self.photons as f64;
+        let Some((emitter, probability)) = self.scene.choose_emitter(u) else { return };
+        let start =
+            self.scene.emitters()[emitter].emit(numbers.next_1d(), numbers.next_2d(), numbers.next_2d());
+        let power = start.power / probability as f32;
+        if !power.is_finite() {
             chunk.ledger.dropped += 1;
             chunk.lights[emitter].emitted += 1;
             chunk.lights[emitter].dropped += 1;
-            return None;
+            return;
         }
-        chunk.ledger.emitted += energy(flight.power);
-        Some(Path { flight, stream, emitter: emitter as u32, stored: false })
-    }
-
-    /// Sends all paths on from where they hit, and keeps those that go on.
-    #[inline(always)]
-    fn go_on(&self, paths: &mut Vec<Path>, hits: &[Option<Hit>], chunk: &mut Chunk) {
-        let mut kept = 0;
-        // A loop and no closure: closures are not compiled for the chosen instruction set.
-        for (i, hit) in hits.iter().enumerate() {
-            let flight = paths[i].flight;
-            let next = if let Some(hit) = hit {
-                let surface = self.scene.surface(&flight.ray, hit);
-                let mut numbers = paths[i].stream.from_dimension(u64::from(flight.edges) * DIMENSIONS);
-                let before = chunk.photons.len();
-                let next = self.scatter(&flight, &surface, &mut numbers, chunk);
-                paths[i].stored |= chunk.photons.len() > before;
-                next
-            } else {
-                chunk.ledger.escaped += energy(flight.power);
-                None
-            };
-            if let Some(next) = next {
-                paths[i].flight = next;
-                paths.swap(kept, i);
-                kept += 1;
-            } else {
-                chunk.lights[paths[i].emitter as usize].count(paths[i].stored);
-            }
-        }
-        paths.truncate(kept);
-    }
-
-    /// The index of the emitter, and the photon as it leaves it.
-    #[inline(always)]
-    fn emit(&self, index: u64, mut numbers: Stream) -> Option<(usize, Flight)> {
-        // Stratified over the pass: each emitter gets its share of photons up to one.
-        let u = (index as f64 + f64::from(numbers.next_1d())) / self.photons as f64;
-        let (index, probability) = self.scene.choose_emitter(u)?;
-        let emitter = &self.scene.emitters()[index];
-        let start = emitter.emit(numbers.next_1d(), numbers.next_2d(), numbers.next_2d());
-        let flight = Flight {
+        chunk.ledger.emitted += energy(power);
+        paths.push(Path {
             ray: Ray::new(start.origin, start.direction),
-            power: start.power / probability as f32,
+            power,
             class: PathClass::Direct,
+            stored: false,
             edges: 1,
+            emitter: emitter as u32,
+            stream,
+        });
+    }
+
+    /// What becomes of a photon where its ray ends. If it goes on, it is added to `next`: written once, where it is read.
+    #[inline(always)]
+    fn go_on(&self, path: &Path, hit: Option<&Hit>, chunk: &mut Chunk, next: &mut Vec<Path>) {
+        let before = next.len();
+        let stored = match hit {
+            Some(hit) => self.scatter(path, &self.scene.surface(&path.ray, hit), chunk, next),
+            None => {
+                chunk.ledger.escaped += energy(path.power);
+                path.stored
+            }
         };
-        Some((index, flight))
+        if next.len() == before {
+            chunk.lights[path.emitter as usize].count(stored);
+        }
     }
 }

@@ -71,12 +71,12 @@ fn spread_of_radii(ppm: &Ppm) -> f32 {
     radii().fold(0.0, f32::max) / radii().fold(f32::MAX, f32::min)
 }
 
-/// Meshes get texture coordinates of a rectangle from the file, so a board fits each wall.
+/// A board on each wall, of the mean reflectance that the walls have: paths are as long as before.
 fn textured(mut description: SceneDescription) -> SceneDescription {
     description.textures.push(Texture {
         name: "board".into(),
         to_uv: DAffine2::from_scale(DVec2::splat(16.0)),
-        kind: TextureKind::Checkerboard { colours: [Rgb::splat(0.25), Rgb::splat(0.75)] },
+        kind: TextureKind::Checkerboard { colours: [Rgb::splat(0.65), Rgb::splat(0.85)] },
     });
     for material in &mut description.materials {
         for bsdf in [Some(&mut material.front), material.back.as_mut()].into_iter().flatten() {

@@ -1,10 +1,10 @@
 //! What happens to a photon at a surface: it is stored where light spreads, absorbed, or sent on.
 
 use foton_math::glam::Vec3;
-use foton_math::{Frame, Ray, Rgb, Stream, warp};
+use foton_math::{Frame, Ray, Rgb, warp};
 use foton_scene::{Lobe, Surface, Transport};
 
-use super::{Chunk, Flight, PhotonPass};
+use super::{Chunk, DIMENSIONS, Path, PhotonPass};
 use crate::eye_pass::{leaves_wrongly, on_the_right_side, shading_normal_towards};
 use crate::ledger::{Ledger, energy, left_out};
 use crate::photon::{PathClass, Photon};
@@ -29,21 +29,22 @@ struct Leaving {
 }
 
 impl PhotonPass<'_> {
-    /// Stores the photon where light spreads, and sends it on.
+    /// Stores the photon where light spreads, and sends it on. Whether it has been stored anywhere so far.
     #[inline(always)]
     pub(super) fn scatter(
         &self,
-        flight: &Flight,
+        path: &Path,
         surface: &Surface,
-        numbers: &mut Stream,
         chunk: &mut Chunk,
-    ) -> Option<Flight> {
-        let wo = -flight.ray.direction;
+        next: &mut Vec<Path>,
+    ) -> bool {
+        let wo = -path.ray.direction;
         let Some(reflectance) = self.scene.lambertian(surface, wo.dot(surface.normal) > 0.0) else {
-            return self.scatter_otherwise(flight, surface, numbers, chunk);
+            return self.scatter_otherwise(path, surface, chunk, next);
         };
-        self.store(flight, surface, wo, chunk);
+        let stored = self.store(path, surface, wo, chunk);
         let normal = shading_normal_towards(surface, wo);
+        let mut numbers = path.stream.from_dimension(u64::from(path.edges) * DIMENSIONS);
         // The number that chooses among lobes, where there are several.
         numbers.next_1d();
         let up = warp::square_to_cosine_hemisphere(numbers.next_2d());
@@ -56,33 +57,33 @@ impl PhotonPass<'_> {
             reflects: true,
             straight: false,
         };
-        self.send_on(flight, surface, &leaving, numbers, chunk)
+        self.send_on(path, stored, surface, &leaving, numbers.next_1d(), chunk, next);
+        stored
     }
 
     /// The same for everything but Lambertian surfaces. Kept apart, so that the loop around the others stays small.
     #[inline(never)]
     fn scatter_otherwise(
         &self,
-        flight: &Flight,
+        path: &Path,
         surface: &Surface,
-        numbers: &mut Stream,
         chunk: &mut Chunk,
-    ) -> Option<Flight> {
-        let wo = -flight.ray.direction;
+        next: &mut Vec<Path>,
+    ) -> bool {
+        let wo = -path.ray.direction;
         let Some(scattering) = self.scene.scattering(surface, wo.dot(surface.normal) > 0.0) else {
-            chunk.ledger.absorbed += energy(flight.power);
-            return None;
+            chunk.ledger.absorbed += energy(path.power);
+            return path.stored;
         };
-        if scattering.bsdf.keeps() {
-            self.store(flight, surface, wo, chunk);
-        }
+        let stored = if scattering.bsdf.keeps() { self.store(path, surface, wo, chunk) } else { path.stored };
         let normal = shading_normal_towards(surface, wo);
         let frame = self.scene.shading_frame(surface, normal);
         let local = frame.to_local(wo);
+        let mut numbers = path.stream.from_dimension(u64::from(path.edges) * DIMENSIONS);
         let sample = scattering.sample(local, Transport::Importance, numbers.next_1d(), numbers.next_2d());
         let Some(sample) = sample else {
-            chunk.ledger.absorbed += energy(flight.power);
-            return None;
+            chunk.ledger.absorbed += energy(path.power);
+            return stored;
         };
         let leaving = Leaving {
             direction: frame.to_outer(sample.wi).normalize(),
@@ -92,22 +93,29 @@ impl PhotonPass<'_> {
             reflects: sample.wi.z * local.z > 0.0,
             straight: sample.wi == -local,
         };
-        self.send_on(flight, surface, &leaving, numbers, chunk)
+        self.send_on(path, stored, surface, &leaving, numbers.next_1d(), chunk, next);
+        stored
     }
 
-    /// Weighs and thins out a photon that leaves, and says in the ledger what became of the rest.
+    /// Weighs and, by `u`, thins out a photon that leaves, and says in the ledger what became of the rest.
     #[inline(always)]
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "all of one photon's step; a struct of them is a copy of them"
+    )]
     fn send_on(
         &self,
-        flight: &Flight,
+        path: &Path,
+        stored: bool,
         surface: &Surface,
         leaving: &Leaving,
-        numbers: &mut Stream,
+        u: f32,
         chunk: &mut Chunk,
-    ) -> Option<Flight> {
-        let wo = -flight.ray.direction;
+        next: &mut Vec<Path>,
+    ) {
+        let wo = -path.ray.direction;
         let &Leaving { direction, weight, normal, followed, reflects, straight } = leaving;
-        let scattered = flight.power * weight;
+        let scattered = path.power * weight;
         let correction = if !followed && leaves_wrongly(surface, wo, direction, reflects) {
             0.0
         } else if straight {
@@ -119,31 +127,34 @@ impl PhotonPass<'_> {
         if !corrected.is_finite() {
             // Dropped before it reaches a sum: one NaN would be all that is left of the image.
             chunk.ledger.dropped += 1;
-            chunk.ledger.lost += energy(flight.power);
+            chunk.ledger.lost += energy(path.power);
             chunk.losses[self.material(surface)].dropped += 1;
-            return None;
+            return;
         }
-        chunk.ledger.absorbed += left_out(flight.power, weight);
+        chunk.ledger.absorbed += left_out(path.power, weight);
         if correction != 1.0 {
             chunk.ledger.shading_normals += left_out(scattered, Rgb::splat(correction));
         }
         if corrected.is_black() {
-            return None;
+            return;
         }
-        if flight.edges + 1 >= self.max_depth {
+        if path.edges + 1 >= self.max_depth {
             chunk.ledger.truncated += energy(corrected);
             chunk.losses[self.material(surface)].truncated += energy(corrected);
-            return None;
+            return;
         }
-        let power = roulette(corrected, flight.power, numbers.next_1d(), &mut chunk.ledger)?;
+        let Some(power) = roulette(corrected, path.power, u, &mut chunk.ledger) else { return };
         let direction =
             if followed { on_the_right_side(surface, wo, direction, reflects) } else { direction };
-        Some(Flight {
+        next.push(Path {
             ray: Ray::new(surface.ray_origin(direction), direction),
             power,
-            class: flight.class.scattered(followed),
-            edges: flight.edges + 1,
-        })
+            class: path.class.scattered(followed),
+            stored,
+            edges: path.edges + 1,
+            emitter: path.emitter,
+            stream: path.stream.clone(),
+        });
     }
 
     /// Index of the surface's material.
@@ -151,25 +162,19 @@ impl PhotonPass<'_> {
         self.scene.shapes()[surface.shape as usize].material as usize
     }
 
+    /// Stores the photon if a hit point may ask for it. Whether it has been stored anywhere so far.
     #[inline(always)]
-    fn store(&self, flight: &Flight, surface: &Surface, wo: Vec3, chunk: &mut Chunk) {
-        if flight.class == PathClass::Direct && self.direct_light == DirectLight::ShadowRays {
-            return;
+    fn store(&self, path: &Path, surface: &Surface, wo: Vec3, chunk: &mut Chunk) -> bool {
+        if path.class == PathClass::Direct && self.direct_light == DirectLight::ShadowRays {
+            return path.stored;
         }
-        if let Some(cell) = self.grid.number(surface.position) {
-            let normal = surface.normal * 1f32.copysign(wo.dot(surface.normal));
-            let edges = flight.edges.min(255) as u8;
-            let from = self.directions.then_some(wo);
-            chunk.photons.push(Photon::new(
-                surface.position,
-                normal,
-                from,
-                flight.power,
-                flight.class,
-                edges,
-            ));
-            chunk.cells.push(cell);
-        }
+        let Some(cell) = self.grid.number(surface.position) else { return path.stored };
+        let normal = surface.normal * 1f32.copysign(wo.dot(surface.normal));
+        let edges = path.edges.min(255) as u8;
+        let from = self.directions.then_some(wo);
+        chunk.photons.push(Photon::new(surface.position, normal, from, path.power, path.class, edges));
+        chunk.cells.push(cell);
+        true
     }
 }
 
