@@ -70,6 +70,7 @@ fn main() {
         folder: &folder,
         size: WINDOW,
         is_dark: true,
+        fault: None,
     };
     let mut window = Window::open(&display, &opening);
     window.frame("a pass", |f| (f["activity"] == "rendering").then_some(()));

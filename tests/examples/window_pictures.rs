@@ -17,7 +17,7 @@ fn main() {
     for (name, is_dark, click) in [("window", true, None), ("window-inspector", true, Some([0.806, 0.82]))] {
         std::fs::create_dir_all(&folder).expect("a folder");
         let display = Display::start(WINDOW);
-        let opening = Opening { foton, scene: None, folder: &folder, size: WINDOW, is_dark };
+        let opening = Opening { foton, scene: None, folder: &folder, size: WINDOW, is_dark, fault: None };
         let mut window = Window::open(&display, &opening);
         // Out of the picture, where nothing is pointed at.
         display.hand("mousemove 1279 799");

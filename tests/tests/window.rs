@@ -1,6 +1,8 @@
 //! The real window, driven by pointer and keys on a display that nobody sees: what a person sees and saves is what the
-//! headless program renders. One test, because one window tells it all.
+//! headless program renders. One test for that, because one window tells it all.
 #![cfg(target_os = "linux")]
+
+mod window_system;
 
 use std::env;
 use std::fs;
@@ -158,8 +160,14 @@ fn what_a_person_sees_steers_and_saves_is_what_the_program_renders() {
     fs::write(&scene, SCENE).expect("written");
     let foton = foton();
     let display = Display::start(WINDOW);
-    let opening =
-        Opening { foton: &foton, scene: Some(&scene), folder: &folder.0, size: WINDOW, is_dark: true };
+    let opening = Opening {
+        foton: &foton,
+        scene: Some(&scene),
+        folder: &folder.0,
+        size: WINDOW,
+        is_dark: true,
+        fault: None,
+    };
     let window = Window::open(&display, &opening);
     let mut driver = Driver { display, window, folder: folder.0.clone() };
 

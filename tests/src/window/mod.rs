@@ -1,5 +1,7 @@
 //! A real window on a display that nobody sees, hands for it, and its log to wait on. Never on time: machines are loaded.
 
+#[cfg(unix)]
+mod client;
 mod log;
 
 use std::fs;
@@ -11,6 +13,8 @@ use std::time::{Duration, Instant};
 use foton_film::{Image, read_png};
 use serde_json::Value;
 
+#[cfg(unix)]
+pub use client::Client;
 pub use log::Log;
 
 /// What takes longer has hung.
@@ -58,6 +62,16 @@ impl Display {
         assert!(done.expect(NEEDED).success(), "xdotool {words}");
     }
 
+    /// Another program on it.
+    ///
+    /// # Panics
+    /// If it cannot connect.
+    #[cfg(unix)]
+    #[must_use]
+    pub fn client(&self) -> Client {
+        Client::new(&self.name)
+    }
+
     /// All that is on the display; the file is kept.
     ///
     /// # Panics
@@ -92,6 +106,8 @@ pub struct Opening<'a> {
     pub size: [u32; 2],
     /// Dark or light colours.
     pub is_dark: bool,
+    /// A fault that it is to have, as `FOTON_FAULT` says it.
+    pub fault: Option<&'a str>,
 }
 
 /// The program with its window open.
@@ -120,6 +136,7 @@ impl Window {
         command.args(opening.scene).arg("--frame-log").arg(&log).current_dir(folder);
         command.env("DISPLAY", &display.name).env_remove("WAYLAND_DISPLAY");
         command.env("XDG_CONFIG_HOME", folder.join("config"));
+        command.envs(opening.fault.map(|fault| ("FOTON_FAULT", fault)));
         command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(errors);
         let process = command.spawn().unwrap_or_else(|e| panic!("{}: {e}", opening.foton.display()));
         let mut window = Self { process, log: Log::new(log), folder: folder.to_owned() };
@@ -175,6 +192,22 @@ impl Window {
         let text = fs::read_to_string(format!("/proc/{}/status", self.process.id())).ok()?;
         let line = text.lines().find(|line| line.starts_with("VmRSS:"))?;
         line.split_whitespace().nth(1)?.parse::<u64>().ok().map(|kib| kib * 1024)
+    }
+
+    /// Processor time of the whole process and of the thread that has the window, in ticks of the system's clock.
+    ///
+    /// # Panics
+    /// If the system does not say.
+    #[must_use]
+    pub fn cpu_ticks(&self) -> [u64; 2] {
+        let id = self.process.id();
+        [format!("/proc/{id}/stat"), format!("/proc/{id}/task/{id}/stat")].map(|path| {
+            let text = fs::read_to_string(path).expect("the process is there");
+            // After the name, which may hold anything.
+            let rest = text.rsplit_once(')').expect("a name").1;
+            let numbers = rest.split_whitespace().skip(11).take(2);
+            numbers.map(|n| n.parse::<u64>().expect("a number")).sum()
+        })
     }
 
     /// Whether the process is still there.

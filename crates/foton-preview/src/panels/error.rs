@@ -89,10 +89,11 @@ pub(super) fn stop_at(ui: &mut egui::Ui, rule: StopRule) -> StopRule {
     let mut share = rule.error;
     ui.horizontal(|ui| {
         let mut on = rule.error.is_some();
-        ui.checkbox(&mut on, "at error");
+        let label = ui.checkbox(&mut on, "at error");
         let mut value = 100.0 * rule.error.unwrap_or(USUAL_GOAL);
         let field = egui::DragValue::new(&mut value).range(0.01..=99.0).speed(0.02).max_decimals(2);
         ui.add_enabled(on, field.suffix(" %"))
+            .labelled_by(label.id)
             .on_hover_text("Pauses once the error is certainly below: its upper end counts, and not before photons are found");
         share = on.then_some(value / 100.0);
     });

@@ -2,6 +2,7 @@
 
 mod canvas;
 mod controls;
+mod dropping;
 mod error;
 mod help;
 mod inspector;
@@ -28,6 +29,8 @@ pub(crate) fn ground(visuals: &egui::Visuals) -> egui::Color32 {
 /// Everything in the window, over a [`ground`].
 pub(crate) fn show(ui: &mut egui::Ui, state: &mut State) {
     state.places.clear();
+    // Screen readers say a window's name first.
+    ui.ctx().accesskit_node_builder(egui::accesskit_root_id(), |window| window.set_label("foton"));
     keys::obey(ui, state);
     // The window is cleared to the panels' colour (see `ground`), so that they need not be filled: on a software adapter egui's
     // shader takes some 60 ns of a core for each pixel, which makes fills the most of a frame.
@@ -47,10 +50,12 @@ pub(crate) fn show(ui: &mut egui::Ui, state: &mut State) {
             egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| inspector::show(ui, state));
         });
     }
-    egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| canvas::show(ui, state));
+    let canvas =
+        egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| canvas::show(ui, state));
     messages::show(ui.ctx(), state);
     help::show(ui.ctx(), state);
     dialog(ui.ctx(), state);
+    dropping::show(ui.ctx(), canvas.response.rect);
 }
 
 fn dialog(ctx: &egui::Context, state: &mut State) {

@@ -144,7 +144,8 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
 fn plot(ui: &mut egui::Ui, name: &str, trace: &Trace) {
     ui.weak(name);
     let points: Vec<[f64; 2]> = trace.points.iter().copied().collect();
-    Plot::new(name)
+    let last = points.last().copied();
+    let plot = Plot::new(name)
         .height(72.0)
         .allow_drag(false)
         .allow_zoom(false)
@@ -153,4 +154,6 @@ fn plot(ui: &mut egui::Ui, name: &str, trace: &Trace) {
         .show_x(false)
         .include_y(0.0)
         .show(ui, |plot| plot.line(Line::new(name, PlotPoints::from(points))));
+    let words = last.map_or_else(|| name.to_owned(), |[_, value]| format!("{name}: now {}", short(value)));
+    plot.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, words.clone()));
 }

@@ -1,7 +1,6 @@
-//! When to draw: at once on input, on new frames as often as drawing is cheap, never when nothing changed or nobody looks.
+//! What happens when: the system's events, the engine's frames, and frames for the screen, never when nobody looks.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 
 use foton_session::Engine;
@@ -13,27 +12,15 @@ use winit::window::WindowId;
 
 use super::frame_log::FrameLog;
 use super::live::Live;
+use super::pace::Pace;
 use super::{UserEvent, WindowError};
 use crate::state::{State, Tone};
 
-/// Between frames that only new passes ask for, where drawing takes the cores that render.
-const SOFTWARE_GAP: Duration = Duration::from_millis(330);
-
-/// The same while a person acts, and between frames that only egui asks for: a frame that shows nothing new to the person would
-/// hold up the render of one that does.
-const SOFTWARE_ATTENTIVE_GAP: Duration = Duration::from_millis(120);
-
-/// The same where a graphics card draws.
-const HARDWARE_GAP: Duration = Duration::from_millis(33);
-
-/// For so long after an input a person is taken to be waiting for the picture.
-const ATTENTION: Duration = Duration::from_millis(500);
-
-/// So long a frame waits for the picture of a move, where drawing would take the cores that make it.
-const PATIENCE: Duration = Duration::from_millis(70);
-
 /// Between looks at whether the scene's file has changed.
 const WATCH: Duration = Duration::from_secs(1);
+
+/// Between looks for another adapter after one was lost: a driver that starts anew takes a while.
+const RETRY: Duration = Duration::from_secs(1);
 
 pub(super) struct App {
     engine: Engine,
@@ -42,15 +29,10 @@ pub(super) struct App {
     log: Option<FrameLog>,
     live: Option<Live>,
     error: Option<WindowError>,
-    /// When the next frame is due.
-    due: Option<Instant>,
-    drawn: Instant,
-    /// The first input that no frame has answered, and the last one.
+    pace: Pace,
+    /// The first input that no frame has answered.
     unanswered: Option<Instant>,
-    last_input: Option<Instant>,
     occluded: bool,
-    /// Whether the last frame was left to the picture that follows.
-    waited: bool,
     watched: Option<(PathBuf, Option<SystemTime>)>,
     looked: Instant,
 }
@@ -69,12 +51,9 @@ impl App {
             log,
             live: None,
             error: None,
-            due: None,
-            drawn: Instant::now(),
+            pace: Pace::new(Instant::now()),
             unanswered: None,
-            last_input: None,
             occluded: false,
-            waited: false,
             watched: None,
             looked: Instant::now(),
         }
@@ -88,10 +67,6 @@ impl App {
     pub(super) fn finish(&mut self) {
         self.state.preferences.save();
         self.engine.finish_writing();
-    }
-
-    fn draw_at(&mut self, when: Instant) {
-        self.due = Some(self.due.map_or(when, |due| due.min(when)));
     }
 
     /// Takes what the engine has, and says when to show it.
@@ -108,28 +83,19 @@ impl App {
             self.state.hear(event);
             is_news = true;
         }
-        let attentive = self.last_input.is_some_and(|at| at.elapsed() < ATTENTION);
-        let gap = match (self.is_software(), is_news, attentive) {
-            (false, ..) | (_, true, _) => HARDWARE_GAP,
-            (true, false, true) => SOFTWARE_ATTENTIVE_GAP,
-            (true, false, false) => SOFTWARE_GAP,
-        };
-        self.draw_at(self.drawn + gap);
-    }
-
-    /// Whether drawing takes the cores that render.
-    fn is_software(&self) -> bool {
-        self.live.as_ref().is_some_and(|l| l.is_software)
+        self.pace.hear(Instant::now(), is_news);
     }
 
     fn draw(&mut self) {
-        self.due = None;
+        self.pace.begin();
         self.watch();
         let Some(live) = self.live.as_mut().filter(|l| l.is_visible() && !self.occluded) else { return };
+        if live.adapter().is_none() {
+            return self.recover();
+        }
         let begin = Instant::now();
         let engine = &self.engine;
-        // Not twice in a row: a hand that never rests would see nothing.
-        let may_wait = live.is_software && !self.waited;
+        let may_wait = self.pace.may_wait();
         let painted = live.draw(&mut self.state, |state| {
             let commands: Vec<_> = state.outbox.drain(..).collect();
             let waits = may_wait && commands.iter().any(answers_soon);
@@ -140,15 +106,14 @@ impl App {
             }
             !waits
         });
-        self.waited = !painted;
         if !painted {
-            self.draw_at(begin + PATIENCE);
-            return;
+            return self.pace.wait(begin);
         }
-        self.drawn = Instant::now();
-        let since_input = self.unanswered.take().map(|at| self.drawn - at);
+        let now = Instant::now();
+        self.pace.drawn(now);
+        let since_input = self.unanswered.take().map(|at| now - at);
         if let Some(log) = &mut self.log {
-            log.drawn(&self.state, self.drawn - begin, since_input);
+            log.drawn(&self.state, now - begin, since_input);
             for message in self.state.messages.iter_mut().filter(|m| !m.is_logged) {
                 log.message(message.tone == Tone::Error, &message.text);
                 message.is_logged = true;
@@ -183,28 +148,39 @@ impl App {
     }
 
     fn open_window(&mut self, event_loop: &ActiveEventLoop) {
-        let opened = match self.live.take() {
-            None => Live::open(event_loop, &self.proxy, &self.state),
-            Some(live) => {
-                let window = Arc::clone(&live.window);
-                drop(live);
-                Live::draw_into(window, event_loop, &self.proxy)
-            }
-        };
-        match opened {
+        match Live::open(event_loop, &self.proxy, &self.state) {
             Ok(live) => {
-                if let Some(log) = &mut self.log {
-                    log.adapter(&live.adapter, live.is_software);
-                }
-                self.state.adapter.clone_from(&live.adapter);
-                self.state.largest_texture = live.largest_texture;
-                live.window.request_redraw();
                 self.live = Some(live);
+                self.introduce();
             }
             Err(error) => {
                 self.error = Some(error);
                 event_loop.exit();
             }
+        }
+    }
+
+    /// Says what draws from here on, and lets it.
+    fn introduce(&mut self) {
+        let Some((live, adapter)) = self.live.as_ref().and_then(|l| Some((l, l.adapter()?))) else { return };
+        if let Some(log) = &mut self.log {
+            log.adapter(&adapter.words, adapter.is_software);
+        }
+        self.state.adapter.clone_from(&adapter.words);
+        self.state.largest_texture = adapter.largest_texture;
+        self.pace.is_software = adapter.is_software;
+        live.window.request_redraw();
+    }
+
+    /// Finds another adapter, now or later. The engine does not know of it: passes go on.
+    fn recover(&mut self) {
+        let Some(live) = &mut self.live else { return };
+        match live.recover(&self.proxy) {
+            Ok(()) => {
+                self.state.notice("The graphics adapter was lost and is back; the render went on");
+                self.introduce();
+            }
+            Err(_) => self.pace.draw_at(Instant::now() + RETRY),
         }
     }
 }
@@ -221,24 +197,18 @@ impl ApplicationHandler<UserEvent> for App {
         }
     }
 
-    fn user_event(&mut self, event_loop: &ActiveEventLoop, event: UserEvent) {
+    fn user_event(&mut self, _: &ActiveEventLoop, event: UserEvent) {
         match event {
             UserEvent::Wake => self.listen(),
-            UserEvent::Repaint(delay) => {
-                if let Some(when) = Instant::now().checked_add(delay) {
-                    let soonest = self.drawn + SOFTWARE_ATTENTIVE_GAP;
-                    self.draw_at(if self.is_software() { when.max(soonest) } else { when });
+            UserEvent::Repaint(delay) => self.pace.repaint(Instant::now(), delay),
+            UserEvent::DeviceLost(number) => {
+                if self.live.as_mut().is_some_and(|live| live.lose(number)) {
+                    self.recover();
                 }
             }
-            UserEvent::DeviceLost => {
-                self.state.notice("The graphics adapter was lost and is back; the render went on");
-                self.open_window(event_loop);
-            }
             UserEvent::AccessKit(event) => {
-                if let (Some(live), egui_winit::accesskit_winit::WindowEvent::ActionRequested(request)) =
-                    (&mut self.live, event.window_event)
-                {
-                    live.egui.on_accesskit_action_request(request);
+                if let Some(live) = &mut self.live {
+                    live.hear_a_screen_reader(event.window_event);
                     live.window.request_redraw();
                 }
             }
@@ -263,7 +233,11 @@ impl ApplicationHandler<UserEvent> for App {
                 let size = size.to_logical(live.window.scale_factor());
                 self.state.preferences.window = [size.width, size.height];
             }
-            WindowEvent::Occluded(occluded) => self.occluded = occluded,
+            WindowEvent::Occluded(occluded) => {
+                self.occluded = occluded;
+                // What was not drawn meanwhile.
+                self.pace.draw_at(Instant::now());
+            }
             WindowEvent::DroppedFile(path) => self.state.open(path),
             WindowEvent::KeyboardInput { .. }
             | WindowEvent::MouseInput { .. }
@@ -271,24 +245,24 @@ impl ApplicationHandler<UserEvent> for App {
             | WindowEvent::CursorMoved { .. } => {
                 let now = Instant::now();
                 self.unanswered.get_or_insert(now);
-                self.last_input = Some(now);
+                self.pace.input(now);
             }
             _ => {}
         }
         if response.repaint {
-            self.draw_at(Instant::now());
+            self.pace.draw_at(Instant::now());
         }
     }
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
-        let Some(due) = self.due else {
+        let Some(due) = self.pace.due() else {
             event_loop.set_control_flow(ControlFlow::Wait);
             return;
         };
         if due > Instant::now() {
             event_loop.set_control_flow(ControlFlow::WaitUntil(due));
         } else if let Some(live) = &self.live {
-            self.due = None;
+            self.pace.begin();
             live.window.request_redraw();
             event_loop.set_control_flow(ControlFlow::Wait);
         }

@@ -1,29 +1,35 @@
-//! A window that is open: its surface, its egui, and one drawing of it.
+//! A window that is open: its egui, what draws it, and one drawing of it.
 
-use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use egui::ViewportId;
-use egui_wgpu::winit::Painter;
-use egui_wgpu::{RendererOptions, WgpuConfiguration};
+use egui::{ViewportId, accesskit};
+use egui_winit::accesskit_winit;
 use winit::dpi::LogicalSize;
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 use winit::window::{Window, WindowAttributes};
 
+use super::adapter::Adapter;
 use super::{UserEvent, WindowError, reason};
 use crate::panels;
-use crate::present::Presenter;
 use crate::state::State;
 
 pub(super) struct Live {
     pub(super) window: Arc<Window>,
     pub(super) egui: egui_winit::State,
     context: egui::Context,
-    painter: Painter,
-    /// Drawing costs the same cores that render.
-    pub(super) is_software: bool,
-    pub(super) adapter: String,
-    pub(super) largest_texture: u32,
+    /// `None` from when it was lost until there is another.
+    adapter: Option<Adapter>,
+    /// Counts adapters.
+    adapters: u64,
+    /// What egui wants the adapter to know, each thing once.
+    textures: egui::TexturesDelta,
+}
+
+impl Drop for Live {
+    fn drop(&mut self) {
+        // egui minds if it is not handed over.
+        self.textures.clear();
+    }
 }
 
 impl Live {
@@ -41,65 +47,58 @@ impl Live {
             .with_min_inner_size(LogicalSize::new(480.0, 360.0));
         let window = event_loop.create_window(attributes);
         let window = Arc::new(window.map_err(|cause| WindowError::NoDisplay(reason(&cause)))?);
-        let live = Self::draw_into(window, event_loop, proxy)?;
-        live.window.set_visible(true);
-        Ok(live)
-    }
-
-    /// Sets up everything that draws into a window: the first time, and after the adapter was lost.
-    pub(super) fn draw_into(
-        window: Arc<Window>,
-        event_loop: &ActiveEventLoop,
-        proxy: &EventLoopProxy<UserEvent>,
-    ) -> Result<Self, WindowError> {
         let context = egui::Context::default();
-        let configuration = WgpuConfiguration::default();
-        let painter = Painter::new(context.clone(), configuration, false, RendererOptions::default());
-        let mut painter = pollster::block_on(painter);
-        pollster::block_on(painter.set_window(ViewportId::ROOT, Some(Arc::clone(&window))))
-            .map_err(|cause| WindowError::NoAdapter(cause.to_string()))?;
-        let Some(render) = painter.render_state() else {
-            return Err(WindowError::NoAdapter("there is none".to_owned()));
-        };
-        let presenter = Presenter::new(&render.device, &render.queue, render.target_format);
-        render.renderer.write().callback_resources.insert(presenter);
-        let lost = proxy.clone();
-        render.device.set_device_lost_callback(move |reason, _| {
-            // A device that we drop ourselves is lost, too.
-            if reason != wgpu::DeviceLostReason::Destroyed {
-                let _ = lost.send_event(UserEvent::DeviceLost);
-            }
-        });
-        let largest_texture = render.device.limits().max_texture_dimension_2d;
-        let info = render.adapter.get_info();
-        let is_software = info.device_type == wgpu::DeviceType::Cpu;
+        let adapter = Adapter::open(0, &context, &window, proxy)?;
         let mut egui = egui_winit::State::new(
             context.clone(),
             ViewportId::ROOT,
             &window,
             Some(window.scale_factor() as f32),
             window.theme(),
-            painter.max_texture_side(),
+            Some(adapter.largest_texture as usize),
         );
+        // Before the window is shown, as screen readers need it: after a loss of the adapter this cannot be done again.
         egui.init_accesskit(event_loop, &window, proxy.clone());
         let repaint = proxy.clone();
         context.set_request_repaint_callback(move |info| {
             let _ = repaint.send_event(UserEvent::Repaint(info.delay));
         });
-        let adapter = if is_software {
-            format!(
-                "Drawn in software ({}): fewer frames a second, to leave the cores to the render",
-                info.name
-            )
-        } else {
-            format!("Drawn by {}", info.name)
-        };
-        Ok(Self { window, egui, context, painter, is_software, adapter, largest_texture })
+        window.set_visible(true);
+        let textures = egui::TexturesDelta::default();
+        Ok(Self { window, egui, context, adapter: Some(adapter), adapters: 1, textures })
+    }
+
+    /// What draws, unless it is lost.
+    pub(super) const fn adapter(&self) -> Option<&Adapter> {
+        self.adapter.as_ref()
+    }
+
+    /// Gives the adapter of a number up, if it is the one that draws; whether it was.
+    pub(super) fn lose(&mut self, number: u64) -> bool {
+        self.adapter.take_if(|adapter| adapter.number == number).is_some()
+    }
+
+    /// Finds another adapter after one was lost.
+    pub(super) fn recover(&mut self, proxy: &EventLoopProxy<UserEvent>) -> Result<(), WindowError> {
+        let adapter = Adapter::open(self.adapters, &self.context, &self.window, proxy)?;
+        self.adapters += 1;
+        adapter.restore(&self.context);
+        self.textures.clear();
+        self.egui.set_max_texture_side(adapter.largest_texture as usize);
+        self.adapter = Some(adapter);
+        Ok(())
+    }
+
+    /// What a screen reader wants.
+    pub(super) fn hear_a_screen_reader(&mut self, wish: accesskit_winit::WindowEvent) {
+        if let Some(request) = heed(&self.context, wish) {
+            self.egui.on_accesskit_action_request(request);
+        }
     }
 
     pub(super) fn resize(&mut self, width: u32, height: u32) {
-        if let (Some(width), Some(height)) = (NonZeroU32::new(width), NonZeroU32::new(height)) {
-            self.painter.on_window_resized(ViewportId::ROOT, width, height);
+        if let Some(adapter) = &mut self.adapter {
+            adapter.resize(width, height);
         }
     }
 
@@ -121,22 +120,54 @@ impl Live {
         let is_worth_it = ask(state);
         let platform = std::mem::take(&mut output.platform_output);
         self.egui.handle_platform_output(&self.window, platform);
-        // Textures are handed over once.
-        if !is_worth_it && output.textures_delta.is_empty() {
+        self.textures.append(std::mem::take(&mut output.textures_delta));
+        if !is_worth_it {
             return false;
         }
+        let Some(adapter) = &mut self.adapter else { return false };
+        adapter.strike(state.frame.as_ref().map_or(0, |frame| frame.numbers.passes));
         let shapes = std::mem::take(&mut output.shapes);
         let ground = panels::ground(&self.context.style_of(theme).visuals);
-        let primitives = self.context.tessellate(shapes, output.pixels_per_point);
-        self.painter.paint_and_update_textures(
-            ViewportId::ROOT,
-            output.pixels_per_point,
-            ground.to_normalized_gamma_f32(),
-            &primitives,
-            &mut output.textures_delta,
-            Vec::new(),
-            &self.window,
-        );
-        true
+        let pixels_per_point = output.pixels_per_point;
+        let primitives = self.context.tessellate(shapes, pixels_per_point);
+        adapter.paint(&self.window, ground, &primitives, pixels_per_point, &mut self.textures)
+    }
+}
+
+/// Tells a screen reader what is there from the next frame on, or not any more; what it wants done is returned.
+fn heed(context: &egui::Context, wish: accesskit_winit::WindowEvent) -> Option<accesskit::ActionRequest> {
+    match wish {
+        accesskit_winit::WindowEvent::InitialTreeRequested => context.enable_accesskit(),
+        accesskit_winit::WindowEvent::ActionRequested(request) => return Some(request),
+        accesskit_winit::WindowEvent::AccessibilityDeactivated => context.disable_accesskit(),
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::preferences::Preferences;
+
+    #[test]
+    fn a_screen_reader_is_told_what_is_there_once_it_asks() {
+        let context = egui::Context::default();
+        let mut state = State::new(Preferences::default(), Vec::new());
+        let mut told = || {
+            let mut output = context.run_ui(egui::RawInput::default(), |ui| panels::show(ui, &mut state));
+            output.textures_delta.clear();
+            let nodes = output.platform_output.accesskit_update?.nodes;
+            Some(
+                nodes.into_iter().filter_map(|(_, node)| node.label().map(str::to_owned)).collect::<Vec<_>>(),
+            )
+        };
+        assert_eq!(told(), None);
+        assert!(heed(&context, accesskit_winit::WindowEvent::InitialTreeRequested).is_none());
+        let names = told().expect("a tree");
+        for name in ["foton", "Pause", "Rendered image"] {
+            assert!(names.iter().any(|n| n == name), "{name} is not among {names:?}");
+        }
+        assert!(heed(&context, accesskit_winit::WindowEvent::AccessibilityDeactivated).is_none());
+        assert_eq!(told(), None);
     }
 }

@@ -1,8 +1,10 @@
 //! The window itself: the system's events in, frames out, and when to draw.
 
+mod adapter;
 mod app;
 mod frame_log;
 mod live;
+mod pace;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -55,8 +57,8 @@ enum UserEvent {
     Wake,
     /// egui wants to be drawn again after a while.
     Repaint(std::time::Duration),
-    /// The adapter is gone.
-    DeviceLost,
+    /// The adapter of a number is gone.
+    DeviceLost(u64),
     /// A screen reader asks.
     AccessKit(egui_winit::accesskit_winit::Event),
 }

@@ -9,7 +9,7 @@ use std::num::NonZeroU32;
 use std::sync::Arc;
 use std::time::Duration;
 
-use egui::accesskit::Role;
+use egui::accesskit::{Action, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, Node};
 use foton_film::{Image, ToneMap};
@@ -194,6 +194,13 @@ fn every_control_has_an_accessible_name() {
             }
         });
         harness.check_accessibility();
+        // A unit is no name.
+        assert_eq!(harness.query_all_by_label("%").count(), 0);
+        for node in harness.root().children_recursive() {
+            let node = node.accesskit_node();
+            let is_named = node.label().is_some_and(|name| !name.is_empty());
+            assert!(is_named || !node.data().supports_action(Action::Focus), "{:?}", node.data());
+        }
         let count = harness.query_all_by_role(Role::Slider).count();
         assert_eq!(count, if with_everything { 7 } else { 5 });
     }

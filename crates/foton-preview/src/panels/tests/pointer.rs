@@ -132,3 +132,17 @@ fn the_wheel_goes_nearer_and_with_ctrl_enlarges_the_image() {
     harness.run_steps(10);
     assert!(harness.state().placement.zoom.is_some());
 }
+
+#[test]
+fn a_file_held_over_the_window_is_told_what_comes_of_dropping_it() {
+    let mut harness = chosen();
+    let says = "Drop to open ring \u{17f}cene.xml";
+    assert!(harness.query_by_label(says).is_none());
+    let file = egui::HoveredFile { path: Some("/scenes/ring \u{17f}cene.xml".into()), ..Default::default() };
+    harness.input_mut().hovered_files = vec![egui::HoveredFile::default(), file];
+    settle(&mut harness);
+    assert!(harness.query_by_label(says).is_some());
+    harness.input_mut().hovered_files.clear();
+    settle(&mut harness);
+    assert!(harness.query_by_label(says).is_none());
+}
