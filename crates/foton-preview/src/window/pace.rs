@@ -54,6 +54,9 @@ impl Pace {
 
     /// The engine has a frame; news if it is more than another pass.
     pub(super) fn hear(&mut self, now: Instant, is_news: bool) {
+        if self.waited && !is_news {
+            return;
+        }
         let attentive = self.last_input.is_some_and(|at| now.saturating_duration_since(at) < ATTENTION);
         let gap = match (self.is_software, is_news, attentive) {
             (false, ..) | (_, true, _) => HARDWARE_GAP,
@@ -75,10 +78,10 @@ impl Pace {
         self.is_software && !self.waited
     }
 
-    /// A frame that began `then` was left out.
+    /// A frame that began `then` was left out. One that another pass had asked for would show as little, and is put off too.
     pub(super) fn wait(&mut self, then: Instant) {
         self.waited = true;
-        self.draw_at(then + PATIENCE);
+        self.due = Some(then + PATIENCE);
     }
 
     /// A frame is on the screen.
@@ -114,6 +117,19 @@ mod tests {
         assert!(!pace.may_wait(), "a hand that never rests sees something");
         pace.drawn(start + ms(540));
         assert!(pace.may_wait());
+    }
+
+    #[test]
+    fn what_the_passes_before_a_move_asked_for_does_not_cut_the_wait_short() {
+        let start = Instant::now();
+        let mut pace = pace(start, true);
+        pace.input(start);
+        pace.hear(start + ms(10), false);
+        assert_eq!(pace.due(), Some(start + SOFTWARE_ATTENTIVE_GAP));
+        pace.wait(start + ms(100));
+        assert_eq!(pace.due(), Some(start + ms(170)), "another pass had asked before");
+        pace.hear(start + ms(110), false);
+        assert_eq!(pace.due(), Some(start + ms(170)), "another pass asks now");
     }
 
     #[test]

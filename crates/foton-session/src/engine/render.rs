@@ -48,7 +48,7 @@ impl Level {
     /// Photons of a pass at most.
     const fn photons(self) -> NonZeroU32 {
         match self {
-            Self::Small => NonZeroU32::new(1 << 14).unwrap(),
+            Self::Small => NonZeroU32::new(1 << 13).unwrap(),
             Self::Middle => NonZeroU32::new(1 << 16).unwrap(),
             Self::Whole => NonZeroU32::MAX,
         }

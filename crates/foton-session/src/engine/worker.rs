@@ -442,7 +442,9 @@ impl Worker {
 
     /// Offers a frame if there is something new: at once if `now`, else not too soon after the last.
     fn publish(&mut self, now: bool) {
-        if !self.unseen || (!now && self.last_frame.elapsed() < FRAME_GAP) {
+        // While something moves, a picture is there so soon that a frame before it would only keep the window busy.
+        let comes_soon = self.moving && self.render.is_none() && self.picture.is_some();
+        if !self.unseen || (!now && (comes_soon || self.last_frame.elapsed() < FRAME_GAP)) {
             return;
         }
         let activity = self.activity();

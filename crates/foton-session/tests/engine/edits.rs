@@ -1,5 +1,7 @@
 //! Cameras and edits through the engine: what moves answers small and quick, what is undone has the same bits as before.
 
+use std::time::Duration;
+
 use foton_film::Image;
 use foton_session::StopRule;
 use foton_session::edit::{DragMode, FieldId, Property, Side, Target, Value};
@@ -51,6 +53,26 @@ fn a_moving_camera_gives_small_pictures_then_the_whole() {
     let back = whole(&rig, &near);
     assert_eq!(image(&back), image(&before));
     assert!(!back.scene.is_edited);
+}
+
+/// A window that draws in software takes long for a frame: one that only says that a picture will come would delay it.
+#[test]
+fn while_the_camera_moves_every_frame_has_its_picture() {
+    let (rig, before) = Rig::at_pass(2);
+    let mut last = before.render;
+    for _ in 0..20 {
+        // Longer than frames are held apart, so that nothing but its reason to be holds one up.
+        std::thread::sleep(Duration::from_millis(50));
+        // Two at once: the second calls off the picture that the first began.
+        for yaw in [0.01, 0.02] {
+            rig.send(Command::Camera { gesture: Gesture::Orbit { yaw, pitch: 0.0 }, moving: true });
+        }
+        let next = rig.until("the next picture", |f| {
+            assert!(f.render == before.render || f.pictured == f.render, "{} shows {}", f.render, f.pictured);
+            f.render > last
+        });
+        last = next.render;
+    }
 }
 
 #[test]
