@@ -3,6 +3,7 @@
 mod checks;
 mod emitters;
 mod gather;
+mod memory;
 
 use foton_math::Aabb;
 use foton_math::glam::{DAffine3, DMat3, Mat3, Vec3};
@@ -134,6 +135,7 @@ impl Scene {
             scene.coats = scene.materials.iter().map(Material::coats).collect();
         }
         scene.max_depth = description.max_depth;
+        scene.picture_bytes = description.picture_bytes();
         scene.sensors = description.sensors.iter().map(|s| Sensor::new(s, &normalisation)).collect();
         scene.census.lights_without_extent |= emitters.iter().any(Emitter::is_without_extent);
         scene.census.lamps |= emitters.iter().any(Emitter::is_lamp);

@@ -1,4 +1,4 @@
-//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `versus`, `assets`, `pictures`, `bench`, `monkey`.
+//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `versus`, `assets`, `pictures`, `bench`, `monkey`, `soak`.
 //!
 //! Nothing here is part of the program; what a task does is in the module of its name.
 #![allow(clippy::print_stdout, reason = "these tasks talk to the person who started them")]
@@ -28,7 +28,8 @@ cargo xtask calibrate [stops|slopes] whether the live error can be believed, whe
 cargo xtask assets                  writes the generated meshes in assets/ again
 cargo xtask pictures [--window]     renders every scene in assets/ to docs/pictures, and the window (some minutes); or it alone
 cargo xtask bench                   whole runs of the benchmark box, stage by stage (some minutes)
-cargo xtask monkey [--minutes N]    random clicks and keys in the window for N (10) minutes: no error, no memory that grows";
+cargo xtask monkey [--minutes N]    random clicks and keys in the window for N (10) minutes: no error, no memory that grows
+cargo xtask soak [MINUTES]          one small render for MINUTES (20): no memory that grows, no drift of the mean, no NaN";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -60,6 +61,9 @@ fn main() -> ExitCode {
         ["pictures", "--window"] => pictures::of_window(),
         ["monkey"] => window::monkey("10"),
         ["monkey", "--minutes", minutes] => window::monkey(minutes),
+        ["soak", minutes @ ..] if minutes.len() <= 1 => tools::run(
+            tools::cargo(&["run", "--package", "foton-tests", "--example", "soak", "--"]).args(minutes),
+        ),
         _ => {
             eprintln!("{USAGE}");
             return ExitCode::from(2);
