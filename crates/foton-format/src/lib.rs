@@ -11,7 +11,7 @@
 //!     <shape type="sphere"><float name="radius" value="$r"/><emitter type="area"/></shape>
 //! </scene>"#;
 //! let no_files = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-//! let options = foton_format::Options { defines: vec![("r".into(), "2".into())] };
+//! let options = foton_format::Options { defines: vec![("r".into(), "2".into())], ..Default::default() };
 //! let opened = foton_format::read_str("ball.xml", xml, &no_files, &options).unwrap();
 //! assert_eq!(opened.description.shapes.len(), 1);
 //! ```
@@ -74,7 +74,31 @@ pub type ReadFile<'a> = dyn Fn(&Path) -> io::Result<Vec<u8>> + 'a;
 pub struct Options {
     /// Parameters as name and value, stronger than the file's `<default>`s; of two with a name the last holds.
     pub defines: Vec<(String, String)>,
+    /// Bytes that reading may take; `None`: as many as there are. What [`open`] could not read within that is refused unread.
+    pub memory: Option<u64>,
 }
+
+impl Options {
+    /// Reads a file of the disk, or refuses it by its size alone.
+    fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
+        if let Some(limit) = self.memory
+            && let Ok(bytes) = std::fs::metadata(path).map(|file| file.len())
+            && bytes > SMALL
+            && bytes.saturating_mul(BYTES_PER_BYTE) > limit
+        {
+            let [takes, limit] = [bytes.saturating_mul(BYTES_PER_BYTE), limit].map(|b| b >> 20);
+            let message = format!("reading it takes up to {takes} MiB, {limit} MiB may be used");
+            return Err(io::Error::other(message));
+        }
+        std::fs::read(path)
+    }
+}
+
+/// The most bytes that reading takes for each of a file, its own included; fuzzing holds all readers of meshes to that.
+const BYTES_PER_BYTE: u64 = 4;
+
+/// A file up to this size is never refused by it.
+const SMALL: u64 = 1 << 20;
 
 /// A scene as its file states it.
 #[derive(Clone, Debug)]
@@ -117,12 +141,12 @@ pub struct SceneNodes {
 /// Everything that is wrong with the file, unless it is not well-formed XML: then the first problem.
 pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
     if let Some(kind) = bare::Kind::of(path) {
-        return bare::open(path, kind, &|file| std::fs::read(file), options);
+        return bare::open(path, kind, &|file| options.read(file), options);
     }
     let name = path.to_string_lossy();
     let folder = path.parent().unwrap_or(Path::new(""));
     let report = Report::new(&name, folder);
-    let text = match std::fs::read(path).map(String::from_utf8) {
+    let text = match options.read(path).map(String::from_utf8) {
         Ok(Ok(text)) => text,
         Ok(Err(error)) => {
             let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
@@ -132,7 +156,7 @@ pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
         }
         Err(error) => return Err(report.fail(Place::default(), format!("cannot be read: {error}"))),
     };
-    let opened = read(report, &text, &|file| std::fs::read(file), options)?;
+    let opened = read(report, &text, &|file| options.read(file), options)?;
     Ok(Opened { path: Some(path.to_owned()), ..opened })
 }
 

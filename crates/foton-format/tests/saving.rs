@@ -242,7 +242,7 @@ fn lights_and_cameras_change_in_place() {
 #[test]
 fn in_another_folder_files_are_found_and_defines_have_become_defaults() {
     let folder = Folder::new("elsewhere");
-    let options = Options { defines: vec![("ior".into(), "1.9".into())] };
+    let options = Options { defines: vec![("ior".into(), "1.9".into())], ..Options::default() };
     let opened = open(&folder.path(), &options).unwrap();
     let mut edited = opened.description.clone();
     edited.shapes[2].to_world.translation.y = 0.5;

@@ -18,7 +18,8 @@ fn files(path: &Path) -> io::Result<Vec<u8>> {
 fn read_with(snippet: &str, defines: &[(&str, &str)]) -> Opened {
     let xml = format!("<scene version='3.0.0'>{snippet}</scene>");
     let defines = defines.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())).collect();
-    read_str("s.xml", &xml, &files, &Options { defines }).unwrap_or_else(|e| panic!("{snippet}: {e}"))
+    read_str("s.xml", &xml, &files, &Options { defines, ..Options::default() })
+        .unwrap_or_else(|e| panic!("{snippet}: {e}"))
 }
 
 /// Reads a scene without a sensor: that is its only warning.
@@ -296,7 +297,7 @@ fn shared_scenes_open() {
         });
         assert_eq!(count.sum::<usize>(), triangles, "{name}");
         assert!(foton_scene::Scene::build(&opened.description).is_ok(), "{name}");
-        let resized = Options { defines: vec![("resx".to_owned(), "64".to_owned())] };
+        let resized = Options { defines: vec![("resx".to_owned(), "64".to_owned())], ..Options::default() };
         assert_eq!(open(&path, &resized).unwrap().description.sensors[0].width, 64);
     }
 }

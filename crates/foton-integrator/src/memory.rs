@@ -5,6 +5,7 @@ use std::fmt;
 use foton_math::{Purpose, Rgb};
 use foton_scene::Scene;
 
+use crate::batch::{Batch, MOST_PHOTONS};
 use crate::error::ErrorSums;
 use crate::eye_pass::EyePass;
 use crate::hit_point::{Gloss, HitPoint, Irradiance, ShadowOrigin};
@@ -28,23 +29,48 @@ const PILOT_PIXELS: u32 = 4096;
 pub struct MemoryEstimate {
     /// Hit points expected.
     pub hit_points: f64,
+    /// Pixels.
+    pub pixels: f64,
     /// Bytes for the scene and its tree.
     pub scene_bytes: f64,
     /// Bytes for hit points, their statistics and this pass's light.
     pub hit_point_bytes: f64,
     /// Bytes for images.
     pub pixel_bytes: f64,
-    /// Bytes for photons and their sorted copy.
+    /// Bytes for the photons of a batch and their sorted copy.
     pub photon_bytes: f64,
     /// Bytes while hit points are laid out, beyond those that stay.
     pub layout_bytes: f64,
 }
 
+/// Most hit points, with room for the lanes of packets that stay empty: they are numbered by 32 bits.
+const MOST_HIT_POINTS: f64 = FILL * u32::MAX as f64 * 0.9;
+
 impl MemoryEstimate {
+    /// Bytes of the program itself, measured from outside on a scene of nothing.
+    pub const PROGRAM_BYTES: f64 = (16 << 20) as f64;
+
+    /// Why the render is not to be started, where it would take more than `limit` bytes, or has more hit points or pixels than
+    /// can be numbered; `None` where it may.
+    #[must_use]
+    pub fn refusal(&self, limit: Option<f64>) -> Option<String> {
+        if self.hit_points.max(self.pixels) > MOST_HIT_POINTS {
+            return Some(format!(
+                "this render has {:.1} billion hit points in {:.1} billion pixels; {:.1} billion of either can be numbered",
+                self.hit_points / 1e9,
+                self.pixels / 1e9,
+                MOST_HIT_POINTS / 1e9
+            ));
+        }
+        let limit = limit.filter(|&limit| self.peak_bytes() > limit)?;
+        Some(format!("this render needs about {self}; {:.0} MiB may be used", limit / f64::from(1 << 20)))
+    }
+
     /// The most that is held at one time. Photons come after hit points have been laid out.
     #[must_use]
     pub fn peak_bytes(&self) -> f64 {
-        self.scene_bytes + self.hit_point_bytes + self.pixel_bytes + self.photon_bytes.max(self.layout_bytes)
+        let lasting = self.scene_bytes + self.hit_point_bytes + self.pixel_bytes;
+        Self::PROGRAM_BYTES + lasting + self.photon_bytes.max(self.layout_bytes)
     }
 
     /// Estimates a render.
@@ -73,13 +99,18 @@ impl MemoryEstimate {
             if settings.layers { Radiance::<3>::BYTES_PER_PIXEL } else { Radiance::<1>::BYTES_PER_PIXEL };
         let per_pixel = per_pixel + if settings.error { ErrorSums::BYTES_PER_PIXEL } else { 0 };
         let photon = 2.0 * size_of::<Photon>() as f64 + size_of::<u32>() as f64;
+        let pass = settings.photons_per_pass.get().into();
+        let batches = Batch::all(pass, MOST_PHOTONS);
+        let batch = batches.map(|b| b.photons(pass)).max().unwrap_or(0);
+        let slot = slot + if batch < pass { size_of::<u64>() as f64 } else { 0.0 };
         Self {
             hit_points,
+            pixels: pixels as f64,
             scene_bytes: scene.bytes() as f64,
             hit_point_bytes: hit_points * (slot / FILL + (size_of::<u32>() + size_of::<Rgb>()) as f64)
                 + glossy * size_of::<Option<Gloss>>() as f64 / FILL,
             pixel_bytes: pixels as f64 * (per_pixel + 2 * size_of::<u32>() + size_of::<Rgb>()) as f64,
-            photon_bytes: f64::from(settings.photons_per_pass.get()) * STORED_PER_EMITTED * photon,
+            photon_bytes: batch as f64 * STORED_PER_EMITTED * photon,
             // Found hit points twice while chunks are joined, or once beside the points that are being grouped.
             layout_bytes: 2.0
                 * (hit_points * size_of::<HitPoint>() as f64 + glossy * size_of::<Gloss>() as f64),

@@ -3,6 +3,7 @@
 mod checks;
 mod emitters;
 mod gather;
+mod memory;
 
 use foton_math::Aabb;
 use foton_math::glam::{DAffine3, DMat3, Mat3, Vec3};
@@ -136,6 +137,7 @@ impl Scene {
         scene.lambertian =
             scene.shapes.iter().map(|s| scene.materials[s.material as usize].lambertian()).collect();
         scene.max_depth = description.max_depth;
+        scene.picture_bytes = description.picture_bytes();
         scene.sensors = description.sensors.iter().map(|s| Sensor::new(s, &normalisation)).collect();
         scene.census.lights_without_extent |= emitters.iter().any(Emitter::is_without_extent);
         scene.census.lamps |= emitters.iter().any(Emitter::is_lamp);

@@ -57,6 +57,8 @@ pub struct Scene {
     pub(crate) bounds: Aabb,
     pub(crate) max_depth: Option<u32>,
     pub(crate) census: Census,
+    /// Bytes of textures and skies.
+    pub(crate) picture_bytes: usize,
 }
 
 impl Scene {
@@ -313,12 +315,13 @@ impl Scene {
         &self.census
     }
 
-    /// Bytes that the scene holds.
+    /// Bytes that the scene holds, pictures included.
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.accel.bytes()
             + self.shape_of.len() * size_of::<u32>()
             + self.vertex_normals.len() * size_of::<[Vec3; 3]>()
             + self.vertex_uvs.len() * size_of::<[Vec2; 3]>()
+            + self.picture_bytes
     }
 }

@@ -8,7 +8,7 @@ use crate::talk::{Failure, Talk};
 
 /// Runs `foton convert`.
 pub(crate) fn run(args: &Convert, talk: &Talk) -> Result<(), Failure> {
-    let options = Options { defines: args.defines.clone() };
+    let options = Options { defines: args.defines.clone(), ..Options::default() };
     let opened = foton_format::open(&args.scene, &options).map_err(Failure::Open)?;
     for finding in &opened.warnings {
         talk.finding(finding);

@@ -20,12 +20,12 @@ const PROBE_PHOTONS: NonZeroU32 = NonZeroU32::new(1 << 14).expect("above 0");
 
 /// Runs `foton info`.
 pub(crate) fn print(args: &Info, talk: &Talk) -> Result<(), Failure> {
-    let options = Options { defines: args.defines.clone() };
+    let options = Options { defines: args.defines.clone(), ..Options::default() };
     let opened = foton_format::open(&args.scene, &options).map_err(Failure::Open)?;
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let probed = opened.description.clone();
-    let (scene, identity) = build(opened, &name, None, talk)?;
+    let (scene, identity) = build(opened, &name, (None, None), talk)?;
     let settings = Settings { sensor, ..Settings::default() };
     if args.json {
         talk.event(&as_json(&scene, &settings, &name, identity.hash));

@@ -27,12 +27,13 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
     let (path, format) = &args.output;
     check_writable(path)?;
     args.checkpoint.as_deref().map_or(Ok(()), check_writable)?;
-    let options = Options { defines: args.defines.clone() };
+    let options =
+        Options { defines: args.defines.clone(), memory: memory::limit(args.memory).map(|b| b as u64) };
     let opened = foton_format::open(&args.scene, &options).map_err(Failure::Open)?;
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let suggested = opened.suggested;
-    let (scene, identity) = build(opened, &name, args.size, talk)?;
+    let (scene, identity) = build(opened, &name, (args.size, args.memory), talk)?;
     let (defaults, suggested) = match args.preset {
         Some(preset) => (
             Preset::from(preset).apply(Settings::default()),
@@ -133,11 +134,11 @@ impl<'a> Keeper<'a> {
     }
 }
 
-/// Builds the scene, at another size if one is asked for, and says what its file got wrong.
+/// Builds the scene, at another size if one is asked for and within that many bytes, and says what its file got wrong.
 pub(crate) fn build(
     opened: Opened,
     name: &str,
-    size: Option<Size>,
+    (size, memory): (Option<Size>, Option<u64>),
     talk: &Talk,
 ) -> Result<(Arc<Scene>, SceneIdentity), Failure> {
     for finding in &opened.warnings {
@@ -150,6 +151,7 @@ pub(crate) fn build(
             sensor.resize(width, height);
         }
     }
+    memory::refuse_to_build(&description, memory)?;
     let scene =
         Scene::build(&description).map_err(|cause| Failure::Build { scene: name.to_owned(), cause })?;
     let census = scene.census();
@@ -192,13 +194,8 @@ pub(crate) fn refuse_beyond_memory(
     settings: &Settings,
     asked: Option<u64>,
 ) -> Result<(), Failure> {
-    let estimate = Session::estimate_memory(scene, settings);
-    match memory::limit(asked) {
-        Some(limit) if estimate.peak_bytes() > limit => {
-            Err(Failure::Memory { estimate: estimate.to_string(), limit })
-        }
-        _ => Ok(()),
-    }
+    let refusal = Session::estimate_memory(scene, settings).refusal(memory::limit(asked));
+    refusal.map_or(Ok(()), |why| Err(Failure::Memory(why)))
 }
 
 /// Ctrl-C and SIGTERM end the render after its pass; a second one discards the pass.

@@ -11,6 +11,7 @@ use foton_session::{Session, StopRule};
 
 use crate::embedded::ALL;
 use crate::job::{build, finish, interrupt_on_signals, refuse_beyond_memory};
+use crate::memory::limit;
 use crate::talk::{Failure, Talk};
 
 /// When to stop, writing included.
@@ -21,14 +22,14 @@ const FIRST_PICTURE: Duration = Duration::from_secs(8);
 
 /// Renders `scene`, or the embedded one, to the next free `foton-001.png` and `.exr` in the working folder.
 pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failure> {
-    let options = Options::default();
+    let options = Options { memory: limit(None).map(|b| b as u64), ..Options::default() };
     let (opened, name) = match scene {
         Some(path) => {
             (foton_format::open(path, &options), path.file_name().unwrap_or_default().to_string_lossy())
         }
         None => (ALL[0].open(&options), ALL[0].name.into()),
     };
-    let (scene, identity) = build(opened.map_err(Failure::Open)?, &name, None, talk)?;
+    let (scene, identity) = build(opened.map_err(Failure::Open)?, &name, (None, None), talk)?;
     let settings = Settings { error: true, ..Settings::default() };
     refuse_beyond_memory(&scene, &settings, None)?;
     let stem = snapshot::next_free(Path::new(""));

@@ -25,8 +25,10 @@ pub(crate) enum Failure {
         scene: String,
         cause: BuildError,
     },
-    Memory {
-        estimate: String,
+    Memory(String),
+    /// Bytes.
+    BuildMemory {
+        takes: f64,
         limit: f64,
     },
     Sensor {
@@ -57,10 +59,13 @@ impl fmt::Display for Failure {
         match self {
             Self::Open(cause) => cause.fmt(f),
             Self::Build { scene, cause } => write!(f, "{scene}: {cause}"),
-            Self::Memory { estimate, limit } => write!(
+            Self::Memory(why) => {
+                write!(f, "{why}. A smaller --size, --spp or --photons needs less; --memory sets the limit")
+            }
+            Self::BuildMemory { takes, limit } => write!(
                 f,
-                "this render needs about {estimate}; {:.0} MiB may be used. A smaller --size, --spp or --photons needs \
-                 less; --memory sets the limit",
+                "building this scene takes about {:.0} MiB; {:.0} MiB may be used. --memory sets the limit",
+                takes / f64::from(1 << 20),
                 limit / f64::from(1 << 20)
             ),
             Self::Sensor { asked, known } => {

@@ -32,7 +32,7 @@ struct Files;
 
 impl Loader for Files {
     fn open(&self, source: &Source) -> Result<Loaded, String> {
-        let options = Options::default();
+        let options = Options { memory: memory::limit(None).map(|b| b as u64), ..Options::default() };
         let (opened, name) = match source {
             Source::File(path) => (
                 foton_format::open(path, &options),
@@ -48,6 +48,7 @@ impl Loader for Files {
             let lines: Vec<String> = e.diagnostics.iter().map(ToString::to_string).collect();
             lines.join("\n")
         })?;
+        memory::refuse_to_build(&opened.description, None).map_err(|failure| failure.to_string())?;
         Ok(Loaded {
             description: opened.description.clone(),
             identity: SceneIdentity { name, hash: opened.source_hash },

@@ -293,7 +293,7 @@ fn all_problems_are_reported_in_one_go_in_the_order_of_the_file() {
   </shape>
   <sensor type='perspective'/>
 </scene>";
-    let options = Options { defines: vec![("R".to_owned(), "1".to_owned())] };
+    let options = Options { defines: vec![("R".to_owned(), "1".to_owned())], ..Options::default() };
     assert_eq!(
         found(xml, &options),
         [

@@ -92,7 +92,7 @@ fn a_bare_mesh_is_in_view_lit_and_on_a_floor() {
     assert_eq!(opened.nodes.shapes.len(), 3);
     let other = folder.file("other.ply", &[&bytes[..], b"\n"].concat());
     assert_ne!(open(&other, &Options::default()).unwrap().source_hash, opened.source_hash);
-    let defines = Options { defines: vec![("r".to_owned(), "1".to_owned())] };
+    let defines = Options { defines: vec![("r".to_owned(), "1".to_owned())], ..Options::default() };
     let error = open(&path, &defines).unwrap_err().to_string();
     assert!(error.ends_with("m.ply: -D r=1: a mesh file has no parameters"), "{error}");
 }

@@ -168,6 +168,7 @@ impl Gathered {
             bounds,
             max_depth: None,
             census: self.census,
+            picture_bytes: 0,
         }
     }
 }

@@ -417,14 +417,8 @@ impl Worker {
     }
 
     fn beyond_memory(&self, scene: &Scene) -> Option<String> {
-        let limit = self.setup.memory_limit?;
-        let estimate = Session::estimate_memory(scene, &self.settings);
-        (estimate.peak_bytes() > limit).then(|| {
-            format!(
-                "this render needs about {estimate}; {:.0} MiB may be used. Fewer eye samples or photons a pass need less",
-                limit / f64::from(1 << 20)
-            )
-        })
+        let refusal = Session::estimate_memory(scene, &self.settings).refusal(self.setup.memory_limit)?;
+        Some(format!("{refusal}. Fewer eye samples or photons a pass need less"))
     }
 
     fn activity(&self) -> Activity {

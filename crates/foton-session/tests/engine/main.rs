@@ -188,6 +188,18 @@ fn renders_that_would_not_fit_are_refused_and_smaller_ones_are_not() {
     assert!(text.contains("MiB may be used"), "{text}");
 }
 
+/// A small picture of it answers all the same, and the next scene opens.
+#[test]
+fn an_image_of_32768_by_32768_is_refused_with_the_numbers() {
+    let rig = Rig::new(settings(), Some(64e9));
+    rig.open("vast");
+    let text = rig.failure();
+    assert!(text.contains("M hit points") && text.contains("61035 MiB may be used"), "{text}");
+    rig.send(Command::StopAt(StopRule::passes(1)));
+    rig.open("room");
+    rig.done(1);
+}
+
 #[test]
 fn measures_and_kinds_of_light_are_shown_instead_of_radiance() {
     let (rig, before) = Rig::at_pass(2);

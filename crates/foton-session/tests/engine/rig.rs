@@ -133,7 +133,13 @@ pub(crate) fn headless(
     session
 }
 
-/// Opens "room", "heap" and "slow", which waits until it is let go; "faulty" panics, and "sensorless" makes the engine panic.
+fn vast() -> SceneDescription {
+    let mut room = room();
+    room.sensors[0].resize(1 << 15, 1 << 15);
+    room
+}
+
+/// Opens "room", "vast", which is a room of 32,768² pixels, "heap" and "slow", which waits until it is let go; "faulty" panics, and "sensorless" makes the engine panic.
 pub(crate) struct Shelf {
     settings: Settings,
     go: Mutex<Receiver<()>>,
@@ -143,7 +149,7 @@ impl Loader for Shelf {
     fn open(&self, source: &Source) -> Result<Loaded, String> {
         let name = source.to_string();
         match name.as_str() {
-            "room" | "heap" | "sensorless" => {}
+            "room" | "vast" | "heap" | "sensorless" => {}
             "faulty" => panic!("this loader has a fault"),
             "slow" => {
                 let _ = self.go.lock().expect("whole").recv_timeout(PATIENCE);
@@ -151,7 +157,11 @@ impl Loader for Shelf {
             _ => return Err(format!("{name}:3:7: there is no such scene")),
         }
         Ok(Loaded {
-            description: if name == "heap" { heap() } else { room() },
+            description: match name.as_str() {
+                "heap" => heap(),
+                "vast" => vast(),
+                _ => room(),
+            },
             identity: identity(),
             // A sensor that is not there is a fault of whoever asks for it.
             settings: Settings { sensor: if name == "sensorless" { 9 } else { 0 }, ..self.settings.clone() },

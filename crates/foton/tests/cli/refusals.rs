@@ -66,6 +66,34 @@ fn a_render_beyond_the_memory_limit_is_refused_with_the_numbers() {
     assert_eq!(folder.images(), [""; 0]);
 }
 
+/// 32,768² pixels are refused before anything is allocated, and so is what 32 bits cannot number however much memory there is.
+#[test]
+fn huge_images_are_refused_with_the_numbers() {
+    let folder = Folder::new("huge");
+    let said = folder.fails(1, "render scene.xml -o x.exr --passes 1 --size 32768x32768 --memory 64G");
+    assert!(said.contains("65536 MiB may be used") && said.contains("M hit points"), "{said}");
+    let said = folder.fails(1, "render scene.xml -o x.exr --passes 1 --size 65536x65536 --memory 900000G");
+    assert!(said.contains("4.3 billion pixels") && said.contains("can be numbered"), "{said}");
+    assert_eq!(folder.images(), [""; 0]);
+}
+
+/// What reading and building take is known before it is taken.
+#[test]
+fn scenes_that_cannot_be_read_or_built_in_the_memory_given_are_refused() {
+    let folder = Folder::new("large");
+    let mut mesh = String::from("v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+    mesh.push_str(&"f 1 2 3\n".repeat(150_000));
+    fs::write(folder.file("large.obj"), &mesh).expect("written");
+    let said = folder.fails(1, "render large.obj -o x.exr --passes 1 --size 8x8 --memory 4M");
+    assert!(said.contains("reading it takes up to 4 MiB, 4 MiB may be used"), "{said}");
+    let said = folder.fails(1, "render large.obj -o x.exr --passes 1 --size 8x8 --memory 60M");
+    assert!(
+        said.contains("building this scene takes about") && said.contains("60 MiB may be used"),
+        "{said}"
+    );
+    assert_eq!(folder.images(), ["large.obj"]);
+}
+
 #[test]
 fn a_place_that_cannot_be_written_is_refused_before_rendering() {
     let folder = Folder::new("places");
