@@ -82,7 +82,7 @@ impl LayerKind {
 }
 
 impl Ppm {
-    /// A layer beside the image; `None` for a path class when [`Settings::layers`] is off.
+    /// A layer beside the image; `None` for a path class when [`Settings::layers`](crate::Settings::layers) is off.
     #[must_use]
     pub fn layer(&self, kind: LayerKind) -> Option<Layer> {
         let rgb = |kind| self.colour_layer(kind).map(LayerData::Rgb);
