@@ -90,6 +90,19 @@ struct Driver {
     folder: PathBuf,
 }
 
+/// The small scene in a window of its own, with a fault to come if one is named. The folder is to go last.
+fn opened(name: &str, fault: Option<&str>) -> (Folder, Driver) {
+    let folder = env::temp_dir().join(format!("foton-{name}-{}", std::process::id()));
+    fs::create_dir_all(&folder).expect("a folder");
+    let scene = folder.join("small.xml");
+    fs::write(&scene, SCENE).expect("written");
+    let display = Display::start(WINDOW);
+    let opening =
+        Opening { foton: &foton(), scene: Some(&scene), folder: &folder, size: WINDOW, is_dark: true, fault };
+    let window = Window::open(&display, &opening);
+    (Folder(folder.clone()), Driver { display, window, folder })
+}
+
 impl Driver {
     /// Where a position of the image is on the screen.
     fn at(&mut self, [x, y]: [f64; 2]) -> [f64; 2] {
@@ -153,23 +166,8 @@ fn light(image: &Image, [x, y]: [f64; 2]) -> f64 {
 
 #[test]
 fn what_a_person_sees_steers_and_saves_is_what_the_program_renders() {
-    let folder = env::temp_dir().join(format!("foton-window-{}", std::process::id()));
-    fs::create_dir_all(&folder).expect("a folder");
-    let folder = Folder(folder);
-    let scene = folder.0.join("small.xml");
-    fs::write(&scene, SCENE).expect("written");
-    let foton = foton();
-    let display = Display::start(WINDOW);
-    let opening = Opening {
-        foton: &foton,
-        scene: Some(&scene),
-        folder: &folder.0,
-        size: WINDOW,
-        is_dark: true,
-        fault: None,
-    };
-    let window = Window::open(&display, &opening);
-    let mut driver = Driver { display, window, folder: folder.0.clone() };
+    let (_folder, mut driver) = opened("window", None);
+    let (foton, scene) = (foton(), driver.folder.join("small.xml"));
 
     it_opens_and_converges(&mut driver);
     what_is_saved_is_what_is_rendered(&mut driver, &foton, &scene);

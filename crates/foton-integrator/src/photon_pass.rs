@@ -46,7 +46,7 @@ pub(crate) struct PhotonPass<'a> {
     pub(crate) batch: Batch,
 }
 
-/// What one task emits. Kept between passes, so that no pass allocates once they have grown.
+/// What one task emits. Kept between passes, so that photons need no new memory once it has grown.
 #[derive(Default)]
 pub(crate) struct Chunk {
     pub(crate) photons: Vec<Photon>,

@@ -325,3 +325,7 @@ impl Scene {
             + self.picture_bytes
     }
 }
+
+#[cfg(test)]
+#[path = "scene_tests.rs"]
+mod tests;

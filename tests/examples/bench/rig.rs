@@ -64,16 +64,11 @@ pub(crate) fn settings() -> Settings {
 /// Builds the scene and renders it on so many threads.
 pub(crate) fn run(description: &SceneDescription, settings: &Settings, threads: usize, passes: usize) -> Run {
     let scene = Arc::new(Scene::build(description).expect("a sound scene"));
-    run_scene(&scene, settings, threads, passes)
-}
-
-pub(crate) fn run_scene(scene: &Arc<Scene>, settings: &Settings, threads: usize, passes: usize) -> Run {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     pool.install(|| {
         let cancel = Cancel::default();
         let clock = Instant::now();
-        let mut ppm =
-            Ppm::start(Arc::clone(scene), settings.clone(), &mut |_| (), &cancel).expect("nobody cancels");
+        let mut ppm = Ppm::start(scene, settings.clone(), &mut |_| (), &cancel).expect("nobody cancels");
         let eye_seconds = clock.elapsed().as_secs_f64();
         let mut timed = Vec::new();
         let mut reports = Vec::new();

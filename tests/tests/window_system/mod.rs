@@ -6,23 +6,7 @@ use super::*;
 // Programs built without debug assertions cannot be made to lose their adapter.
 #[cfg(debug_assertions)]
 fn the_render_goes_on_without_an_adapter_or_a_viewer_and_files_are_dropped() {
-    let folder = env::temp_dir().join(format!("foton-window-system-{}", std::process::id()));
-    fs::create_dir_all(&folder).expect("a folder");
-    let folder = Folder(folder);
-    let scene = folder.0.join("small.xml");
-    fs::write(&scene, SCENE).expect("written");
-    let foton = foton();
-    let display = Display::start(WINDOW);
-    let opening = Opening {
-        foton: &foton,
-        scene: Some(&scene),
-        folder: &folder.0,
-        size: WINDOW,
-        is_dark: true,
-        fault: Some("device:3"),
-    };
-    let window = Window::open(&display, &opening);
-    let mut driver = Driver { display, window, folder: folder.0.clone() };
+    let (_folder, mut driver) = opened("window-system", Some("device:3"));
 
     another_adapter_goes_on_with_the_same_render(&mut driver);
     minimised_it_draws_nothing_and_renders(&mut driver);
