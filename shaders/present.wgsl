@@ -12,8 +12,10 @@ override MODE: u32;
 override TONE_MAP: u32;
 /// Whether there is a second image.
 override COMPARES: bool;
-/// Whether a pixel may hold more than one texel.
-override SHRINKS: bool;
+/// Whether a pixel holds more than one texel of the first, of the second image. Not a branch on what `view` holds: some drivers
+/// compile a shader anew for every value that alone decides a branch, and keep them all.
+override SHRINKS_A: bool;
+override SHRINKS_B: bool;
 
 /// Radiance through exposure and tone map, or the luminance as a position in the range, by value or by logarithm.
 const RADIANCE: u32 = 0u;
@@ -74,7 +76,7 @@ fn shade(corner: Corner) -> @location(0) vec4f {
     if COMPARES {
         return compare(corner);
     }
-    return vec4f(seen(image_a, view.extent_a, corner.position.xy), 1.0);
+    return vec4f(seen(image_a, view.extent_a, SHRINKS_A, corner.position.xy), 1.0);
 }
 
 /// The first image left of the wipe's line and the second right of it.
@@ -88,29 +90,28 @@ fn compare(corner: Corner) -> vec4f {
         return vec4f(0.0, 0.0, 0.0, 1.0);
     }
     if from_wipe < 0.0 {
-        return vec4f(seen(image_a, view.extent_a, corner.position.xy), 1.0);
+        return vec4f(seen(image_a, view.extent_a, SHRINKS_A, corner.position.xy), 1.0);
     }
-    return vec4f(seen(image_b, view.extent_b, corner.position.xy), 1.0);
+    return vec4f(seen(image_b, view.extent_b, SHRINKS_B, corner.position.xy), 1.0);
 }
 
 /// The encoded colour of an image at a pixel of the view.
-fn seen(image: texture_2d<f32>, extent: vec2f, pixel: vec2f) -> vec3f {
+fn seen(image: texture_2d<f32>, extent: vec2f, shrinks: bool, pixel: vec2f) -> vec3f {
     let uv = (pixel + view.origin - view.image_min) / view.image_size;
     if any(uv < vec2f(0.0)) || any(uv >= vec2f(1.0)) {
         return view.background;
     }
-    return colour(look_up(image, extent, uv));
+    return colour(look_up(image, extent, shrinks, uv));
 }
 
-/// The texel below `uv` where texels are larger than pixels, else the mean over the pixel's box.
-fn look_up(image: texture_2d<f32>, extent: vec2f, uv: vec2f) -> vec4f {
+/// The mean over the pixel's box where the image shrinks, else the texel below `uv`.
+fn look_up(image: texture_2d<f32>, extent: vec2f, shrinks: bool, uv: vec2f) -> vec4f {
     let last = textureDimensions(image) - 1u;
     let at = uv * extent;
-    let footprint = extent / view.image_size;
-    // A little more than one: at scale 1 rounding must not start to blur.
-    if !SHRINKS || all(footprint <= vec2f(1.001)) {
+    if !shrinks {
         return textureLoad(image, min(vec2u(at), last), 0);
     }
+    let footprint = extent / view.image_size;
     let low = max(at - 0.5 * footprint, vec2f(0.0));
     let high = min(at + 0.5 * footprint, extent);
     let first = floor(low);

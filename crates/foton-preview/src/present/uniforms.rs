@@ -10,6 +10,10 @@ const WORDS: usize = 20;
 /// The size of it in bytes.
 pub(super) const BYTES: u64 = 4 * WORDS as u64;
 
+/// Texels that a pixel may hold along an axis before their mean is shown. A little more than one: at scale 1 rounding must not
+/// start to blur.
+const LARGEST_TEXEL_COUNT: f32 = 1.001;
+
 /// The extents in texels of the picture and of the pinned one, if there is one.
 pub(super) type Extents = [Option<[f32; 2]>; 2];
 
@@ -47,7 +51,7 @@ pub(super) struct Kind {
     mode: u8,
     tone_map: u8,
     compares: bool,
-    shrinks: bool,
+    shrinks: [bool; 2],
 }
 
 impl Kind {
@@ -65,17 +69,23 @@ impl Kind {
             ToneMap::AgX => 2,
         };
         let size = view.image_rect.size();
-        let shrinks = extents.into_iter().flatten().any(|[width, height]| width > size.x || height > size.y);
-        Self { mode, tone_map, compares: view.wipe.is_some() && extents[1].is_some(), shrinks }
+        let compares = view.wipe.is_some() && extents[1].is_some();
+        let shrinks = extents.map(|extent| {
+            extent.is_some_and(|[width, height]| {
+                width > LARGEST_TEXEL_COUNT * size.x || height > LARGEST_TEXEL_COUNT * size.y
+            })
+        });
+        Self { mode, tone_map, compares, shrinks: [shrinks[0], shrinks[1] && compares] }
     }
 
     /// By the names of the shader.
-    pub(super) fn constants(self) -> [(&'static str, f64); 4] {
+    pub(super) fn constants(self) -> [(&'static str, f64); 5] {
         [
             ("MODE", self.mode.into()),
             ("TONE_MAP", self.tone_map.into()),
             ("COMPARES", self.compares.into()),
-            ("SHRINKS", self.shrinks.into()),
+            ("SHRINKS_A", self.shrinks[0].into()),
+            ("SHRINKS_B", self.shrinks[1].into()),
         ]
     }
 }

@@ -54,6 +54,27 @@ fn minified_pixels_are_means_over_boxes() {
 }
 
 #[test]
+fn each_side_of_the_wipe_shrinks_by_its_own_size() {
+    let stripes = |width: usize| {
+        let pixels = (0..width * 4).map(|i| Rgb::splat((i % 2) as f32)).collect();
+        rgb(width as u32, pixels)
+    };
+    let (fits, large) = (stripes(40), stripes(80));
+    let mut screen = Screen::new([40, 4]);
+    let view = View { wipe: Some(0.5), ..plain(40, 4) };
+    let grey = tone_map::display(Rgb::splat(0.5), ToneMap::Linear, 0.0);
+    for is_first_large in [false, true] {
+        let [first, second] = if is_first_large { [&large, &fits] } else { [&fits, &large] };
+        let shown = screen.draw(&view, first, Some(second));
+        for x in (0..18).chain(22..40) {
+            let striped = [255 * (x % 2) as u8; 3];
+            let expected = if (x < 20) == is_first_large { grey } else { striped };
+            assert_shows(shown[x], expected, (is_first_large, x));
+        }
+    }
+}
+
+#[test]
 fn a_box_with_a_pixel_that_is_not_finite_is_magenta_and_a_bright_one_stays_finite() {
     let mut pixels = vec![Rgb::splat(0.25); 64];
     pixels[9] = Rgb::new(0.0, f32::NAN, 0.0);
