@@ -1,5 +1,6 @@
 //! A batch of photons: from emitters, from surface to surface, stored wherever light spreads near a hit point.
 
+mod draws;
 mod scatter;
 
 pub(crate) use scatter::SMALLEST_COSINE;
@@ -18,15 +19,13 @@ use crate::ledger::{Ledger, Loss, energy};
 use crate::light_use::LightUse;
 use crate::photon::{PathClass, Photon};
 use crate::settings::DirectLight;
+use draws::{Draw, Draws};
 
 /// Photons that one task emits.
 const CHUNK: u64 = 4096;
 
 /// Photons followed side by side: few enough for the nearest cache.
 const WAVE: usize = 256;
-
-/// Numbers that each edge of a path may draw, and that come before the first.
-const DIMENSIONS: u64 = 8;
 
 /// Everything a photon pass needs to know.
 pub(crate) struct PhotonPass<'a> {
@@ -94,6 +93,7 @@ impl WithSimd for Follow<'_, '_> {
         let mut paths = Vec::with_capacity(WAVE);
         let mut next = Vec::with_capacity(WAVE);
         let mut hits = Vec::with_capacity(WAVE);
+        let mut draws = Draws::default();
         // Loops and no closures: those are not compiled for the chosen instruction set.
         for first in range.clone().step_by(WAVE) {
             for index in pass.batch.indices(first..range.end.min(first + WAVE as u64)) {
@@ -105,8 +105,9 @@ impl WithSimd for Follow<'_, '_> {
                 for path in &paths {
                     hits.push(pass.scene.nearest_hit(path.ray));
                 }
-                for (path, hit) in paths.iter().zip(&hits) {
-                    pass.go_on(path, hit.as_ref(), chunk, &mut next);
+                draws.draw(&paths);
+                for (i, (path, hit)) in paths.iter().zip(&hits).enumerate() {
+                    pass.go_on(path, hit.as_ref(), draws.of(i), chunk, &mut next);
                 }
                 std::mem::swap(&mut paths, &mut next);
                 next.clear();
@@ -168,10 +169,10 @@ impl PhotonPass<'_> {
 
     /// What becomes of a photon where its ray ends. If it goes on, it is added to `next`: written once, where it is read.
     #[inline(always)]
-    fn go_on(&self, path: &Path, hit: Option<&Hit>, chunk: &mut Chunk, next: &mut Vec<Path>) {
+    fn go_on(&self, path: &Path, hit: Option<&Hit>, draw: Draw, chunk: &mut Chunk, next: &mut Vec<Path>) {
         let before = next.len();
         let stored = match hit {
-            Some(hit) => self.scatter(path, &self.scene.surface(&path.ray, hit), chunk, next),
+            Some(hit) => self.scatter(path, &self.scene.surface(&path.ray, hit), draw, chunk, next),
             None => {
                 chunk.ledger.escaped += energy(path.power);
                 path.stored

@@ -9,12 +9,11 @@ use glam::{Vec2, Vec3};
 #[inline]
 pub fn square_to_disc(u: Vec2) -> Vec2 {
     let p = u * 2.0 - 1.0;
-    if p == Vec2::ZERO {
-        return p;
-    }
     let along_x = p.x.abs() > p.y.abs();
     let (major, minor) = if along_x { (p.x, p.y) } else { (p.y, p.x) };
-    let (sin, cos) = sin_cos_eighth(FRAC_PI_4 * (minor / major));
+    // Any angle will do in the centre. No branch: loops over many points are compiled to work on several at once.
+    let ratio = if major == 0.0 { 0.0 } else { minor / major };
+    let (sin, cos) = sin_cos_eighth(FRAC_PI_4 * ratio);
     let (across, along) = (major * sin, major * cos);
     if along_x { Vec2::new(along, across) } else { Vec2::new(across, along) }
 }

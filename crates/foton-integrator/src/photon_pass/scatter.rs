@@ -1,10 +1,11 @@
 //! What happens to a photon at a surface: it is stored where light spreads, absorbed, or sent on.
 
 use foton_math::glam::Vec3;
-use foton_math::{Frame, Ray, Rgb, warp};
+use foton_math::{Frame, Ray, Rgb};
 use foton_scene::{Lobe, Surface, Transport};
 
-use super::{Chunk, DIMENSIONS, Path, PhotonPass};
+use super::draws::Draw;
+use super::{Chunk, Path, PhotonPass};
 use crate::eye_pass::{leaves_wrongly, on_the_right_side, shading_normal_towards};
 use crate::ledger::{Ledger, energy, left_out};
 use crate::photon::{PathClass, Photon};
@@ -35,20 +36,17 @@ impl PhotonPass<'_> {
         &self,
         path: &Path,
         surface: &Surface,
+        draw: Draw,
         chunk: &mut Chunk,
         next: &mut Vec<Path>,
     ) -> bool {
         let wo = -path.ray.direction;
         let Some(reflectance) = self.scene.lambertian(surface, wo.dot(surface.normal) > 0.0) else {
-            return self.scatter_otherwise(path, surface, chunk, next);
+            return self.scatter_otherwise(path, surface, draw, chunk, next);
         };
         let stored = self.store(path, surface, wo, chunk);
         let normal = shading_normal_towards(surface, wo);
-        let mut numbers = path.stream.from_dimension(u64::from(path.edges) * DIMENSIONS);
-        // The number that chooses among lobes, where there are several.
-        numbers.next_1d();
-        let up = warp::square_to_cosine_hemisphere(numbers.next_2d());
-        let wi = if wo.dot(normal) < 0.0 { -up } else { up };
+        let wi = if wo.dot(normal) < 0.0 { -draw.diffuse } else { draw.diffuse };
         let leaving = Leaving {
             direction: Frame::from_normal(normal).to_outer(wi).normalize(),
             weight: reflectance,
@@ -57,7 +55,7 @@ impl PhotonPass<'_> {
             reflects: true,
             straight: false,
         };
-        self.send_on(path, stored, surface, &leaving, numbers.next_1d(), chunk, next);
+        self.send_on(path, stored, surface, &leaving, draw.survival, chunk, next);
         stored
     }
 
@@ -67,6 +65,7 @@ impl PhotonPass<'_> {
         &self,
         path: &Path,
         surface: &Surface,
+        draw: Draw,
         chunk: &mut Chunk,
         next: &mut Vec<Path>,
     ) -> bool {
@@ -79,8 +78,7 @@ impl PhotonPass<'_> {
         let normal = shading_normal_towards(surface, wo);
         let frame = self.scene.shading_frame(surface, normal);
         let local = frame.to_local(wo);
-        let mut numbers = path.stream.from_dimension(u64::from(path.edges) * DIMENSIONS);
-        let sample = scattering.sample(local, Transport::Importance, numbers.next_1d(), numbers.next_2d());
+        let sample = scattering.sample(local, Transport::Importance, draw.lobe, draw.direction);
         let Some(sample) = sample else {
             chunk.ledger.absorbed += energy(path.power);
             return stored;
@@ -93,7 +91,7 @@ impl PhotonPass<'_> {
             reflects: sample.wi.z * local.z > 0.0,
             straight: sample.wi == -local,
         };
-        self.send_on(path, stored, surface, &leaving, numbers.next_1d(), chunk, next);
+        self.send_on(path, stored, surface, &leaving, draw.survival, chunk, next);
         stored
     }
 
