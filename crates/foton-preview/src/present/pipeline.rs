@@ -1,11 +1,12 @@
 //! The presenter: the shader's pipelines, its buffer, the textures of the picture and the pinned picture, and what was last seen
 //! of them.
 
-use std::collections::HashMap;
-
 use super::texture::{Shown, create_texture, write_rows};
 use super::uniforms::{self, Kind};
 use super::{Area, Picture, View, colour_map};
+
+/// Pipelines that are kept, of the twenty that there can be: adapters in software hold megabytes of machine code for each.
+const MOST_PIPELINES: usize = 4;
 
 /// Encoded bytes, as they go to the screen.
 const SHADED: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -16,7 +17,8 @@ pub(crate) struct Presenter {
     module: wgpu::ShaderModule,
     /// For the colour map and the pictures, and for what was made of them.
     layouts: [wgpu::BindGroupLayout; 2],
-    shade: HashMap<Kind, wgpu::RenderPipeline>,
+    /// The last used first.
+    shade: Vec<(Kind, wgpu::RenderPipeline)>,
     copy: wgpu::RenderPipeline,
     view: wgpu::Buffer,
     colour_map: wgpu::Texture,
@@ -61,7 +63,7 @@ impl Presenter {
         Self {
             module,
             layouts,
-            shade: HashMap::new(),
+            shade: Vec::new(),
             copy,
             view,
             colour_map,
@@ -131,9 +133,16 @@ impl Presenter {
         let extents = [&self.picture, &self.pinned].map(|shown| shown.as_ref().map(Shown::extent));
         queue.write_buffer(&self.view, 0, bytemuck::cast_slice(&uniforms::pack(view, area.origin, extents)));
         let kind = Kind::of(view, extents);
-        let pipeline = self.shade.entry(kind).or_insert_with(|| {
-            create_pipeline(device, &self.module, &self.layouts[0], "shade", &kind.constants(), SHADED)
-        });
+        match self.shade.iter().position(|(made_for, _)| *made_for == kind) {
+            Some(index) => self.shade[..=index].rotate_right(1),
+            None => {
+                let constants = kind.constants();
+                let made =
+                    create_pipeline(device, &self.module, &self.layouts[0], "shade", &constants, SHADED);
+                self.shade.insert(0, (kind, made));
+                self.shade.truncate(MOST_PIPELINES);
+            }
+        }
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shade"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -144,9 +153,14 @@ impl Presenter {
             })],
             ..wgpu::RenderPassDescriptor::default()
         });
-        pass.set_pipeline(pipeline);
+        pass.set_pipeline(&self.shade[0].1);
         pass.set_bind_group(0, bindings, &[]);
         pass.draw(0..3, 0..1);
+    }
+
+    #[cfg(test)]
+    pub(super) const fn kept_pipelines(&self) -> usize {
+        self.shade.len()
     }
 
     /// Covers the viewport of the pass, which is the area that was shaded. Draws nothing before there is a picture.

@@ -134,3 +134,27 @@ fn a_picture_larger_than_textures_may_be_is_shown_reduced_and_in_place() {
     assert_eq!(reduction([256, 256], LARGEST), 1);
     assert_eq!(reduction([257, 1], LARGEST), 2);
 }
+
+/// Adapters in software hold megabytes of machine code for each.
+#[test]
+fn however_many_views_a_person_tries_few_pipelines_are_kept() {
+    let pixels: Vec<Rgb> = (0..64).map(unlike_neighbours).collect();
+    let picture = rgb(8, pixels.clone());
+    let mut screen = Screen::new([8, 8]);
+    for _ in 0..2 {
+        for tone_map in ToneMap::ALL {
+            for (side, pinned) in [(8.0, None), (4.0, None), (8.0, Some(&picture)), (4.0, Some(&picture))] {
+                let wipe = pinned.map(|_| 0.5);
+                let view = View { tone_map, wipe, image_rect: rect(0.0, 0.0, side, side), ..plain(8, 8) };
+                let shown = screen.draw(&view, &picture, pinned);
+                // The wipe draws a line.
+                if side == 8.0 && pinned.is_none() {
+                    for (&c, found) in pixels.iter().zip(shown) {
+                        assert_shows(found, tone_map::display(c, tone_map, 0.0), (c, view));
+                    }
+                }
+                assert!(screen.presenter.kept_pipelines() <= 4);
+            }
+        }
+    }
+}
