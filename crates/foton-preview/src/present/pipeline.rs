@@ -5,7 +5,7 @@ use super::texture::{Shown, create_texture, write_rows};
 use super::uniforms::{self, Kind};
 use super::{Area, Picture, View, colour_map};
 
-/// Pipelines that are kept, of the twenty that there can be: adapters in software hold megabytes of machine code for each.
+/// Pipelines that are kept, of the thirty that there can be: adapters in software hold megabytes of machine code for each.
 const MOST_PIPELINES: usize = 4;
 
 /// Encoded bytes, as they go to the screen.
