@@ -113,13 +113,13 @@ impl Monkey {
         let canvas = self.within("canvas");
         self.display.hand(&format!("mousemove {canvas} key Escape key h key f key 1 key ctrl+r"));
         self.window.log.skip();
-        let is_paused = self.window.frame("a frame", |f| Some(f["activity"] == "paused"));
-        if is_paused {
-            self.display.hand("key space");
-        }
+        let display = &self.display;
         self.window.frame("passes", |f| {
-            let is_whole = f["picture"] == f["size"] && f["activity"] == "rendering";
-            (is_whole && f["pass"].as_u64() >= Some(PASSES)).then_some(())
+            if f["activity"] == "paused" {
+                // One pass more.
+                display.hand("key period");
+            }
+            (f["picture"] == f["size"] && f["pass"].as_u64() >= Some(PASSES)).then_some(())
         });
     }
 

@@ -30,16 +30,31 @@ pub(crate) fn dielectric(wo: Vec3, int_ior: f32, ext_ior: f32) -> Boundary {
     }
     let cos_here = wo64.z.abs() / wo64.length();
     let cos_beyond = (1.0 - sin2_beyond).sqrt();
-    let perpendicular = (eta * cos_here - cos_beyond) / (eta * cos_here + cos_beyond);
-    let parallel = (cos_here - eta * cos_beyond) / (cos_here + eta * cos_beyond);
-    let reflectance = 0.5 * (perpendicular * perpendicular + parallel * parallel);
     let refracted =
         Vec3::new((-eta * wo64.x) as f32, (-eta * wo64.y) as f32, (-cos_beyond).copysign(-wo64.z) as f32);
     Boundary {
-        reflectance: reflectance as f32,
+        reflectance: unpolarised(eta, cos_here, cos_beyond),
         refracted: Some(refracted.normalize()),
         relative_ior: eta as f32,
     }
+}
+
+/// [`Boundary::reflectance`] at the cosine `cos` of incidence on the side of the index `here`.
+pub(crate) fn reflectance(cos: f32, here: f32, beyond: f32) -> f32 {
+    if here == beyond {
+        return 0.0;
+    }
+    let cos = f64::from(cos.clamp(0.0, 1.0));
+    let eta = f64::from(here) / f64::from(beyond);
+    let cos2_beyond = 1.0 - eta * eta * (1.0 - cos * cos);
+    if cos2_beyond > 0.0 { unpolarised(eta, cos, cos2_beyond.sqrt()) } else { 1.0 }
+}
+
+/// Fresnel's equations, the mean of both polarisations, `eta` being the index here over that beyond.
+fn unpolarised(eta: f64, cos_here: f64, cos_beyond: f64) -> f32 {
+    let perpendicular = (eta * cos_here - cos_beyond) / (eta * cos_here + cos_beyond);
+    let parallel = (cos_here - eta * cos_beyond) / (cos_here + eta * cos_beyond);
+    (0.5 * (perpendicular * perpendicular + parallel * parallel)) as f32
 }
 
 /// Share of unpolarised light that a metal of complex index `eta + i k` reflects at the cosine `cos` of incidence, per channel.

@@ -87,14 +87,32 @@ impl Microfacets {
         Vec3::new(self.alpha_u * n.x, self.alpha_v * n.y, n.z.max(1e-6)).normalize()
     }
 
+    /// Density of a reflection of `wo`, above, by a facet of normal `h` that [`Microfacets::sample`] chose, per unit solid angle of
+    /// the reflected direction.
+    pub(crate) fn reflect_density(&self, wo: Vec3, h: Vec3) -> f32 {
+        self.pdf(wo, h) / (4.0 * wo.dot(h)).max(f32::MIN_POSITIVE)
+    }
+
     /// D G F / (4 cos cos) for a reflection, F given: the value of a rough reflecting lobe.
     pub(crate) fn reflect(&self, wo: Vec3, wi: Vec3, fresnel: impl FnOnce(f32) -> Rgb) -> Rgb {
+        self.reflect_with_density(wo, wi, fresnel).0
+    }
+
+    /// [`Microfacets::reflect`] and [`Microfacets::reflect_density`], which have most of their work in common.
+    #[inline(always)]
+    pub(crate) fn reflect_with_density(
+        &self,
+        wo: Vec3,
+        wi: Vec3,
+        fresnel: impl FnOnce(f32) -> Rgb,
+    ) -> (Rgb, f32) {
         if wo.z <= 0.0 || wi.z <= 0.0 {
-            return Rgb::BLACK;
+            return (Rgb::BLACK, 0.0);
         }
         let h = (wo + wi).normalize();
-        let g = self.visible(wo, h) * self.visible(wi, h);
-        fresnel(wo.dot(h)) * (self.density(h) * g / (4.0 * wo.z * wi.z))
+        let (seen, density, along) = (self.visible(wo, h), self.density(h), wo.dot(h));
+        let value = fresnel(along) * (density * (seen * self.visible(wi, h)) / (4.0 * wo.z * wi.z));
+        (value, seen * along.abs() * density / wo.z / (4.0 * along).max(f32::MIN_POSITIVE))
     }
 }
 

@@ -282,7 +282,7 @@ impl Scattering {
                 Some(_) => [None; LOBES],
             },
             Bsdf::ThinDielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance } => {
-                let once = fresnel_at(wo.z.abs(), int_ior, ext_ior);
+                let once = fresnel::reflectance(wo.z.abs(), ext_ior, int_ior);
                 // R + T R T + T R³ T + … = 2R/(1 + R).
                 let f = if once < 1.0 { 2.0 * once / (1.0 + once) } else { 1.0 };
                 let reflected =
@@ -300,7 +300,7 @@ impl Scattering {
                 glass_lobes(wo, transport, u, [int_ior, ext_ior], colours, roughness)
             }
             Bsdf::Plastic { int_ior, ext_ior, specular_reflectance, roughness, .. } => {
-                let f = Rgb::splat(fresnel_at(wo.z.abs(), int_ior, ext_ior));
+                let f = Rgb::splat(fresnel::reflectance(wo.z.abs(), ext_ior, int_ior));
                 match roughness {
                     None => [single(mirrored(wo), f * specular_reflectance), None, None],
                     Some(r) if r.is_followed() => [self.rough_coat_lobe(&r, wo, u), None, None],
@@ -407,8 +407,7 @@ impl Scattering {
 
 /// Density (sr⁻¹) of reflecting `wo` into `wi` by a facet that is seen; both above.
 fn facet_density(r: &Microfacets, wo: Vec3, wi: Vec3) -> f32 {
-    let h = (wo + wi).normalize();
-    r.pdf(wo, h) / (4.0 * wo.dot(h)).max(f32::MIN_POSITIVE)
+    r.reflect_density(wo, (wo + wi).normalize())
 }
 
 fn mirrored(wo: Vec3) -> Vec3 {
@@ -424,12 +423,6 @@ fn single(wi: Vec3, weight: Rgb) -> Option<FollowedLobe> {
 fn cosine(wo: Vec3, u: Vec2) -> Vec3 {
     let wi = warp::square_to_cosine_hemisphere(u);
     if wo.z < 0.0 { -wi } else { wi }
-}
-
-/// Fresnel reflectance of a dielectric at a cosine on the side of `ext_ior`.
-fn fresnel_at(cos: f32, int_ior: f32, ext_ior: f32) -> f32 {
-    let cos = cos.clamp(0.0, 1.0);
-    fresnel::dielectric(Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos), int_ior, ext_ior).reflectance
 }
 
 /// Reflection by a facet normal chosen as `wo` sees them; its weight is F G₁(wi).

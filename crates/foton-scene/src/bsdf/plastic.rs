@@ -2,33 +2,43 @@
 
 use std::f32::consts::FRAC_1_PI;
 
-use foton_math::Rgb;
 use foton_math::glam::{Vec2, Vec3};
+use foton_math::{Rgb, warp};
 
-use super::{
-    BsdfSample, FollowedLobe, Lobe, Scattering, Transport, cosine, fresnel, fresnel_at, reflect_by_facet,
-};
+use super::{BsdfSample, FollowedLobe, Lobe, Scattering, Transport, cosine, fresnel, reflect_by_facet};
 use crate::description::{Bsdf, Microfacets};
 
 impl Scattering {
     /// Light reflected by a rough coat.
     pub(super) fn coat(&self, r: &Microfacets, wo: Vec3, wi: Vec3) -> Rgb {
+        self.coat_with_density(r, wo, wi).0
+    }
+
+    /// The same, and the density of sampling it (sr⁻¹), its chance left out.
+    #[inline(always)]
+    fn coat_with_density(&self, r: &Microfacets, wo: Vec3, wi: Vec3) -> (Rgb, f32) {
         let Bsdf::Plastic { int_ior, ext_ior, specular_reflectance, .. } = self.bsdf else {
-            return Rgb::BLACK;
+            return (Rgb::BLACK, 0.0);
         };
-        let fresnel = |cos: f32| Rgb::splat(fresnel_at(cos, int_ior, ext_ior));
-        r.reflect(wo, wi, fresnel) * specular_reflectance
+        let fresnel = |cos: f32| Rgb::splat(fresnel::reflectance(cos, ext_ior, int_ior));
+        let (value, density) = r.reflect_with_density(wo, wi, fresnel);
+        (value * specular_reflectance, density)
     }
 
     /// Light that enters a coat, is spread by the base and leaves again, reflections inside the coat summed up.
     pub(super) fn base(&self, wo: Vec3, wi: Vec3) -> Rgb {
+        self.spread(self.enters(wo.z), self.enters(wi.z))
+    }
+
+    /// The same by the shares that get through the coat on the way in and out.
+    fn spread(&self, enters: f32, leaves: f32) -> Rgb {
         let Bsdf::Plastic { int_ior, ext_ior, diffuse_reflectance, nonlinear, .. } = self.bsdf else {
             return Rgb::BLACK;
         };
         let eta = ext_ior / int_ior;
         let inside = self.coat.map_or_else(|| fresnel::diffuse_reflectance(eta), |c| c.inside);
         let again = if nonlinear { diffuse_reflectance * inside } else { Rgb::splat(inside) };
-        let scale = self.enters(wo.z) * self.enters(wi.z) * eta * eta * FRAC_1_PI;
+        let scale = enters * leaves * eta * eta * FRAC_1_PI;
         Rgb::new(
             diffuse_reflectance.r / (1.0 - again.r),
             diffuse_reflectance.g / (1.0 - again.g),
@@ -40,15 +50,21 @@ impl Scattering {
     fn enters(&self, cos: f32) -> f32 {
         match (&self.coat, self.bsdf) {
             (Some(coat), _) => coat.transmittance(cos),
-            (None, Bsdf::Plastic { int_ior, ext_ior, .. }) => 1.0 - fresnel_at(cos, int_ior, ext_ior),
+            (None, Bsdf::Plastic { int_ior, ext_ior, .. }) => {
+                1.0 - fresnel::reflectance(cos, ext_ior, int_ior)
+            }
             (None, _) => 0.0,
         }
     }
 
     /// The chance with which a photon from `wo` takes the coat rather than the base.
     pub(super) fn coat_chance(&self, wo: Vec3) -> f32 {
+        self.chance(self.enters(wo.z.abs()))
+    }
+
+    /// The same by the share that gets through the coat.
+    fn chance(&self, enters: f32) -> f32 {
         let Bsdf::Plastic { diffuse_reflectance, specular_reflectance, .. } = self.bsdf else { return 0.0 };
-        let enters = self.enters(wo.z.abs());
         let coat = specular_reflectance.mean() * (1.0 - enters);
         let base = diffuse_reflectance.mean() * enters;
         if coat + base > 0.0 { coat / (coat + base) } else { 0.0 }
@@ -56,7 +72,9 @@ impl Scattering {
 
     pub(super) fn rough_coat_lobe(&self, r: &Microfacets, wo: Vec3, u: Vec2) -> Option<FollowedLobe> {
         let Bsdf::Plastic { int_ior, ext_ior, specular_reflectance, .. } = self.bsdf else { return None };
-        reflect_by_facet(r, wo, u, |cos| Rgb::splat(fresnel_at(cos, int_ior, ext_ior)) * specular_reflectance)
+        reflect_by_facet(r, wo, u, |cos| {
+            Rgb::splat(fresnel::reflectance(cos, ext_ior, int_ior)) * specular_reflectance
+        })
     }
 
     pub(super) fn sample_plastic(
@@ -67,19 +85,22 @@ impl Scattering {
         u: Vec2,
         roughness: Option<Microfacets>,
     ) -> Option<BsdfSample> {
-        let chance = self.coat_chance(wo);
+        let enters = self.enters(wo.z.abs());
+        let chance = self.chance(enters);
         let coat = u_lobe < chance;
         let up = |w: Vec3| w * 1f32.copysign(wo.z);
         match roughness {
             // Lobes that overlap are weighed together.
             Some(r) if !r.is_followed() => {
                 let wi = if coat { self.rough_coat_lobe(&r, wo, u)?.wi } else { cosine(wo, u) };
-                let pdf = self.pdf(wo, wi);
-                (pdf > 0.0 && wi.z * wo.z > 0.0).then(|| BsdfSample {
-                    wi,
-                    weight: self.eval(wo, wi) * (wi.z.abs() / pdf),
-                    lobe: Lobe::Kept,
-                })
+                if wi.z * wo.z <= 0.0 {
+                    return None;
+                }
+                let (value, density) = self.coat_with_density(&r, up(wo), up(wi));
+                let cosine = up(wi).z;
+                let pdf = chance * density + (1.0 - chance) * warp::square_to_cosine_hemisphere_pdf(up(wi));
+                let weight = (self.spread(enters, self.enters(cosine)) + value) * (cosine / pdf);
+                (pdf > 0.0).then_some(BsdfSample { wi, weight, lobe: Lobe::Kept })
             }
             _ if coat => {
                 let [lobe, ..] = self.followed_lobes(wo, transport, u);
@@ -87,7 +108,8 @@ impl Scattering {
             }
             _ => {
                 let wi = cosine(wo, u);
-                let weight = self.base(up(wo), up(wi)) * (std::f32::consts::PI / (1.0 - chance));
+                let weight =
+                    self.spread(enters, self.enters(wi.z.abs())) * (std::f32::consts::PI / (1.0 - chance));
                 Some(BsdfSample { wi, weight, lobe: Lobe::Kept })
             }
         }
