@@ -194,6 +194,21 @@ impl Window {
         line.split_whitespace().nth(1)?.parse::<u64>().ok().map(|kib| kib * 1024)
     }
 
+    /// Stretches of machine code that the process has made, as drivers in software do for every shader.
+    ///
+    /// # Panics
+    /// If the system does not say.
+    #[must_use]
+    pub fn compiled(&self) -> usize {
+        let maps =
+            fs::read_to_string(format!("/proc/{}/maps", self.process.id())).expect("the process is there");
+        let is_made = |line: &&str| {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            words.len() == 5 && words[1].contains('x')
+        };
+        maps.lines().filter(is_made).count()
+    }
+
     /// Processor time of the whole process and of the thread that has the window, in ticks of the system's clock.
     ///
     /// # Panics

@@ -9,6 +9,7 @@ fn the_render_goes_on_without_an_adapter_or_a_viewer_and_files_are_dropped() {
     let (_folder, mut driver) = opened("window-system", Some("device:3"));
 
     another_adapter_goes_on_with_the_same_render(&mut driver);
+    zooming_compiles_nothing(&mut driver);
     minimised_it_draws_nothing_and_renders(&mut driver);
     a_dropped_file_is_opened_and_a_bad_one_said(&mut driver);
 }
@@ -65,6 +66,27 @@ fn minimised_it_draws_nothing_and_renders(driver: &mut Driver) {
     client.minimise(window, false);
     let shown = driver.window.frame("a frame", |f| Some(number(&f["pass"])));
     assert!(Some(shown) > pass, "the newest picture, not that of pass {pass:?}: {shown}");
+}
+
+/// A driver that puts the view's numbers into the machine code of shaders would keep one for each that was ever seen.
+fn zooming_compiles_nothing(driver: &mut Driver) {
+    driver.point([60.0, 45.0]);
+    driver.display.hand("keydown ctrl");
+    let before = driver.window.frame("a frame", |f| Some(number(&f["render"])));
+    let zoom_out = |driver: &mut Driver| {
+        driver.display.hand("click 5");
+        driver.window.log.skip();
+        driver.window.wait("a frame", |line| (line["event"] == "drawn").then_some(()));
+    };
+    // Until a pixel holds several texels, which is another shader.
+    (0..12).for_each(|_| zoom_out(driver));
+    let compiled = driver.window.compiled();
+    (0..8).for_each(|_| zoom_out(driver));
+    let in_all = driver.window.compiled();
+    assert!(in_all <= compiled + 1, "{compiled} stretches of machine code became {in_all}");
+    driver.display.hand("keyup ctrl key f");
+    let after = driver.window.frame("a frame", |f| Some(number(&f["render"])));
+    assert_eq!(before, after, "the picture is zoomed, not the camera moved");
 }
 
 fn a_dropped_file_is_opened_and_a_bad_one_said(driver: &mut Driver) {
