@@ -49,10 +49,9 @@ impl Glossy<'_> {
     }
 
     fn without_extent(&self, stream: &mut Stream, rays: &mut u64) -> Rgb {
-        let emitters = self.scene.emitters();
-        let found = || (0..emitters.len()).filter(|&i| emitters[i].is_without_extent());
-        if found().count() <= MOST {
-            return found().map(|i| self.look_at(i, (0.0, Vec2::ZERO), |_| 1.0, rays)).sum();
+        let (emitters, found) = (self.scene.emitters(), self.scene.emitters_without_extent());
+        if found.len() <= MOST {
+            return found.iter().map(|&i| self.look_at(i as usize, (0.0, Vec2::ZERO), |_| 1.0, rays)).sum();
         }
         let mut sum = Rgb::BLACK;
         for _ in 0..MOST {

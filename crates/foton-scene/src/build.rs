@@ -139,9 +139,14 @@ impl Scene {
         scene.max_depth = description.max_depth;
         scene.picture_bytes = description.picture_bytes();
         scene.sensors = description.sensors.iter().map(|s| Sensor::new(s, &normalisation)).collect();
-        scene.census.lights_without_extent |= emitters.iter().any(Emitter::is_without_extent);
+        let which = |is_it: &dyn Fn(&Emitter) -> bool| {
+            (0u32..).zip(&emitters).filter(|(_, e)| is_it(e)).map(|(i, _)| i).collect()
+        };
+        scene.without_extent = which(&Emitter::is_without_extent);
+        scene.environments = which(&|e| e.is_environment() && !e.power().is_black());
+        scene.census.lights_without_extent |= !scene.without_extent.is_empty();
         scene.census.lamps |= emitters.iter().any(Emitter::is_lamp);
-        scene.census.environment |= emitters.iter().any(|e| e.is_environment() && !e.power().is_black());
+        scene.census.environment |= !scene.environments.is_empty();
         scene.emitter_choice = emitter_choice(&emitters);
         scene.census.emitters = emitters.iter().filter(|e| !e.power().is_black()).count() as u64;
         scene.emitters = emitters.into();

@@ -51,6 +51,10 @@ pub struct Scene {
     /// Colours of each shape's front and back where that is Lambertian and nothing else.
     pub(crate) lambertian: Vec<[Option<Colour>; 2]>,
     pub(crate) emitters: Arc<[Emitter]>,
+    /// Indices of the emitters at infinity that paths meet by escaping.
+    pub(crate) environments: Arc<[u32]>,
+    /// Indices of the emitters that no path meets by chance.
+    pub(crate) without_extent: Arc<[u32]>,
     pub(crate) emitter_choice: Discrete,
     pub(crate) sensors: Vec<Sensor>,
     pub(crate) normalisation: Normalisation,
@@ -247,7 +251,7 @@ impl Scene {
         if !self.census.environment {
             return Rgb::BLACK;
         }
-        self.emitters.iter().map(|e| e.escaped_radiance(direction)).sum()
+        self.environments.iter().map(|&i| self.emitters[i as usize].escaped_radiance(direction)).sum()
     }
 
     /// Chooses an emitter by `u` in [0, 1): in proportion to power, with a defensive share for each. Returns its index and
@@ -271,6 +275,12 @@ impl Scene {
     #[must_use]
     pub fn materials(&self) -> &[Material] {
         &self.materials
+    }
+
+    /// Indices of the emitters that shine from one point or in one direction.
+    #[must_use]
+    pub fn emitters_without_extent(&self) -> &[u32] {
+        &self.without_extent
     }
 
     /// All emitters.

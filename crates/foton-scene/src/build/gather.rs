@@ -162,6 +162,8 @@ impl Gathered {
             coats: Vec::new(),
             lambertian: Vec::new(),
             emitters: Arc::default(),
+            environments: Arc::default(),
+            without_extent: Arc::default(),
             emitter_choice: Discrete::default(),
             sensors: Vec::new(),
             normalisation,
