@@ -69,7 +69,7 @@ impl Accel {
                 Padded(Aabb { min: b.min - padding, max: b.max + padding })
             })
             .collect();
-        let one_a_leaf = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::medium_build() };
+        let one_a_leaf = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::fast_build() };
         let tree = build_bvh2(&boxes, one_a_leaf, &mut Default::default());
         let collapsed = collapse::collapse(&tree, primitives);
         let ordered: Vec<Primitive> = collapsed.order.iter().map(|&i| primitives[i as usize]).collect();
