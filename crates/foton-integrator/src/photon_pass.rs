@@ -20,7 +20,7 @@ use crate::photon::{PathClass, Photon};
 use crate::settings::DirectLight;
 
 /// Photons that one task emits.
-const CHUNK: u64 = 4096;
+pub(crate) const CHUNK: u64 = 4096;
 
 /// Photons followed side by side: few enough for the nearest cache.
 const WAVE: usize = 256;
