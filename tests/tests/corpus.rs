@@ -1,7 +1,7 @@
 //! What fuzzing kept is read again: no panic, and no more memory than the bound that fuzzing holds readers to.
 //!
-//! The files in `tests/corpus` reach what libFuzzer found to be reached, smallest first. Beside them go inputs that once broke
-//! something. Not here: the time that an input takes, which only fuzzing looks at.
+//! The files in `tests/corpus` reach most of what libFuzzer reached. Beside them go inputs that once broke something, or that
+//! would. Not here: the time that an input takes, which only fuzzing looks at.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
