@@ -107,21 +107,29 @@ fn huge_images_are_refused_with_the_numbers() {
 #[test]
 fn scenes_that_cannot_be_read_or_built_in_the_memory_given_are_refused() {
     let folder = Folder::new("large");
-    let mut mesh = String::from("v 0 0 0\nv 1 0 0\nv 0 1 0\n");
-    mesh.push_str(&"f 1 2 3\n".repeat(150_000));
+    // A bumpy field of 2 · 274² triangles: without the refusal it renders in a moment, and the test fails.
+    let side = 274;
+    let mut mesh = String::new();
+    for (i, j) in (0..=side).flat_map(|i| (0..=side).map(move |j| (i, j))) {
+        mesh.push_str(&format!("v {i} {} {j}\n", (i * 7 + j * 13) % 5));
+    }
+    for (i, j) in (0..side).flat_map(|i| (0..side).map(move |j| (i, j))) {
+        let (a, b) = (i * (side + 1) + j + 1, (i + 1) * (side + 1) + j + 1);
+        mesh.push_str(&format!("f {a} {} {}\nf {a} {} {b}\n", a + 1, b + 1, b + 1));
+    }
     fs::write(folder.file("large.obj"), &mesh).expect("written");
     let said = folder.fails(1, "render large.obj -o x.exr --passes 1 --size 8x8 --memory 4M");
-    assert!(said.contains("reading it takes up to 4 MiB, 4 MiB may be used"), "{said}");
+    assert!(said.contains("reading it takes up to 14 MiB, 4 MiB may be used"), "{said}");
     let said = folder.fails(1, "render large.obj -o x.exr --passes 1 --size 8x8 --memory 60M");
     assert!(
-        said.contains("building this scene takes about 80 MiB; 60 MiB may be used"),
-        "150,000 triangles of 444 bytes, and 16 MiB: {said}"
+        said.contains("building this scene takes about 83 MiB; 60 MiB may be used"),
+        "150,152 triangles of 444 bytes, 75,625 corners of 48, and 16 MiB: {said}"
     );
     // `foton info` builds the same, for its census and its probe.
     let said = folder.fails(1, "info large.obj --memory 4M");
-    assert!(said.contains("reading it takes up to 4 MiB, 4 MiB may be used"), "{said}");
+    assert!(said.contains("reading it takes up to 14 MiB, 4 MiB may be used"), "{said}");
     let said = folder.fails(1, "info large.obj --memory 60M");
-    assert!(said.contains("building this scene takes about 80 MiB; 60 MiB may be used"), "{said}");
+    assert!(said.contains("building this scene takes about 83 MiB; 60 MiB may be used"), "{said}");
     assert_eq!(folder.images(), ["large.obj"]);
 }
 
