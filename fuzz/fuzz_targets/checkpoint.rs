@@ -1,6 +1,6 @@
-//! libFuzzer's way into [`foton_fuzz::Target`] "checkpoint".
+//! libFuzzer's way into [`foton_fuzz::TARGETS`]: "checkpoint".
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {
-    foton_fuzz::check("checkpoint", data);
+    foton_fuzz::check_with_time("checkpoint", data);
 });

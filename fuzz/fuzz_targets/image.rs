@@ -1,6 +1,6 @@
-//! libFuzzer's way into [`foton_fuzz::Target`] "image".
+//! libFuzzer's way into [`foton_fuzz::TARGETS`]: "image".
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {
-    foton_fuzz::check("image", data);
+    foton_fuzz::check_with_time("image", data);
 });

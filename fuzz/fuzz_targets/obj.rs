@@ -1,6 +1,6 @@
-//! libFuzzer's way into [`foton_fuzz::Target`] "obj".
+//! libFuzzer's way into [`foton_fuzz::TARGETS`]: "obj".
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {
-    foton_fuzz::check("obj", data);
+    foton_fuzz::check_with_time("obj", data);
 });

@@ -1,6 +1,6 @@
-//! libFuzzer's way into [`foton_fuzz::Target`] "ply".
+//! libFuzzer's way into [`foton_fuzz::TARGETS`]: "ply".
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {
-    foton_fuzz::check("ply", data);
+    foton_fuzz::check_with_time("ply", data);
 });

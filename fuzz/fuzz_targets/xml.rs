@@ -1,6 +1,6 @@
-//! libFuzzer's way into [`foton_fuzz::Target`] "xml".
+//! libFuzzer's way into [`foton_fuzz::TARGETS`]: "xml".
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {
-    foton_fuzz::check("xml", data);
+    foton_fuzz::check_with_time("xml", data);
 });

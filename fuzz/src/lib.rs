@@ -28,7 +28,7 @@ pub const TARGETS: [(&str, Reader); 5] =
 /// The longest that any input may take: these are inputs of kilobytes.
 pub const TIME_LIMIT: Duration = Duration::from_secs(5);
 
-/// Runs one input and panics where a bound is broken.
+/// Runs one input and panics where the bound on memory is broken.
 ///
 /// # Panics
 /// That is how drivers notice.
@@ -38,14 +38,31 @@ pub fn check(target: &str, data: &[u8]) -> String {
     if target == "checkpoint" {
         GENUINE.with(|g| drop(g.borrow()));
     }
-    let begin = Instant::now();
     let before = memory::restart();
     let said = reader(data);
     let took = memory::peak() - before;
     let bound = allowance(target, data);
     assert!(took <= bound, "{took} bytes were allocated for {} bytes, {bound} are allowed", data.len());
-    let elapsed = begin.elapsed();
-    assert!(elapsed < TIME_LIMIT, "{elapsed:?} for {} bytes", data.len());
+    said
+}
+
+/// [`check`], and that the input takes no longer than it may.
+///
+/// # Panics
+/// That is how drivers notice.
+pub fn check_with_time(target: &str, data: &[u8]) -> String {
+    let timed = || {
+        let begin = Instant::now();
+        let said = check(target, data);
+        (begin.elapsed(), said)
+    };
+    let (elapsed, said) = timed();
+    if elapsed < TIME_LIMIT {
+        return said;
+    }
+    // A second try tells a slow input from a busy machine.
+    let (again, _) = timed();
+    assert!(again < TIME_LIMIT, "{elapsed:?} and {again:?} for {} bytes", data.len());
     said
 }
 
@@ -115,7 +132,8 @@ pub fn ply(data: &[u8]) -> String {
 
 /// Where inputs lie that are read by path.
 fn scratch(extension: &str) -> PathBuf {
-    let folder = if Path::new("/dev/shm").is_dir() { PathBuf::from("/dev/shm") } else { std::env::temp_dir() };
+    let folder =
+        if Path::new("/dev/shm").is_dir() { PathBuf::from("/dev/shm") } else { std::env::temp_dir() };
     folder.join(format!("foton-fuzz-{}.{extension}", std::process::id()))
 }
 
@@ -126,7 +144,8 @@ fn sum_chunks(png: &mut [u8]) {
         let length = u32::from_be_bytes([head[0], head[1], head[2], head[3]]) as usize;
         let Some(chunk) = png.get(at + 4..(at + 8).saturating_add(length)) else { return };
         let sum = !chunk.iter().fold(!0u32, |crc, byte| {
-            (0..8).fold(crc ^ u32::from(*byte), |c, _| if c & 1 == 1 { (c >> 1) ^ 0xedb8_8320 } else { c >> 1 })
+            (0..8)
+                .fold(crc ^ u32::from(*byte), |c, _| if c & 1 == 1 { (c >> 1) ^ 0xedb8_8320 } else { c >> 1 })
         });
         let Some(place) = png.get_mut(at + 8 + length..at + 12 + length) else { return };
         place.copy_from_slice(&sum.to_be_bytes());

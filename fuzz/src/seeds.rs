@@ -61,7 +61,13 @@ fn picture() -> foton_film::Image {
 fn png() -> Vec<u8> {
     let path = scratch("png");
     let image = picture();
-    let _ = foton_film::write_png(&path, &image, foton_film::ToneMap::default(), 0.0, &foton_film::Metadata::default());
+    let _ = foton_film::write_png(
+        &path,
+        &image,
+        foton_film::ToneMap::default(),
+        0.0,
+        &foton_film::Metadata::default(),
+    );
     let bytes = std::fs::read(&path).unwrap_or_default();
     let _ = std::fs::remove_file(path);
     bytes
@@ -125,9 +131,46 @@ pub fn of(target: &str) -> Vec<Vec<u8>> {
 
 /// Words that break things.
 pub const WORDS: &[&str] = &[
-    "nan", "inf", "-inf", "1e39", "1e309", "-1e-320", "-1", "0", "4294967295", "4294967296", "18446744073709551615", "9e99",
-    "&amp;", "&#0;", "<!DOCTYPE a [<!ENTITY b 'c'>]>", "&b;", "..", "../../../etc/passwd", "$r", "'/>", "<scene version='3.0.0'>",
-    "</scene>", "<include filename='f.xml'/>", "<ref id='m'/>", "<ref id='n'/>", "\u{feff}", "\u{0}", "1 0 0 0", "#ff00",
-    "element vertex 99999999\n", "element face 4000000000\n", "property list uint double q\n", "f 1 2 3 4 5 6 7 8\n", "\\\n",
-    "usemtl", "-2147483648", "65536", "0.5", "true", "id='t'", "name='radius'", "value=''",
+    "nan",
+    "inf",
+    "-inf",
+    "1e39",
+    "1e309",
+    "-1e-320",
+    "-1",
+    "0",
+    "4294967295",
+    "4294967296",
+    "18446744073709551615",
+    "9e99",
+    "&amp;",
+    "&#0;",
+    "<!DOCTYPE a [<!ENTITY b 'c'>]>",
+    "&b;",
+    "..",
+    "../../../etc/passwd",
+    "$r",
+    "'/>",
+    "<scene version='3.0.0'>",
+    "</scene>",
+    "<include filename='f.xml'/>",
+    "<ref id='m'/>",
+    "<ref id='n'/>",
+    "\u{feff}",
+    "\u{0}",
+    "1 0 0 0",
+    "#ff00",
+    "element vertex 99999999\n",
+    "element face 4000000000\n",
+    "property list uint double q\n",
+    "f 1 2 3 4 5 6 7 8\n",
+    "\\\n",
+    "usemtl",
+    "-2147483648",
+    "65536",
+    "0.5",
+    "true",
+    "id='t'",
+    "name='radius'",
+    "value=''",
 ];

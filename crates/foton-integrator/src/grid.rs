@@ -15,7 +15,7 @@ use crate::packet::Packet;
 const CELL_IN_RADII: f32 = 2.6;
 
 /// Cells at most: 2^20 of them take 256 KiB with their ranks.
-const MOST_CELLS: f32 = (1 << 20) as f32;
+pub(crate) const MOST_CELLS: u32 = 1 << 20;
 
 /// 64 cells along x.
 #[derive(Clone, Copy, Debug, Default)]
@@ -50,7 +50,7 @@ impl Grid {
         }
         let mut cell = CELL_IN_RADII * median_radius(packets);
         let count = |cell: f32| (bounds.size() / cell).floor() + 1.0;
-        while count(cell).element_product() > MOST_CELLS {
+        while count(cell).element_product() > MOST_CELLS as f32 {
             cell *= 1.02;
         }
         let cells = count(cell).as_uvec3();

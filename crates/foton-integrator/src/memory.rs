@@ -8,9 +8,11 @@ use foton_scene::Scene;
 use crate::batch::{Batch, MOST_PHOTONS};
 use crate::error::ErrorSums;
 use crate::eye_pass::EyePass;
+use crate::grid::MOST_CELLS;
 use crate::hit_point::{Gloss, HitPoint, Irradiance, ShadowOrigin};
 use crate::packet::{LANES, Packet};
 use crate::photon::Photon;
+use crate::photon_map::PhotonMap;
 use crate::radiance::Radiance;
 use crate::refine::Statistics;
 use crate::settings::{DirectLight, Settings};
@@ -37,7 +39,7 @@ pub struct MemoryEstimate {
     pub hit_point_bytes: f64,
     /// Bytes for images.
     pub pixel_bytes: f64,
-    /// Bytes for the photons of a batch and their sorted copy.
+    /// Bytes for the photons of a batch, their sorted copy, and the counters of the sort.
     pub photon_bytes: f64,
     /// Bytes while hit points are laid out, beyond those that stay.
     pub layout_bytes: f64,
@@ -73,9 +75,9 @@ impl MemoryEstimate {
         Self::PROGRAM_BYTES + lasting + self.photon_bytes.max(self.layout_bytes)
     }
 
-    /// Estimates a render.
+    /// Estimates a render on so many threads.
     #[must_use]
-    pub fn pilot(scene: &Scene, settings: &Settings, max_depth: u32) -> Self {
+    pub fn pilot(scene: &Scene, settings: &Settings, max_depth: u32, threads: usize) -> Self {
         let sensor = &scene.sensors()[settings.sensor];
         let pixels = u64::from(sensor.width) * u64::from(sensor.height);
         let looked_at = pixels.min(u64::from(PILOT_PIXELS));
@@ -110,7 +112,8 @@ impl MemoryEstimate {
             hit_point_bytes: hit_points * (slot / FILL + (size_of::<u32>() + size_of::<Rgb>()) as f64)
                 + glossy * size_of::<Option<Gloss>>() as f64 / FILL,
             pixel_bytes: pixels as f64 * (per_pixel + 2 * size_of::<u32>() + size_of::<Rgb>()) as f64,
-            photon_bytes: batch as f64 * STORED_PER_EMITTED * photon,
+            photon_bytes: batch as f64 * STORED_PER_EMITTED * photon
+                + PhotonMap::counter_bytes(batch, MOST_CELLS, threads) as f64,
             // Found hit points twice while chunks are joined, or once beside the points that are being grouped.
             layout_bytes: 2.0
                 * (hit_points * size_of::<HitPoint>() as f64 + glossy * size_of::<Gloss>() as f64),

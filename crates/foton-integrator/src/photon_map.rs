@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::photon::Photon;
-use crate::photon_pass::Chunk;
+use crate::photon_pass::{CHUNK, Chunk};
 
 /// All photons of a pass in the order of their cells, and within a cell in the order of emission.
 #[derive(Default)]
@@ -80,6 +80,13 @@ impl PhotonMap {
     /// The photons of a range of cells.
     pub(crate) fn run(&self, first: u32, end: u32) -> &[Photon] {
         &self.photons[self.cell_start[first as usize] as usize..self.cell_start[end as usize] as usize]
+    }
+
+    /// Bytes that sorting takes for its counters, at most: each thread has one for each cell, and those for all photons stay.
+    pub(crate) const fn counter_bytes(photons_emitted: u64, cells: u32, threads: usize) -> u64 {
+        let chunks = photons_emitted.div_ceil(CHUNK);
+        let parts = if chunks < threads as u64 { chunks } else { threads as u64 };
+        (parts + 1) * cells as u64 * size_of::<u32>() as u64
     }
 
     /// Bytes held.

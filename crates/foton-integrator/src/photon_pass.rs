@@ -22,7 +22,7 @@ use crate::settings::DirectLight;
 use draws::{Draw, Draws};
 
 /// Photons that one task emits.
-const CHUNK: u64 = 4096;
+pub(crate) const CHUNK: u64 = 4096;
 
 /// Photons followed side by side: few enough for the nearest cache.
 const WAVE: usize = 256;

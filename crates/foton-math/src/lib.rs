@@ -16,3 +16,9 @@ pub use glam;
 pub use ray::Ray;
 pub use rgb::Rgb;
 pub use stream::{Purpose, Stream};
+
+/// Cases of a test: a hundredth of them under Miri, which takes thousands of times as long.
+#[cfg(test)]
+const fn cases(usual: u32) -> u32 {
+    if cfg!(miri) { usual / 100 } else { usual }
+}

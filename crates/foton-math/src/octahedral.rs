@@ -35,12 +35,12 @@ pub fn decode<const BITS: u32>(code: u32) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Purpose, Stream, warp};
+    use crate::{Purpose, Stream, cases, warp};
 
     #[test]
     fn decoding_gives_the_direction_back_within_the_stated_error() {
         let mut stream = Stream::new(1, Purpose::Test, 0, 0);
-        for _ in 0..20_000 {
+        for _ in 0..cases(20_000) {
             let v = warp::square_to_sphere(stream.next_2d());
             assert!(decode::<15>(encode::<15>(v)).distance(v) < 4.25 / 32768.0);
             assert!(decode::<8>(encode::<8>(v)).distance(v) < 4.25 / 256.0);

@@ -98,6 +98,7 @@ impl TryRng for Stream {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cases;
 
     /// Correlation of two equally long series.
     fn correlation(a: &[f32], b: &[f32]) -> f64 {
@@ -110,7 +111,7 @@ mod tests {
 
     #[test]
     fn neighbouring_keys_are_uncorrelated_in_every_coordinate() {
-        let n = 200_000u64;
+        let n = u64::from(cases(200_000));
         let first = |seed, pass, index| Stream::new(seed, Purpose::Test, pass, index).next_1d();
         let base: Vec<f32> = (0..n).map(|i| first(7, 0, i)).collect();
         let bound = 4.5 / (n as f64).sqrt();
@@ -129,10 +130,12 @@ mod tests {
     fn numbers_of_one_stream_are_uniform() {
         let mut stream = Stream::new(0, Purpose::Test, 0, 0);
         let mut bins = [0u32; 64];
-        for _ in 0..640_000 {
+        let n = cases(640_000);
+        for _ in 0..n {
             bins[(stream.next_1d() * 64.0) as usize] += 1;
         }
-        let chi2: f64 = bins.iter().map(|&b| (f64::from(b) - 1e4).powi(2) / 1e4).sum();
+        let expected = f64::from(n) / 64.0;
+        let chi2: f64 = bins.iter().map(|&b| (f64::from(b) - expected).powi(2) / expected).sum();
         assert!(chi2 < 110.0, "χ² of 63 degrees of freedom: {chi2}");
     }
 

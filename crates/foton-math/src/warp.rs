@@ -121,11 +121,12 @@ pub fn square_to_triangle_pdf(area: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Purpose, Stream};
+    use crate::{Purpose, Stream, cases};
 
     /// χ² statistic of `n` draws of `bin` against equal expectations.
     fn chi2(bins: usize, n: u32, mut bin: impl FnMut(&mut Stream) -> usize) -> f64 {
         let mut stream = Stream::new(11, Purpose::Test, 0, 0);
+        let n = cases(n);
         let mut count = vec![0u32; bins];
         for _ in 0..n {
             count[bin(&mut stream).min(bins - 1)] += 1;
@@ -149,8 +150,9 @@ mod tests {
 
     #[test]
     fn sines_and_cosines_are_right_to_single_precision_all_around() {
-        for i in 0..=100_000 {
-            let u = i as f32 / 100_000.0;
+        let n = cases(100_000);
+        for i in 0..=n {
+            let u = i as f32 / n as f32;
             let (sin, cos) = sin_cos_turns(u);
             let (s, c) = (2.0 * std::f64::consts::PI * f64::from(u)).sin_cos();
             let worst = (f64::from(sin) - s).abs().max((f64::from(cos) - c).abs());

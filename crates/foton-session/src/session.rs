@@ -1,6 +1,7 @@
 //! A render on a pool of threads of its own, pass after pass until a rule or a person stops it.
 
 use std::sync::Arc;
+use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 
 use foton_integrator::{Cancel, Cancelled, MemoryEstimate, PassReport, Ppm, Settings, StateError};
@@ -75,10 +76,11 @@ pub struct Session {
 }
 
 impl Session {
-    /// What a render would take in memory.
+    /// What a render would take in memory on `threads` threads, by default as many as the machine has.
     #[must_use]
-    pub fn estimate_memory(scene: &Scene, settings: &Settings) -> MemoryEstimate {
-        MemoryEstimate::pilot(scene, settings, Ppm::max_depth(scene, settings))
+    pub fn estimate_memory(scene: &Scene, settings: &Settings, threads: Option<usize>) -> MemoryEstimate {
+        let threads = threads.or_else(|| available_parallelism().ok().map(usize::from)).unwrap_or(1);
+        MemoryEstimate::pilot(scene, settings, Ppm::max_depth(scene, settings), threads)
     }
 
     /// Collects hit points on `threads` threads, by default as many as the machine has.

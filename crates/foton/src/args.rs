@@ -81,6 +81,9 @@ pub(crate) struct Info {
     /// The sensor to look through, by its id [the first]
     #[arg(long, value_name = "NAME")]
     pub(crate) sensor: Option<String>,
+    /// Refuse to read or build beyond this much memory, e.g. 800M, 8G [80 % of what is free]
+    #[arg(long, value_name = "SIZE", value_parser = bytes)]
+    pub(crate) memory: Option<u64>,
     /// Set a parameter of the scene file
     #[arg(short = 'D', value_name = "name=value", value_parser = define)]
     pub(crate) defines: Vec<(String, String)>,

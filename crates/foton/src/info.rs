@@ -3,7 +3,6 @@
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use foton_format::Options;
 use foton_integrator::{Cancel, Feature, Ppm, Settings, features};
 use foton_scene::Scene;
 use foton_scene::description::SceneDescription;
@@ -11,7 +10,7 @@ use foton_session::Session;
 use serde_json::{Value, json};
 
 use crate::args::Info;
-use crate::job::{build, choose_sensor};
+use crate::job::{build, choose_sensor, open};
 use crate::talk::{Failure, Talk};
 
 /// Longest side, in pixels, of the picture that tells what each emitter's photons are good for.
@@ -20,12 +19,11 @@ const PROBE_PHOTONS: NonZeroU32 = NonZeroU32::new(1 << 14).expect("above 0");
 
 /// Runs `foton info`.
 pub(crate) fn print(args: &Info, talk: &Talk) -> Result<(), Failure> {
-    let options = Options { defines: args.defines.clone(), ..Options::default() };
-    let opened = foton_format::open(&args.scene, &options).map_err(Failure::Open)?;
+    let opened = open(&args.scene, &args.defines, args.memory)?;
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let probed = opened.description.clone();
-    let (scene, identity) = build(opened, &name, (None, None), talk)?;
+    let (scene, identity) = build(opened, &name, (None, args.memory), talk)?;
     let settings = Settings { sensor, ..Settings::default() };
     if args.json {
         talk.event(&as_json(&scene, &settings, &name, identity.hash));
@@ -34,6 +32,8 @@ pub(crate) fn print(args: &Info, talk: &Talk) -> Result<(), Failure> {
             talk.out(&line);
         }
     }
+    // The probe builds its own: both at once would take twice the memory that was asked for.
+    drop(scene);
     if let Some(probe) = probe(probed, &settings) {
         talk.check_lights(&probe);
     }
@@ -67,7 +67,7 @@ fn probe(mut description: SceneDescription, settings: &Settings) -> Option<Ppm> 
 
 fn as_json(scene: &Scene, settings: &Settings, name: &str, hash: u64) -> Value {
     let c = scene.census();
-    let memory = Session::estimate_memory(scene, settings);
+    let memory = Session::estimate_memory(scene, settings, None);
     let emitters: Vec<Value> = emitters(scene)
         .map(|(name, kind, watts, share)| json!({ "name": name, "type": kind, "watts": watts, "share": share }))
         .collect();
@@ -131,7 +131,7 @@ fn as_text(scene: &Scene, settings: &Settings, name: &str, hash: u64) -> Vec<Str
         }
         lines.push(line);
     }
-    lines.push(format!("memory: about {}", Session::estimate_memory(scene, settings)));
+    lines.push(format!("memory: about {}", Session::estimate_memory(scene, settings, None)));
     lines
 }
 

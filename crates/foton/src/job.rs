@@ -27,9 +27,7 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
     let (path, format) = &args.output;
     check_writable(path)?;
     args.checkpoint.as_deref().map_or(Ok(()), check_writable)?;
-    let options =
-        Options { defines: args.defines.clone(), memory: memory::limit(args.memory).map(|b| b as u64) };
-    let opened = foton_format::open(&args.scene, &options).map_err(Failure::Open)?;
+    let opened = open(&args.scene, &args.defines, args.memory)?;
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let suggested = opened.suggested;
@@ -77,10 +75,11 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
     if settings.radius.is_some_and(|r| r > largest) {
         talk.warning(&format!("--radius is larger than the whole scene and is cut to that, {largest:.4}"));
     }
-    refuse_beyond_memory(&scene, &settings, args.memory)?;
+    let threads = args.threads.map(usize::from);
+    refuse_beyond_memory(&scene, &settings, threads, args.memory)?;
     let interrupt = interrupt_on_signals(talk);
     talk.begin();
-    let mut session = Session::start(scene, settings, args.threads.map(usize::from), interrupt.cancel())?;
+    let mut session = Session::start(scene, settings, threads, interrupt.cancel())?;
     if let Some(checkpoint) = &args.resume {
         checkpoint::resume(checkpoint, &mut session, &identity)?;
         let passes = session.ppm().passes();
@@ -132,6 +131,16 @@ impl<'a> Keeper<'a> {
             talk.warning(&format!("no checkpoint: {error}"));
         }
     }
+}
+
+/// Reads a scene within that many bytes, or what the system leaves.
+pub(crate) fn open(
+    scene: &Path,
+    defines: &[(String, String)],
+    memory: Option<u64>,
+) -> Result<Opened, Failure> {
+    let options = Options { defines: defines.to_vec(), memory: memory::limit(memory).map(|b| b as u64) };
+    foton_format::open(scene, &options).map_err(Failure::Open)
 }
 
 /// Builds the scene, at another size if one is asked for and within that many bytes, and says what its file got wrong.
@@ -192,9 +201,10 @@ pub(crate) fn choose_sensor(opened: &Opened, name: Option<&str>) -> Result<usize
 pub(crate) fn refuse_beyond_memory(
     scene: &Scene,
     settings: &Settings,
+    threads: Option<usize>,
     asked: Option<u64>,
 ) -> Result<(), Failure> {
-    let refusal = Session::estimate_memory(scene, settings).refusal(memory::limit(asked));
+    let refusal = Session::estimate_memory(scene, settings, threads).refusal(memory::limit(asked));
     refusal.map_or(Ok(()), |why| Err(Failure::Memory(why)))
 }
 

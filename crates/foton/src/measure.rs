@@ -3,21 +3,19 @@
 use std::num::NonZeroU32;
 
 use foton_film::read_exr;
-use foton_format::Options;
 use foton_integrator::{Alpha, Settings};
 use foton_measure::sweep::{Event, Outcome, Sweep};
 use foton_session::{Session, StartError};
 use serde_json::json;
 
 use crate::args::{Measure, Radius};
-use crate::job::{build, choose_sensor, interrupt_on_signals, refuse_beyond_memory};
+use crate::job::{build, choose_sensor, interrupt_on_signals, open, refuse_beyond_memory};
 use crate::talk::{Failure, Talk};
 
 /// Runs `foton measure`.
 pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
     let given = args.reference.as_deref().map(read_exr).transpose()?;
-    let options = Options { defines: args.defines.clone(), ..Options::default() };
-    let opened = foton_format::open(&args.scene, &options).map_err(Failure::Open)?;
+    let opened = open(&args.scene, &args.defines, None)?;
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let suggested = opened.suggested;
@@ -38,7 +36,8 @@ pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
         sensor,
         ..defaults
     };
-    refuse_beyond_memory(&scene, &centre, None)?;
+    let threads = args.threads.map(usize::from);
+    refuse_beyond_memory(&scene, &centre, threads, None)?;
     let given = given.map(|(image, _)| {
         let path = args.reference.as_deref().unwrap_or(&args.scene);
         (image, format!("the image {}", path.display()))
@@ -55,7 +54,7 @@ pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
     };
     let interrupt = interrupt_on_signals(talk);
     talk.begin();
-    let pool = Session::pool(args.threads.map(usize::from)).map_err(StartError::from)?;
+    let pool = Session::pool(threads).map_err(StartError::from)?;
     let outcome = {
         let mut tell = |event: &Event| say(event, talk);
         pool.install(|| sweep.run(&|| interrupt.is_requested(), interrupt.cancel(), &mut tell))

@@ -31,7 +31,7 @@ pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failur
     };
     let (scene, identity) = build(opened.map_err(Failure::Open)?, &name, (None, None), talk)?;
     let settings = Settings { error: true, ..Settings::default() };
-    refuse_beyond_memory(&scene, &settings, None)?;
+    refuse_beyond_memory(&scene, &settings, None, None)?;
     let stem = snapshot::next_free(Path::new(""));
     let (png, exr) = (stem.with_extension("png"), stem.with_extension("exr"));
     check_writable(&png)?;

@@ -1,4 +1,4 @@
-//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `versus`, `assets`, `pictures`, `bench`, `monkey`, `soak`.
+//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `versus`, `assets`, `pictures`, `bench`, `monkey`, `soak`, `mutations`.
 //!
 //! Nothing here is part of the program; what a task does is in the module of its name.
 #![allow(clippy::print_stdout, reason = "these tasks talk to the person who started them")]
@@ -6,6 +6,7 @@
 mod assets;
 mod ci;
 mod conformance;
+mod mutations;
 mod pictures;
 mod test;
 mod tools;
@@ -28,7 +29,8 @@ cargo xtask pictures [--window]     renders every scene in assets/ to docs/pictu
 cargo xtask bench [WHAT]            how fast, on a quiet machine: whole (the benchmark box, stage by stage), parts (by criterion), scaling,
                                     wide, accuracy (error a processor second), census (what leaving parts out saves)
 cargo xtask monkey [--minutes N]    random clicks and keys in the window for N (10) minutes: no error, no memory that grows
-cargo xtask soak [MINUTES]          one small render for MINUTES (20): no memory that grows, no drift of the mean, no NaN";
+cargo xtask soak [MINUTES]          one small render for MINUTES (20): no memory that grows, no drift of the mean, no NaN
+cargo xtask mutations [WORD]        takes protections out of a copy of the tree, one by one: does their test notice? (many minutes)";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -53,6 +55,8 @@ fn main() -> ExitCode {
         ["pictures", "--window"] => pictures::of_window(),
         ["monkey"] => window::monkey("10"),
         ["monkey", "--minutes", minutes] => window::monkey(minutes),
+        ["mutations"] => mutations::run(""),
+        ["mutations", word] => mutations::run(word),
         ["soak", minutes @ ..] if minutes.len() <= 1 => tools::run(
             tools::cargo(&["run", "--package", "foton-tests", "--example", "soak", "--"]).args(minutes),
         ),

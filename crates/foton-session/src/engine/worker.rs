@@ -417,7 +417,8 @@ impl Worker {
     }
 
     fn beyond_memory(&self, scene: &Scene) -> Option<String> {
-        let refusal = Session::estimate_memory(scene, &self.settings).refusal(self.setup.memory_limit)?;
+        let estimate = Session::estimate_memory(scene, &self.settings, self.threads);
+        let refusal = estimate.refusal(self.setup.memory_limit)?;
         Some(format!("{refusal}. Fewer eye samples or photons a pass need less"))
     }
 

@@ -7,6 +7,7 @@ mod exact;
 mod hits;
 mod optics;
 mod origins;
+mod rig;
 
 use std::fmt;
 

@@ -1,0 +1,52 @@
+//! What fuzzing kept is read again: no panic, and no more memory than the bound that fuzzing holds readers to.
+//!
+//! The files in `tests/corpus` reach most of what libFuzzer reached. Beside them go inputs that once broke something, or that
+//! would. Not here: the time that an input takes, which only fuzzing looks at.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+/// Memory is counted for the whole process.
+static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+
+#[track_caller]
+fn replay(target: &str) {
+    let _alone = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus").join(target);
+    let mut paths: Vec<_> =
+        std::fs::read_dir(folder).expect("a folder").map(|e| e.expect("a file").path()).collect();
+    paths.sort();
+    assert!(paths.len() >= 40, "{target}: {} files", paths.len());
+    let faults = paths.iter().filter(|path| {
+        let data = std::fs::read(path).expect("a file");
+        catch_unwind(AssertUnwindSafe(|| foton_fuzz::check(target, &data))).is_err()
+    });
+    let faults: Vec<_> = faults.map(|path| path.display().to_string()).collect();
+    assert!(faults.is_empty(), "{target}:\n{}", faults.join("\n"));
+}
+
+#[test]
+fn scenes_that_fuzzing_kept_break_nothing() {
+    replay("xml");
+}
+
+#[test]
+fn obj_files_that_fuzzing_kept_break_nothing() {
+    replay("obj");
+}
+
+#[test]
+fn other_meshes_that_fuzzing_kept_break_nothing() {
+    replay("ply");
+}
+
+#[test]
+fn pictures_that_fuzzing_kept_break_nothing() {
+    replay("image");
+}
+
+#[test]
+fn checkpoints_that_fuzzing_kept_break_nothing() {
+    replay("checkpoint");
+}
