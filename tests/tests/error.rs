@@ -140,6 +140,37 @@ fn the_error_costs_no_bit_and_depends_on_no_thread() {
     assert_eq!(threads(1), with.error());
 }
 
+/// Light of one class has all of the error, and the parts' squares add up.
+#[test]
+fn the_error_of_one_class_is_all_of_the_error() {
+    for layers in [false, true] {
+        let base = Settings { radius: Some(0.5), layers, ..settings(20_000, 2) };
+        let error = lit_floor(0.8).render(base, 24).error().expect("passes");
+        let [direct, caustic, indirect] = error.classes.expect("each was asked for");
+        assert!((direct.noise / error.noise - 1.0).abs() < 1e-9, "{error:?}");
+        assert!((direct.bias / error.bias - 1.0).abs() < 1e-9, "{error:?}");
+        assert_eq!((caustic.total(), indirect.total()), (0.0, 0.0));
+    }
+}
+
+/// In a furnace of reflectance ρ all photons have the same power, and 1 − ρ of the light is direct: so is that share of the variance.
+#[test]
+fn classes_have_the_noise_of_their_photons() {
+    let sketch =
+        Sketch::default().camera(DVec3::ZERO, -DVec3::Z, 60.0, 32).room(grey(0.75), Some(Rgb::splat(1.0)));
+    let base = Settings {
+        radius: Some(0.1),
+        samples_per_pixel: NonZeroU32::new(3).expect("above 0"),
+        ..settings(10_000, 3)
+    };
+    let error = sketch.render(base, 24).error().expect("passes");
+    let classes = error.classes.expect("each was asked for");
+    let share = (classes[0].noise / error.noise).powi(2);
+    assert!((share - 0.25).abs() < 0.03, "{share} {error:?}");
+    let squares: f64 = classes.iter().map(|c| c.total().powi(2)).sum();
+    assert!((squares.sqrt() / error.total - 1.0).abs() < 1e-9, "{error:?}");
+}
+
 /// Over two decades of passes noise falls with n^(−1/3) at α = 2/3, blur across an edge with n^(−1/12) alone `[KD13]`. The blur of
 /// smooth light takes more photons to see: `cargo xtask calibrate slopes`.
 #[test]

@@ -161,7 +161,7 @@ pub fn features(scene: &Scene, settings: &Settings) -> Vec<Feature> {
             settings.error,
             "the error is asked for",
             "nothing asks how wrong the image is",
-            "a second moment of each photon that counts, squares of each pass",
+            "two moments of each photon that counts, squares of each pass",
             ErrorSums::BYTES_PER_HIT_POINT,
             ErrorSums::BYTES_PER_PIXEL,
         ),

@@ -14,6 +14,7 @@ use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 use crate::batch::Batch;
+use crate::error::Question;
 use crate::grid::Grid;
 use crate::hit_point::{Gloss, HitPoints, Irradiance};
 use crate::packet::{LANES, Packet};
@@ -21,7 +22,7 @@ use crate::photon::Photon;
 use crate::photon_map::PhotonMap;
 use crate::photon_pass::SMALLEST_COSINE;
 use crate::settings::Alpha;
-use crate::slots::{Found, Slots};
+use crate::slots::{Asked, Found, Slots};
 
 /// A photon counts only where its surface faces about the same way: the cosine between the normals must exceed this.
 const SMALLEST_NORMAL_COSINE: f32 = 0.1;
@@ -55,6 +56,8 @@ pub(crate) struct Rule {
     /// r² never falls below.
     pub(crate) smallest2: f64,
     pub(crate) batch: Batch,
+    /// What the error asks of one class.
+    pub(crate) question: Question,
     pub(crate) arch: Arch,
 }
 
@@ -80,7 +83,7 @@ pub(crate) fn all<const LAYERS: usize, const ERROR: bool>(
     grid: &Grid,
     rule: Rule,
     irradiance_slots: &mut [Irradiance<LAYERS>],
-    moment_slots: &mut [f32],
+    moment_slots: &mut [[f32; 2]],
     count_slots: &mut [u64],
 ) -> Tally {
     let blocks = hit_points.packets.len().div_ceil(BLOCK);
@@ -150,22 +153,23 @@ impl<const LAYERS: usize, const ERROR: bool> WithSimd for Gather<'_, LAYERS, ERR
             runs.clear();
             grid.for_each_run(&packet.bounds(), |first, end| runs.push((first, end)));
             *found = Found::NONE;
+            let asked = Asked::new(rule.question, packet);
             if let Some(glossy) = index.checked_sub(first_glossy) {
                 let gloss = &gloss_slots[glossy * LANES..(glossy + 1) * LANES];
                 for &(first, end) in &runs {
                     let photons = map.run(first, end);
-                    collect_gloss::<LAYERS, ERROR>(packet, gloss, photons, &mut found, &mut tally);
+                    collect_gloss::<LAYERS, ERROR>(packet, gloss, photons, &asked, &mut found, &mut tally);
                 }
             } else if let Some(normals) = shading.get(index) {
                 for &(first, end) in &runs {
                     let photons = map.run(first, end);
-                    collect::<LAYERS, true, ERROR>(packet, normals, photons, &mut found, &mut tally);
+                    collect::<LAYERS, true, ERROR>(packet, normals, photons, &asked, &mut found, &mut tally);
                 }
             } else {
                 let normals = &[[0.0; LANES]; 3];
                 for &(first, end) in &runs {
                     let photons = map.run(first, end);
-                    collect::<LAYERS, false, ERROR>(packet, normals, photons, &mut found, &mut tally);
+                    collect::<LAYERS, false, ERROR>(packet, normals, photons, &asked, &mut found, &mut tally);
                 }
             }
             let mut slots = slots.of_packet::<ERROR>(i);
@@ -177,7 +181,7 @@ impl<const LAYERS: usize, const ERROR: bool> WithSimd for Gather<'_, LAYERS, ERR
                 continue;
             }
             if ERROR {
-                found.write_moments(packet, slots.moments);
+                found.write_moments(packet, rule.question, slots.moments);
             }
             conclude(packet, &found, slots, rule, &mut tally);
         }
@@ -191,6 +195,7 @@ fn collect<const LAYERS: usize, const SHADED: bool, const ERROR: bool>(
     packet: &Packet,
     shading_normals: &[[f32; LANES]; 3],
     photons: &[Photon],
+    asked: &Asked,
     found: &mut Found<LAYERS>,
     tally: &mut Tally,
 ) {
@@ -226,6 +231,12 @@ fn collect<const LAYERS: usize, const SHADED: bool, const ERROR: bool>(
                 let term = luminance * factor[l] * distance2[l];
                 found.moment[l] += f32::from_bits(term.to_bits() & counts[l]);
             }
+            if asked.is_of(photon) {
+                for l in 0..LANES {
+                    let answer = asked.answer(luminance * factor[l], distance2[l], l);
+                    found.answer[l] += f32::from_bits(answer.to_bits() & counts[l]);
+                }
+            }
         }
     }
 }
@@ -236,6 +247,7 @@ fn collect_gloss<const LAYERS: usize, const ERROR: bool>(
     packet: &Packet,
     gloss: &[Option<Gloss>],
     photons: &[Photon],
+    asked: &Asked,
     found: &mut Found<LAYERS>,
     tally: &mut Tally,
 ) {
@@ -263,7 +275,11 @@ fn collect_gloss<const LAYERS: usize, const ERROR: bool>(
             layer[1][l] += weighed.g;
             layer[2][l] += weighed.b;
             if ERROR {
-                found.moment[l] += weighed.luminance() * distance2[l];
+                let luminance = weighed.luminance();
+                found.moment[l] += luminance * distance2[l];
+                if asked.is_of(photon) {
+                    found.answer[l] += asked.answer(luminance, distance2[l], l);
+                }
             }
         }
     }

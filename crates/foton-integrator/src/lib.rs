@@ -37,7 +37,7 @@ mod test_scene;
 mod variants;
 
 pub use cancel::{Cancel, Cancelled};
-pub use error::{ErrorEstimate, TileError};
+pub use error::{ClassError, ErrorEstimate, TileError};
 pub use features::{Feature, features};
 pub use inspect::{Disc, Radii, StoredPhoton};
 pub use layers::LayerKind;

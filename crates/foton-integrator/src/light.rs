@@ -3,7 +3,7 @@
 use foton_math::Rgb;
 use foton_scene::Scene;
 
-use crate::error::{self, ErrorSums};
+use crate::error::{self, ErrorSums, Question};
 use crate::gather::{self, Rule, Tally};
 use crate::grid::Grid;
 use crate::hit_point::{HitPoints, Irradiance};
@@ -110,6 +110,7 @@ impl Light {
         error: &mut ErrorSums,
         hit_points: &HitPoints,
         (photons, power): (u64, f64),
+        (question, shadow_rays): (Question, bool),
     ) {
         each!(self, s => error.add(&error::Pass {
             hit_points,
@@ -117,6 +118,8 @@ impl Light {
             radiance: &s.radiance,
             photons,
             power,
+            question,
+            shadow_rays,
         }));
     }
 

@@ -9,7 +9,7 @@ use pulp::Arch;
 
 use crate::batch::{self, Batch, Counts};
 use crate::cancel::{Cancel, Cancelled};
-use crate::error::ErrorSums;
+use crate::error::{ErrorSums, Question};
 use crate::eye_pass::EyePass;
 use crate::gather::{Rule, Tally};
 use crate::grid::Grid;
@@ -210,6 +210,7 @@ impl Ppm {
             common: self.settings.radius_rule.common(alpha, before, counts.photons),
             smallest2: FirstRadius::new(&self.scene, &self.settings).smallest2(),
             batch,
+            question: Question::after(self.passes),
             arch: self.arch,
         };
         let (error, found) = (self.error.as_mut(), &mut self.count_slots);
@@ -235,7 +236,9 @@ impl Ppm {
         self.photons_emitted += photons;
         if let Some(error) = &mut self.error {
             let power = self.ledger.emitted / self.photons_emitted.max(1) as f64;
-            self.light.add_error(error, &self.hit_points, (photons, power));
+            let by_shadow_rays = self.settings.direct_light == DirectLight::ShadowRays;
+            let asked = (Question::after(self.passes), by_shadow_rays);
+            self.light.add_error(error, &self.hit_points, (photons, power), asked);
         }
         self.last_photons = photons;
         self.passes += 1;

@@ -47,8 +47,12 @@ pub(crate) fn of(ppm: &Ppm, scene: &SceneIdentity) -> Metadata {
     let changes: Vec<String> =
         ppm.changes().iter().map(|(pass, change)| format!("{pass} {change}")).collect();
     let error = ppm.error().map(|e| {
+        let classes = e.classes.map_or_else(String::new, |classes| {
+            let [direct, caustic, indirect] = classes.map(|c| c.total());
+            format!(" direct={direct:.4} caustic={caustic:.4} indirect={indirect:.4}")
+        });
         format!(
-            "relative={:.4} noise={:.4} bias={:.4} low={:.4} high={:.4} unknown={:.4}",
+            "relative={:.4} noise={:.4} bias={:.4} low={:.4} high={:.4} unknown={:.4}{classes}",
             e.total, e.noise, e.bias, e.low, e.high, e.unknown_share
         )
     });
