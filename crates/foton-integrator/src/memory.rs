@@ -5,6 +5,7 @@ use std::fmt;
 use foton_math::{Purpose, Rgb};
 use foton_scene::Scene;
 
+use crate::adaptive::Evidence;
 use crate::batch::{Batch, MOST_PHOTONS};
 use crate::error::ErrorSums;
 use crate::eye_pass::EyePass;
@@ -13,7 +14,7 @@ use crate::packet::{LANES, Packet};
 use crate::photon::Photon;
 use crate::radiance::Radiance;
 use crate::refine::Statistics;
-use crate::settings::{DirectLight, Settings};
+use crate::settings::{DirectLight, RadiusRule, Settings};
 
 /// Share of a packet's lanes that are used, measured on the shipped scenes: 0.8 to 0.95.
 const FILL: f64 = 0.8;
@@ -93,6 +94,7 @@ impl MemoryEstimate {
             + size_of::<Statistics>()
             + if shadow { size_of::<ShadowOrigin>() } else { 0 }
             + if settings.error { ErrorSums::BYTES_PER_HIT_POINT } else { 0 }
+            + if settings.radius_rule == RadiusRule::Adaptive { size_of::<Evidence>() } else { 0 }
             + if shaded { 3 * size_of::<f32>() } else { 0 };
         let slot = slot as f64 + layers * size_of::<Irradiance<1>>() as f64;
         let per_pixel =
