@@ -10,7 +10,8 @@ use foton_session::{Session, StartError};
 use serde_json::json;
 
 use crate::args::{Measure, Radius};
-use crate::job::{build, choose_sensor, interrupt_on_signals, refuse_beyond_memory};
+use crate::job::{build, choose_sensor, interrupt_on_signals};
+use crate::memory;
 use crate::talk::{Failure, Talk};
 
 /// Runs `foton measure`.
@@ -39,7 +40,6 @@ pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
         sensor,
         ..defaults
     };
-    refuse_beyond_memory(&scene, &centre, None)?;
     let given = given.map(|(image, _)| {
         let path = args.reference.as_deref().unwrap_or(&args.scene);
         (image, format!("the image {}", path.display()))
@@ -54,6 +54,10 @@ pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
         given,
         folder: args.output.clone(),
     };
+    let refusal = sweep.memory().and_then(|needed| needed.refusal(memory::limit(None)));
+    if let Some(why) = refusal {
+        return Err(Failure::Memory(why));
+    }
     let interrupt = interrupt_on_signals(talk);
     talk.begin();
     let pool = Session::pool(args.threads.map(usize::from)).map_err(StartError::from)?;

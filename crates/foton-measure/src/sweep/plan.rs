@@ -126,6 +126,18 @@ pub(crate) struct Job {
     pub(crate) configurations: Vec<Configuration>,
 }
 
+impl Job {
+    /// Settings of its runs; after those of its configurations, where the centre is among them, the centre's with layers.
+    pub(crate) fn settings(&self, base: &Settings) -> Vec<Settings> {
+        let centre = Configuration::of(base);
+        let mut settings: Vec<Settings> = self.configurations.iter().map(|c| c.settings(base)).collect();
+        if self.configurations.contains(&centre) {
+            settings.push(Settings { layers: true, ..centre.settings(base) });
+        }
+        settings
+    }
+}
+
 /// All jobs, the centre's first, then the others by how far from it they are.
 pub(crate) fn jobs(centre: &Configuration) -> Vec<Job> {
     let mut alphas: Vec<Alpha> = ALPHAS.into_iter().filter_map(Alpha::new).collect();
