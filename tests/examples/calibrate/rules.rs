@@ -17,7 +17,7 @@ const ALPHAS: [f64; 6] = [0.5, 0.6, 2.0 / 3.0, 0.7, 0.8, 1.0];
 const SCALES: [f64; 5] = [0.5, 0.7, 1.0, 1.4, 2.0];
 const PHOTONS: u32 = 1 << 16;
 /// Passes after which renders are compared.
-const SHOWN: [u64; 4] = [4, 16, 64, 256];
+const SHOWN: [u64; 3] = [4, 16, 64];
 
 /// Squared errors at a time: of all that is seen, of its smooth tiles, of the rest.
 #[derive(Clone, Copy, Default)]
