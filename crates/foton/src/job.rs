@@ -189,7 +189,11 @@ pub(crate) fn choose_sensor(opened: &Opened, name: Option<&str>) -> Result<usize
 }
 
 /// Looks before it leaps: a render that would not fit is refused with the numbers.
-fn refuse_beyond_memory(scene: &Scene, settings: &Settings, asked: Option<u64>) -> Result<(), Failure> {
+pub(crate) fn refuse_beyond_memory(
+    scene: &Scene,
+    settings: &Settings,
+    asked: Option<u64>,
+) -> Result<(), Failure> {
     let refusal = Session::estimate_memory(scene, settings).refusal(memory::limit(asked));
     refusal.map_or(Ok(()), |why| Err(Failure::Memory(why)))
 }
