@@ -177,16 +177,14 @@ fn classes_have_the_noise_of_their_photons() {
 fn noise_and_blur_fall_with_the_slopes_of_theory() {
     let checkpoints: Vec<u64> = (2..10).map(|power| 1 << power).collect();
     let parts = slopes::measure(2.0 / 3.0, 8000, 3, &checkpoints);
-    let smooth: [(&str, fn(&slopes::Parts) -> f64); 3] =
-        [("noise", |p| p.noise), ("blur", |p| p.bias), ("both", |p| p.smooth)];
-    for (name, part) in smooth {
-        let slope = slopes::slope_of(&parts, part);
-        assert!((slope + 1.0 / 3.0).abs() < 0.04, "{name}: {slope}, {parts:?}");
-    }
-    for (name, part) in [("blur", (|p| p.edge_bias) as fn(&slopes::Parts) -> f64), ("both", |p| p.edge)] {
-        let slope = slopes::slope_of(&parts, part);
-        assert!((slope + 1.0 / 12.0).abs() < 0.02, "{name} at the edge: {slope}, {parts:?}");
-    }
+    let slope = |part: fn(&slopes::Parts) -> f64| slopes::slope_of(&parts, part);
+    let smooth = [slope(|p| p.noise), slope(|p| p.bias), slope(|p| p.smooth)];
+    assert!(smooth.iter().all(|s| (s + 1.0 / 3.0).abs() < 0.04), "noise, blur, both: {smooth:?}, {parts:?}");
+    let edge = [slope(|p| p.edge_bias), slope(|p| p.edge)];
+    assert!(
+        edge.iter().all(|s| (s + 1.0 / 12.0).abs() < 0.02),
+        "blur, both at the edge: {edge:?}, {parts:?}"
+    );
 }
 
 /// Where nothing is blurred radii stay, so that there is less noise; below a lamp they shrink, and more so at a shadow's edge. The

@@ -54,8 +54,9 @@ fn rows(name: &str, seeds: u64, truth_passes: u64) {
             ..base.clone()
         })
         .collect();
-    let adaptive = Settings { radius_rule: RadiusRule::Adaptive, ..base.clone() };
-    let all: Vec<Settings> = [adaptive, base].into_iter().chain(fixed).collect();
+    let local = base.clone();
+    let adaptive = Settings { radius_rule: RadiusRule::Adaptive, ..base };
+    let all: Vec<Settings> = [adaptive, local].into_iter().chain(fixed).collect();
     let courses = run(&scene, &all, &truth, seeds);
     for (i, at) in courses[0].iter().enumerate().filter(|(i, _)| SHOWN.contains(&(1 << i))) {
         let percent = |course: &Course, part: usize| 100.0 * error_at(course, at.seconds, part);
