@@ -42,7 +42,8 @@ pub struct Parts {
 }
 
 /// The floor, at the left in light and at the right in shadow.
-fn scene() -> Sketch {
+#[must_use]
+pub fn scene() -> Sketch {
     let mut sketch = Sketch::default()
         .camera(DVec3::new(0.3, 2.0, 0.001), DVec3::new(0.3, 0.0, 0.0), 50.0, SIDE as u32)
         .rectangle(DVec3::ZERO, DVec3::new(0.0, 0.0, 4.0), DVec3::new(4.0, 0.0, 0.0), grey(0.8), None)

@@ -5,7 +5,7 @@ use std::num::NonZeroU32;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use foton_integrator::{Alpha, Cancel, Change, DirectLight, Ppm, Settings};
+use foton_integrator::{Alpha, Cancel, Change, DirectLight, Ppm, RadiusRule, Settings};
 use foton_math::glam::DVec3;
 use foton_session::checkpoint::{self, ResumeError};
 use foton_session::{SceneIdentity, Session};
@@ -62,10 +62,13 @@ fn bits(ppm: &Ppm) -> (Vec<u8>, Vec<[u32; 3]>) {
 
 #[test]
 fn a_render_that_was_taken_up_has_the_bits_of_one_that_never_stopped() {
-    for (i, (layers, direct_light)) in
-        [(false, DirectLight::Photons), (true, DirectLight::ShadowRays)].into_iter().enumerate()
-    {
-        let settings = Settings { layers, direct_light, ..settings() };
+    let settings = settings();
+    let others = [
+        settings.clone(),
+        Settings { layers: true, direct_light: DirectLight::ShadowRays, ..settings.clone() },
+        Settings { radius_rule: RadiusRule::Adaptive, ..settings },
+    ];
+    for (i, settings) in others.into_iter().enumerate() {
         let mut whole = start(&settings, 2);
         advance(&mut whole, 3);
         whole.ppm_mut().change(Change::Alpha(Alpha::new(0.9).expect("in range")));

@@ -188,6 +188,7 @@ fn variants_over_shared_photons_have_the_bits_of_runs_of_their_own() {
         radius(4.0),
         Settings { direct_light: DirectLight::ShadowRays, ..base.clone() },
         Settings { radius_rule: RadiusRule::Global, layers: false, error: true, ..base.clone() },
+        Settings { radius_rule: RadiusRule::Adaptive, error: true, ..base.clone() },
     ];
     let (scene, cancel) = (scene().build().expect("a sound scene"), Cancel::default());
     let together = |photons| {

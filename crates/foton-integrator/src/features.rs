@@ -2,10 +2,11 @@
 
 use foton_scene::{Emitter, Scene};
 
+use crate::adaptive::Evidence;
 use crate::error::ErrorSums;
 use crate::hit_point::{Gloss, ShadowOrigin};
 use crate::radiance::Radiance;
-use crate::settings::{DirectLight, Settings};
+use crate::settings::{DirectLight, RadiusRule, Settings};
 
 /// A part of the renderer that a scene may or may not need.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -157,11 +158,20 @@ pub fn features(scene: &Scene, settings: &Settings) -> Vec<Feature> {
             layers,
         ),
         feature(
+            "radii that adapt",
+            settings.radius_rule == RadiusRule::Adaptive,
+            "asked for by --radius-rule",
+            "radii shrink as photons are found",
+            "five moments of each photon that counts",
+            size_of::<Evidence>(),
+            0,
+        ),
+        feature(
             "live error",
             settings.error,
             "the error is asked for",
             "nothing asks how wrong the image is",
-            "a second moment of each photon that counts, squares of each pass",
+            "two moments of each photon that counts, squares of each pass",
             ErrorSums::BYTES_PER_HIT_POINT,
             ErrorSums::BYTES_PER_PIXEL,
         ),

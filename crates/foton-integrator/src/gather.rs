@@ -14,6 +14,7 @@ use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 use crate::batch::Batch;
+use crate::error::Question;
 use crate::grid::Grid;
 use crate::hit_point::{Gloss, HitPoints, Irradiance};
 use crate::packet::{LANES, Packet};
@@ -21,10 +22,15 @@ use crate::photon::Photon;
 use crate::photon_map::PhotonMap;
 use crate::photon_pass::SMALLEST_COSINE;
 use crate::settings::Alpha;
-use crate::slots::{Found, Slots};
+use crate::slots::{Asked, Found, Slots};
 
 /// A photon counts only where its surface faces about the same way: the cosine between the normals must exceed this.
 const SMALLEST_NORMAL_COSINE: f32 = 0.1;
+
+/// What is gathered beside light: nothing; what the error is estimated from; and what radii that adapt go by.
+pub(crate) const NO_MOMENTS: u8 = 0;
+pub(crate) const ERROR: u8 = 1;
+pub(crate) const ADAPTIVE: u8 = 2;
 
 /// Packets that one task looks after.
 const BLOCK: usize = 256;
@@ -55,6 +61,8 @@ pub(crate) struct Rule {
     /// r² never falls below.
     pub(crate) smallest2: f64,
     pub(crate) batch: Batch,
+    /// What the error asks of one class.
+    pub(crate) question: Question,
     pub(crate) arch: Arch,
 }
 
@@ -72,20 +80,21 @@ impl AddAssign for Tally {
 /// Gathers the photons of a batch for all hit points. With the last batch of a pass they are refined, and `irradiance_slots`
 /// hold the pass's estimates; before, they and the other slots hold sums.
 ///
-/// `LAYERS` is 3 to keep path classes apart, or 1. With `ERROR`, `moment_slots` get what the bias is estimated from; without,
-/// there are none. There are `count_slots` where a pass has more than one batch.
-pub(crate) fn all<const LAYERS: usize, const ERROR: bool>(
+/// `LAYERS` is 3 to keep path classes apart, or 1. With `MOMENTS`, `moment_slots` get what the bias is estimated from, where
+/// there are any. There are `count_slots` where a pass has more than one batch.
+pub(crate) fn all<const LAYERS: usize, const MOMENTS: u8>(
     hit_points: &mut HitPoints,
     map: &PhotonMap,
     grid: &Grid,
     rule: Rule,
     irradiance_slots: &mut [Irradiance<LAYERS>],
-    moment_slots: &mut [f32],
+    moment_slots: &mut [[f32; 2]],
     count_slots: &mut [u64],
 ) -> Tally {
     let blocks = hit_points.packets.len().div_ceil(BLOCK);
     let moments = by_block(moment_slots, blocks);
     let counts = by_block(count_slots, blocks);
+    let evidence = by_block(&mut hit_points.evidence_slots, blocks);
     let shading = &hit_points.shading_normals;
     let (first_glossy, gloss_slots) = (hit_points.first_glossy, &hit_points.gloss_slots);
     let tallies: Vec<Tally> = hit_points
@@ -95,12 +104,13 @@ pub(crate) fn all<const LAYERS: usize, const ERROR: bool>(
         .zip(irradiance_slots.par_chunks_mut(BLOCK * LANES))
         .zip(moments)
         .zip(counts)
+        .zip(evidence)
         .enumerate()
-        .map(|(block, ((((packets, statistics), irradiance), moments), counts))| {
+        .map(|(block, (((((packets, statistics), irradiance), moments), counts), evidence))| {
             let first = block * BLOCK;
-            let slots = Slots { statistics, irradiance, moments, counts };
+            let slots = Slots { statistics, irradiance, moments, counts, evidence };
             let block = Block { first, first_glossy, packets, slots, shading, gloss_slots };
-            rule.arch.dispatch(Gather::<LAYERS, ERROR> { block, map, grid, rule })
+            rule.arch.dispatch(Gather::<LAYERS, MOMENTS> { block, map, grid, rule })
         })
         .collect();
     let mut tally = Tally::default();
@@ -127,14 +137,14 @@ struct Block<'a, const LAYERS: usize> {
 
 /// The work on a block, compiled for each instruction set; the best that the machine has is taken. Everything that this calls
 /// for each photon is inlined into it. No instruction set changes a result.
-struct Gather<'a, const LAYERS: usize, const ERROR: bool> {
+struct Gather<'a, const LAYERS: usize, const MOMENTS: u8> {
     block: Block<'a, LAYERS>,
     map: &'a PhotonMap,
     grid: &'a Grid,
     rule: Rule,
 }
 
-impl<const LAYERS: usize, const ERROR: bool> WithSimd for Gather<'_, LAYERS, ERROR> {
+impl<const LAYERS: usize, const MOMENTS: u8> WithSimd for Gather<'_, LAYERS, MOMENTS> {
     type Output = Tally;
 
     #[inline(always)]
@@ -150,35 +160,41 @@ impl<const LAYERS: usize, const ERROR: bool> WithSimd for Gather<'_, LAYERS, ERR
             runs.clear();
             grid.for_each_run(&packet.bounds(), |first, end| runs.push((first, end)));
             *found = Found::NONE;
+            let asked = Asked::new(rule.question, packet);
             if let Some(glossy) = index.checked_sub(first_glossy) {
                 let gloss = &gloss_slots[glossy * LANES..(glossy + 1) * LANES];
                 for &(first, end) in &runs {
                     let photons = map.run(first, end);
-                    collect_gloss::<LAYERS, ERROR>(packet, gloss, photons, &mut found, &mut tally);
+                    collect_gloss::<LAYERS, MOMENTS>(packet, gloss, photons, &asked, &mut found, &mut tally);
                 }
             } else if let Some(normals) = shading.get(index) {
                 for &(first, end) in &runs {
                     let photons = map.run(first, end);
-                    collect::<LAYERS, true, ERROR>(packet, normals, photons, &mut found, &mut tally);
+                    collect::<LAYERS, true, MOMENTS>(
+                        packet, normals, photons, &asked, &mut found, &mut tally,
+                    );
                 }
             } else {
                 let normals = &[[0.0; LANES]; 3];
                 for &(first, end) in &runs {
                     let photons = map.run(first, end);
-                    collect::<LAYERS, false, ERROR>(packet, normals, photons, &mut found, &mut tally);
+                    collect::<LAYERS, false, MOMENTS>(
+                        packet, normals, photons, &asked, &mut found, &mut tally,
+                    );
                 }
             }
-            let mut slots = slots.of_packet::<ERROR>(i);
+            let mut slots = slots.of_packet(i);
+            if MOMENTS >= ADAPTIVE {
+                found.add_evidence(packet, slots.evidence);
+            }
             if !rule.batch.is_first() {
-                slots.add_earlier::<ERROR>(&mut found);
+                slots.add_earlier(&mut found);
             }
             if !rule.batch.is_last() {
-                slots.keep::<ERROR>(&found);
+                slots.keep(&found);
                 continue;
             }
-            if ERROR {
-                found.write_moments(packet, slots.moments);
-            }
+            found.write_moments(packet, rule.question, slots.moments);
             conclude(packet, &found, slots, rule, &mut tally);
         }
         tally
@@ -187,10 +203,11 @@ impl<const LAYERS: usize, const ERROR: bool> WithSimd for Gather<'_, LAYERS, ERR
 
 /// Sums the photons that count for Lambertian hit points. `SHADED` corrects for interpolated normals.
 #[inline(always)]
-fn collect<const LAYERS: usize, const SHADED: bool, const ERROR: bool>(
+fn collect<const LAYERS: usize, const SHADED: bool, const MOMENTS: u8>(
     packet: &Packet,
     shading_normals: &[[f32; LANES]; 3],
     photons: &[Photon],
+    asked: &Asked,
     found: &mut Found<LAYERS>,
     tally: &mut Tally,
 ) {
@@ -219,12 +236,29 @@ fn collect<const LAYERS: usize, const SHADED: bool, const ERROR: bool>(
         for l in 0..LANES {
             found.count[l] += counts[l] & 1;
         }
-        if ERROR {
+        if MOMENTS >= ERROR {
             let distance2 = distances2(packet, photon);
             let luminance = photon.power.luminance();
             for l in 0..LANES {
                 let term = luminance * factor[l] * distance2[l];
                 found.moment[l] += f32::from_bits(term.to_bits() & counts[l]);
+            }
+            if asked.is_of(photon) {
+                for l in 0..LANES {
+                    let answer = asked.answer(luminance * factor[l], distance2[l], l);
+                    found.answer[l] += f32::from_bits(answer.to_bits() & counts[l]);
+                }
+            }
+            if MOMENTS >= ADAPTIVE {
+                let [x, y, z] = offsets(packet, photon);
+                let [sx, sy, sz] = &mut found.shape.offset;
+                for l in 0..LANES {
+                    let w = f32::from_bits((luminance * factor[l]).to_bits() & counts[l]);
+                    found.shape.squares[l] += w * w;
+                    sx[l] += w * x[l];
+                    sy[l] += w * y[l];
+                    sz[l] += w * z[l];
+                }
             }
         }
     }
@@ -232,10 +266,11 @@ fn collect<const LAYERS: usize, const SHADED: bool, const ERROR: bool>(
 
 /// Sums the photons that count for hit points with a BSDF of their own, weighed by it one by one.
 #[inline(always)]
-fn collect_gloss<const LAYERS: usize, const ERROR: bool>(
+fn collect_gloss<const LAYERS: usize, const MOMENTS: u8>(
     packet: &Packet,
     gloss: &[Option<Gloss>],
     photons: &[Photon],
+    asked: &Asked,
     found: &mut Found<LAYERS>,
     tally: &mut Tally,
 ) {
@@ -246,7 +281,8 @@ fn collect_gloss<const LAYERS: usize, const ERROR: bool>(
             continue;
         }
         let wi = photon.direction();
-        let distance2 = if ERROR { distances2(packet, photon) } else { [0.0; LANES] };
+        let distance2 = if MOMENTS >= ERROR { distances2(packet, photon) } else { [0.0; LANES] };
+        let offset = if MOMENTS >= ADAPTIVE { offsets(packet, photon) } else { [[0.0; LANES]; 3] };
         let layer = &mut found.flux[Found::<LAYERS>::layer(photon)];
         for l in (0..LANES).filter(|&l| counts[l] != 0) {
             found.count[l] += 1;
@@ -262,8 +298,18 @@ fn collect_gloss<const LAYERS: usize, const ERROR: bool>(
             layer[0][l] += weighed.r;
             layer[1][l] += weighed.g;
             layer[2][l] += weighed.b;
-            if ERROR {
-                found.moment[l] += weighed.luminance() * distance2[l];
+            if MOMENTS >= ERROR {
+                let luminance = weighed.luminance();
+                found.moment[l] += luminance * distance2[l];
+                if asked.is_of(photon) {
+                    found.answer[l] += asked.answer(luminance, distance2[l], l);
+                }
+                if MOMENTS >= ADAPTIVE {
+                    found.shape.squares[l] += luminance * luminance;
+                    for (sum, offset) in found.shape.offset.iter_mut().zip(&offset) {
+                        sum[l] += luminance * offset[l];
+                    }
+                }
             }
         }
     }
@@ -301,15 +347,23 @@ fn counting_lanes(packet: &Packet, photon: &Photon) -> [u32; LANES] {
     counts
 }
 
-/// Squared distances of a photon: once more, so that what asks for no error is left as it is.
+/// From a photon to each lane: once more, so that what asks for no moments is left as it is.
+#[inline(always)]
+fn offsets(packet: &Packet, photon: &Photon) -> [[f32; LANES]; 3] {
+    let mut offsets = packet.position;
+    for (row, p) in offsets.iter_mut().zip(photon.position.to_array()) {
+        row.iter_mut().for_each(|x| *x -= p);
+    }
+    offsets
+}
+
+/// Squared distances of a photon.
 #[inline(always)]
 fn distances2(packet: &Packet, photon: &Photon) -> [f32; LANES] {
-    let p = photon.position;
+    let [dx, dy, dz] = offsets(packet, photon);
     let mut distance2 = [0.0; LANES];
-    let [x, y, z] = &packet.position;
     for l in 0..LANES {
-        let (dx, dy, dz) = (x[l] - p.x, y[l] - p.y, z[l] - p.z);
-        distance2[l] = dx * dx + dy * dy + dz * dz;
+        distance2[l] = dx[l] * dx[l] + dy[l] * dy[l] + dz[l] * dz[l];
     }
     distance2
 }
@@ -347,7 +401,7 @@ fn conclude<const LAYERS: usize>(
     rule: Rule,
     tally: &mut Tally,
 ) {
-    let Slots { statistics, irradiance, counts, .. } = slots;
+    let Slots { statistics, irradiance, counts, evidence, .. } = slots;
     for l in 0..LANES {
         let radius2 = packet.radius2[l];
         if radius2 < 0.0 {
@@ -359,7 +413,10 @@ fn conclude<const LAYERS: usize>(
         }
         let count = u64::from(found.count[l]) + counts.get(l).copied().unwrap_or(0);
         let floored = match rule.common {
-            None => statistics[l].refine(count, rule.alpha, rule.smallest2),
+            None => {
+                let alpha = evidence.get(l).map_or(rule.alpha, |e| e.alpha(rule.alpha));
+                statistics[l].refine(count, alpha, rule.smallest2)
+            }
             Some(rho) => statistics[l].shrink(count, rho, rule.smallest2),
         };
         tally.floored += u64::from(floored);

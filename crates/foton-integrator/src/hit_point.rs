@@ -7,6 +7,7 @@ use foton_math::glam::Vec3;
 use foton_math::{Frame, Rgb};
 use foton_scene::Scattering;
 
+use crate::adaptive::Evidence;
 use crate::packet::{self, LANES, Packet};
 use crate::refine::Statistics;
 
@@ -72,6 +73,8 @@ pub(crate) struct HitPoints {
     /// Empty unless direct light comes by shadow rays.
     pub(crate) shadow_slots: Vec<ShadowOrigin>,
     pub(crate) statistics_slots: Vec<Statistics>,
+    /// Empty unless radii adapt.
+    pub(crate) evidence_slots: Vec<Evidence>,
     /// In sample order: where the hit point is.
     pub(crate) slot_of: Vec<u32>,
     /// In sample order: [`HitPoint::weight`].
@@ -128,10 +131,17 @@ impl HitPoints {
             shading_normals: normals,
             shadow_slots,
             statistics_slots,
+            evidence_slots: Vec::new(),
             slot_of,
             weights: found.iter().map(|h| h.weight).collect(),
             pixel_start,
         }
+    }
+
+    /// Makes room for what radii that adapt go by.
+    #[must_use]
+    pub(crate) fn with_evidence(self) -> Self {
+        Self { evidence_slots: vec![Evidence::default(); self.statistics_slots.len()], ..self }
     }
 
     /// How a slot weighs light, where that is not Lambertian.
@@ -161,6 +171,7 @@ impl HitPoints {
             + size_of::<[[f32; LANES]; 3]>() * self.shading_normals.len()
             + size_of::<ShadowOrigin>() * self.shadow_slots.len()
             + size_of::<Statistics>() * self.statistics_slots.len()
+            + size_of::<Evidence>() * self.evidence_slots.len()
             + (size_of::<u32>() + size_of::<Rgb>()) * self.slot_of.len()
             + size_of::<u32>() * self.pixel_start.len()
     }

@@ -3,6 +3,7 @@
 //! [`Ppm`] is the algorithm in one screen; each stage has a file of its own. There are no files, windows or clocks here: a
 //! caller that wants to time stages is told when they begin.
 
+mod adaptive;
 mod batch;
 mod cancel;
 mod direct_light;
@@ -37,7 +38,7 @@ mod test_scene;
 mod variants;
 
 pub use cancel::{Cancel, Cancelled};
-pub use error::{ErrorEstimate, TileError};
+pub use error::{ClassError, ErrorEstimate, TileError};
 pub use features::{Feature, features};
 pub use inspect::{Disc, Radii, StoredPhoton};
 pub use layers::LayerKind;

@@ -3,8 +3,8 @@
 use foton_math::Rgb;
 use foton_scene::Scene;
 
-use crate::error::{self, ErrorSums};
-use crate::gather::{self, Rule, Tally};
+use crate::error::{self, ErrorSums, Question};
+use crate::gather::{self, ADAPTIVE, ERROR, NO_MOMENTS, Rule, Tally};
 use crate::grid::Grid;
 use crate::hit_point::{HitPoints, Irradiance};
 use crate::packet::LANES;
@@ -81,9 +81,13 @@ impl Light {
     ) -> Tally {
         each!(self, s => {
             let irradiance = &mut s.irradiance_slots;
-            match error {
-                None => gather::all::<_, false>(hit_points, map, grid, rule, irradiance, &mut [], counts),
-                Some(e) => gather::all::<_, true>(hit_points, map, grid, rule, irradiance, e.moment_slots(), counts),
+            let adapts = !hit_points.evidence_slots.is_empty();
+            let is_asked = error.is_some();
+            let moments = error.map_or_else(Default::default, ErrorSums::moment_slots);
+            match (adapts, is_asked) {
+                (true, _) => gather::all::<_, ADAPTIVE>(hit_points, map, grid, rule, irradiance, moments, counts),
+                (false, true) => gather::all::<_, ERROR>(hit_points, map, grid, rule, irradiance, moments, counts),
+                (false, false) => gather::all::<_, NO_MOMENTS>(hit_points, map, grid, rule, irradiance, moments, counts),
             }
         })
     }
@@ -110,6 +114,7 @@ impl Light {
         error: &mut ErrorSums,
         hit_points: &HitPoints,
         (photons, power): (u64, f64),
+        (question, shadow_rays): (Question, bool),
     ) {
         each!(self, s => error.add(&error::Pass {
             hit_points,
@@ -117,6 +122,8 @@ impl Light {
             radiance: &s.radiance,
             photons,
             power,
+            question,
+            shadow_rays,
         }));
     }
 

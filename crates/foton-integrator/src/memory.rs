@@ -5,6 +5,7 @@ use std::fmt;
 use foton_math::{Purpose, Rgb};
 use foton_scene::Scene;
 
+use crate::adaptive::Evidence;
 use crate::batch::{Batch, MOST_PHOTONS};
 use crate::error::ErrorSums;
 use crate::eye_pass::EyePass;
@@ -15,7 +16,7 @@ use crate::photon::Photon;
 use crate::photon_map::PhotonMap;
 use crate::radiance::Radiance;
 use crate::refine::Statistics;
-use crate::settings::{DirectLight, Settings};
+use crate::settings::{DirectLight, RadiusRule, Settings};
 
 /// Share of a packet's lanes that are used, measured on the shipped scenes: 0.8 to 0.95.
 const FILL: f64 = 0.8;
@@ -75,6 +76,20 @@ impl MemoryEstimate {
         Self::PROGRAM_BYTES + lasting + self.photon_bytes.max(self.layout_bytes)
     }
 
+    /// That of renders of one scene that share their photons ([`Variants`](crate::Variants)): each has hit points, pixels, and its share
+    /// of the photons with their sorted copy; those are handed out from one more. `None` of none.
+    #[must_use]
+    pub fn together(all: &[Self]) -> Option<Self> {
+        let first = all.first()?;
+        let sum = |of: fn(&Self) -> f64| all.iter().map(of).sum::<f64>();
+        Some(Self {
+            hit_point_bytes: sum(|e| e.hit_point_bytes),
+            pixel_bytes: sum(|e| e.pixel_bytes),
+            photon_bytes: sum(|e| e.photon_bytes) + first.photon_bytes,
+            ..*first
+        })
+    }
+
     /// Estimates a render on so many threads.
     #[must_use]
     pub fn pilot(scene: &Scene, settings: &Settings, max_depth: u32, threads: usize) -> Self {
@@ -95,6 +110,7 @@ impl MemoryEstimate {
             + size_of::<Statistics>()
             + if shadow { size_of::<ShadowOrigin>() } else { 0 }
             + if settings.error { ErrorSums::BYTES_PER_HIT_POINT } else { 0 }
+            + if settings.radius_rule == RadiusRule::Adaptive { size_of::<Evidence>() } else { 0 }
             + if shaded { 3 * size_of::<f32>() } else { 0 };
         let slot = slot as f64 + layers * size_of::<Irradiance<1>>() as f64;
         let per_pixel =
@@ -135,5 +151,27 @@ impl fmt::Display for MemoryEstimate {
             mib(self.pixel_bytes),
             mib(self.photon_bytes),
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn renders_that_share_photons_share_the_scene_alone() {
+        let one = MemoryEstimate {
+            hit_points: 10.0,
+            pixels: 5.0,
+            scene_bytes: 1e9,
+            hit_point_bytes: 1e6,
+            pixel_bytes: 1e5,
+            photon_bytes: 1e8,
+            layout_bytes: 1e3,
+        };
+        let three = MemoryEstimate::together(&[one; 3]).expect("three");
+        assert_eq!(three.peak_bytes(), MemoryEstimate::PROGRAM_BYTES + 1e9 + 3.0 * 1.1e6 + 4.0 * 1e8);
+        assert_eq!(three.hit_points, one.hit_points, "each numbers its own");
+        assert_eq!(MemoryEstimate::together(&[]), None);
     }
 }

@@ -9,7 +9,7 @@ use pulp::Arch;
 
 use crate::batch::{self, Batch, Counts};
 use crate::cancel::{Cancel, Cancelled};
-use crate::error::ErrorSums;
+use crate::error::{ErrorSums, Question};
 use crate::eye_pass::EyePass;
 use crate::gather::{Rule, Tally};
 use crate::grid::Grid;
@@ -22,8 +22,10 @@ use crate::photon_map::PhotonMap;
 use crate::photon_pass::{Chunk, PhotonPass};
 use crate::radius::FirstRadius;
 use crate::refine::Statistics;
-use crate::settings::{Change, DirectLight, Settings};
+use crate::settings::{Change, DirectLight, RadiusRule, Settings};
 use crate::stage::Stage;
+
+mod parts;
 
 /// Longest path that is followed, whatever is asked for. What that cuts off stands in the ledger.
 const LONGEST_PATH: u32 = 250;
@@ -112,6 +114,8 @@ impl Ppm {
         let shadow_rays = settings.direct_light == DirectLight::ShadowRays;
         let normals = scene.census().shading_normals;
         let hit_points = HitPoints::new(&eye.hit_points, &eye.gloss, eye.pixel_start(), normals, shadow_rays);
+        let adapts = settings.radius_rule == RadiusRule::Adaptive;
+        let hit_points = if adapts { hit_points.with_evidence() } else { hit_points };
         let start = Start { hit_points: hit_points.len() as u64, eye_rays: eye.rays, dropped: eye.dropped };
         drop((eye.hit_points, eye.gloss));
         let grid = Grid::new(&hit_points.packets);
@@ -210,6 +214,7 @@ impl Ppm {
             common: self.settings.radius_rule.common(alpha, before, counts.photons),
             smallest2: FirstRadius::new(&self.scene, &self.settings).smallest2(),
             batch,
+            question: Question::after(self.passes),
             arch: self.arch,
         };
         let (error, found) = (self.error.as_mut(), &mut self.count_slots);
@@ -235,7 +240,9 @@ impl Ppm {
         self.photons_emitted += photons;
         if let Some(error) = &mut self.error {
             let power = self.ledger.emitted / self.photons_emitted.max(1) as f64;
-            self.light.add_error(error, &self.hit_points, (photons, power));
+            let by_shadow_rays = self.settings.direct_light == DirectLight::ShadowRays;
+            let asked = (Question::after(self.passes), by_shadow_rays);
+            self.light.add_error(error, &self.hit_points, (photons, power), asked);
         }
         self.last_photons = photons;
         self.passes += 1;
@@ -381,80 +388,6 @@ impl Ppm {
                 f(&of_pixel)
             })
             .collect()
-    }
-
-    pub(crate) fn set_progress(
-        &mut self,
-        passes: u64,
-        photons_emitted: u64,
-        last_photons: u64,
-        changes: Vec<(u64, Change)>,
-    ) {
-        (self.passes, self.photons_emitted, self.last_photons) = (passes, photons_emitted, last_photons);
-        self.changes = changes;
-    }
-
-    pub(crate) const fn settings_mut(&mut self) -> &mut Settings {
-        &mut self.settings
-    }
-
-    pub(crate) const fn ledger_mut(&mut self) -> &mut Ledger {
-        &mut self.ledger
-    }
-
-    pub(crate) fn lights_mut(&mut self) -> &mut [LightUse] {
-        &mut self.lights
-    }
-
-    pub(crate) fn losses_mut(&mut self) -> &mut [Loss] {
-        &mut self.losses
-    }
-
-    pub(crate) const fn hit_points_mut(&mut self) -> &mut HitPoints {
-        &mut self.hit_points
-    }
-
-    pub(crate) const fn light_mut(&mut self) -> &mut Light {
-        &mut self.light
-    }
-
-    /// Marks cells for discs as they are now.
-    pub(crate) fn mark_all_cells(&mut self) {
-        self.grid.mark(&self.hit_points.packets);
-        self.marked_radius2 = f64::INFINITY;
-    }
-
-    pub(crate) const fn hit_points(&self) -> &HitPoints {
-        &self.hit_points
-    }
-
-    /// The shape seen at the middle of each pixel.
-    pub(crate) fn shapes(&self) -> &[u32] {
-        &self.shapes
-    }
-
-    pub(crate) const fn light(&self) -> &Light {
-        &self.light
-    }
-
-    pub(crate) fn chunks_and_grid(&mut self) -> (&mut Vec<Chunk>, &Grid) {
-        (&mut self.chunks, &self.grid)
-    }
-
-    pub(crate) const fn map(&self) -> &PhotonMap {
-        &self.map
-    }
-
-    pub(crate) const fn error_sums(&self) -> Option<&ErrorSums> {
-        self.error.as_ref()
-    }
-
-    pub(crate) const fn error_sums_mut(&mut self) -> Option<&mut ErrorSums> {
-        self.error.as_mut()
-    }
-
-    pub(crate) const fn photons_in_last_pass(&self) -> u64 {
-        self.last_photons
     }
 
     /// Of those, how many there were in the last batch, whose photons the map still holds.

@@ -4,6 +4,8 @@ use std::f32::consts::PI;
 
 use foton_math::Rgb;
 
+use crate::adaptive::{Evidence, Shape};
+use crate::error::Question;
 use crate::hit_point::Irradiance;
 use crate::packet::{LANES, Packet};
 use crate::photon::Photon;
@@ -15,24 +17,77 @@ pub(crate) struct Found<const LAYERS: usize> {
     pub(crate) count: [u32; LANES],
     /// Σ d² Φ in luminance, where the error is asked for.
     pub(crate) moment: [f32; LANES],
+    /// What [`Asked`] says of the photons of one class, where the error is asked for.
+    pub(crate) answer: [f32; LANES],
+    /// Where radii adapt.
+    pub(crate) shape: Shape,
+}
+
+/// A pass's question in numbers: w (a w + b d² + c) is summed over the photons of a class, w their luminance.
+pub(crate) struct Asked {
+    class: usize,
+    a: f32,
+    b: [f32; LANES],
+    c: f32,
+}
+
+impl Asked {
+    /// w² for the noise; w · 6(s − ½), s = d²/r², for the blur.
+    #[inline(always)]
+    pub(crate) fn new(question: Question, packet: &Packet) -> Self {
+        let Question { class, noise } = question;
+        if noise {
+            return Self { class, a: 1.0, b: [0.0; LANES], c: 0.0 };
+        }
+        Self { class, a: 0.0, b: packet.radius2.map(|r2| 6.0 / r2), c: -3.0 }
+    }
+
+    #[inline(always)]
+    pub(crate) const fn is_of(&self, photon: &Photon) -> bool {
+        photon.class_index() == self.class
+    }
+
+    #[inline(always)]
+    pub(crate) fn answer(&self, w: f32, distance2: f32, lane: usize) -> f32 {
+        w * (self.a * w + self.b[lane] * distance2 + self.c)
+    }
 }
 
 impl<const LAYERS: usize> Found<LAYERS> {
-    pub(crate) const NONE: Self =
-        Self { flux: [[[0.0; LANES]; 3]; LAYERS], count: [0; LANES], moment: [0.0; LANES] };
+    pub(crate) const NONE: Self = Self {
+        flux: [[[0.0; LANES]; 3]; LAYERS],
+        count: [0; LANES],
+        moment: [0.0; LANES],
+        answer: [0.0; LANES],
+        shape: Shape::NONE,
+    };
 
     #[inline(always)]
     pub(crate) const fn layer(photon: &Photon) -> usize {
         if LAYERS == 1 { 0 } else { photon.class_index() }
     }
 
-    /// Σ 6(s − ½) Φ/(π r²) with s = d²/r²: see [`crate::error`].
-    pub(crate) fn write_moments(&self, packet: &Packet, moments: &mut [f32]) {
+    /// Flux of a lane, all classes together.
+    pub(crate) fn luminance(&self, lane: usize) -> f32 {
+        self.flux.iter().map(|f| Rgb::new(f[0][lane], f[1][lane], f[2][lane]).luminance()).sum()
+    }
+
+    /// Adds what this batch has found to what radii go by.
+    pub(crate) fn add_evidence(&self, packet: &Packet, evidence: &mut [Evidence]) {
+        for (lane, evidence) in evidence.iter_mut().enumerate().filter(|(l, _)| self.count[*l] > 0) {
+            evidence.add(packet, lane, (self.luminance(lane), self.moment[lane]), &self.shape);
+        }
+    }
+
+    /// Σ 6(s − ½) Φ/(π r²) with s = d²/r², and the answer about a class: see [`crate::error`].
+    pub(crate) fn write_moments(&self, packet: &Packet, question: Question, moments: &mut [[f32; 2]]) {
         for (l, moment) in moments.iter_mut().enumerate() {
             let radius2 = packet.radius2[l];
-            let flux: f32 = self.flux.iter().map(|f| Rgb::new(f[0][l], f[1][l], f[2][l]).luminance()).sum();
+            let flux = self.luminance(l);
             // Lanes without a hit point have found nothing.
-            *moment = (6.0 * self.moment[l] / radius2 - 3.0 * flux) / (PI * radius2);
+            let per_area = 1.0 / (PI * radius2);
+            let answer = self.answer[l] * if question.noise { per_area * per_area } else { per_area };
+            *moment = [(6.0 * self.moment[l] / radius2 - 3.0 * flux) * per_area, answer];
         }
     }
 }
@@ -41,26 +96,29 @@ impl<const LAYERS: usize> Found<LAYERS> {
 pub(crate) struct Slots<'a, const LAYERS: usize> {
     pub(crate) statistics: &'a mut [Statistics],
     pub(crate) irradiance: &'a mut [Irradiance<LAYERS>],
-    /// Empty without `ERROR`.
-    pub(crate) moments: &'a mut [f32],
+    /// Empty unless the error is asked for.
+    pub(crate) moments: &'a mut [[f32; 2]],
     /// Photons that earlier batches found; empty where a pass is one batch.
     pub(crate) counts: &'a mut [u64],
+    /// Empty unless radii adapt.
+    pub(crate) evidence: &'a mut [Evidence],
 }
 
 impl<const LAYERS: usize> Slots<'_, LAYERS> {
     /// Those of the packet of that index.
-    pub(crate) fn of_packet<const ERROR: bool>(&mut self, index: usize) -> Slots<'_, LAYERS> {
+    pub(crate) fn of_packet(&mut self, index: usize) -> Slots<'_, LAYERS> {
         let lanes = index * LANES..(index + 1) * LANES;
         Slots {
             statistics: &mut self.statistics[lanes.clone()],
             irradiance: &mut self.irradiance[lanes.clone()],
-            moments: if ERROR { &mut self.moments[lanes.clone()] } else { &mut [] },
-            counts: self.counts.get_mut(lanes).unwrap_or_default(),
+            moments: self.moments.get_mut(lanes.clone()).unwrap_or_default(),
+            counts: self.counts.get_mut(lanes.clone()).unwrap_or_default(),
+            evidence: self.evidence.get_mut(lanes).unwrap_or_default(),
         }
     }
 
     /// Adds what earlier batches of the pass found.
-    pub(crate) fn add_earlier<const ERROR: bool>(&self, found: &mut Found<LAYERS>) {
+    pub(crate) fn add_earlier(&self, found: &mut Found<LAYERS>) {
         for (l, earlier) in self.irradiance.iter().enumerate() {
             for (sums, earlier) in found.flux.iter_mut().zip(earlier) {
                 for (sums, earlier) in sums.iter_mut().zip(earlier.to_array()) {
@@ -68,21 +126,22 @@ impl<const LAYERS: usize> Slots<'_, LAYERS> {
                 }
             }
         }
-        if ERROR {
-            found.moment.iter_mut().zip(&*self.moments).for_each(|(sum, earlier)| *sum += earlier);
+        for (l, [moment, answer]) in self.moments.iter().enumerate() {
+            found.moment[l] += moment;
+            found.answer[l] += answer;
         }
     }
 
     /// Keeps sums for the next batch: flux and moments that no area has divided yet.
-    pub(crate) fn keep<const ERROR: bool>(&mut self, found: &Found<LAYERS>) {
+    pub(crate) fn keep(&mut self, found: &Found<LAYERS>) {
         for (l, kept) in self.irradiance.iter_mut().enumerate() {
             for (kept, flux) in kept.iter_mut().zip(&found.flux) {
                 *kept = Rgb::new(flux[0][l], flux[1][l], flux[2][l]);
             }
         }
         self.counts.iter_mut().zip(found.count).for_each(|(sum, count)| *sum += u64::from(count));
-        if ERROR {
-            self.moments.copy_from_slice(&found.moment);
+        for (l, moment) in self.moments.iter_mut().enumerate() {
+            *moment = [found.moment[l], found.answer[l]];
         }
     }
 }

@@ -5,6 +5,7 @@ use std::num::NonZeroU32;
 use foton_math::Rgb;
 use thiserror::Error;
 
+use crate::adaptive::Evidence;
 use crate::ledger::{Ledger, Loss};
 use crate::light::Light;
 use crate::light_use::LightUse;
@@ -129,6 +130,7 @@ impl Ppm {
         let statistics = &self.hit_points().statistics_slots;
         out.u64(statistics.len() as u64);
         statistics.iter().for_each(|s| s.write(&mut out));
+        self.hit_points().evidence_slots.iter().for_each(|e| e.write(&mut out));
         match self.light() {
             Light::Whole(sums) => sums.write(&mut out),
             Light::ByClass(sums) => sums.write(&mut out),
@@ -179,6 +181,9 @@ impl Ppm {
             }
             *statistics = read;
             hit_points.packets[slot / LANES].radius2[slot % LANES] = statistics.radius2() as f32;
+        }
+        for evidence in &mut hit_points.evidence_slots {
+            *evidence = Evidence::read(&mut input)?;
         }
         match self.light_mut() {
             Light::Whole(sums) => sums.read(&mut input)?,

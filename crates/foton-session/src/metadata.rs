@@ -1,7 +1,7 @@
 //! What travels with an image: enough to make it again. Nothing of when or where, so that equal renders give equal files.
 
 use foton_film::Metadata;
-use foton_integrator::{DirectLight, Ppm, RadiusRule, RadiusScale};
+use foton_integrator::{DirectLight, Ppm, RadiusScale};
 
 /// The scene as metadata names it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -22,10 +22,7 @@ pub(crate) fn of(ppm: &Ppm, scene: &SceneIdentity) -> Metadata {
     } else {
         format!("{radius}*{}", s.radius_scale)
     };
-    let rule = match s.radius_rule {
-        RadiusRule::Local => "local",
-        RadiusRule::Global => "global",
-    };
+    let rule = s.radius_rule.name();
     let direct = match s.direct_light {
         DirectLight::Photons => "photons",
         DirectLight::ShadowRays => "shadow-rays",
@@ -47,8 +44,12 @@ pub(crate) fn of(ppm: &Ppm, scene: &SceneIdentity) -> Metadata {
     let changes: Vec<String> =
         ppm.changes().iter().map(|(pass, change)| format!("{pass} {change}")).collect();
     let error = ppm.error().map(|e| {
+        let classes = e.classes.map_or_else(String::new, |classes| {
+            let [direct, caustic, indirect] = classes.map(|c| c.total());
+            format!(" direct={direct:.4} caustic={caustic:.4} indirect={indirect:.4}")
+        });
         format!(
-            "relative={:.4} noise={:.4} bias={:.4} low={:.4} high={:.4} unknown={:.4}",
+            "relative={:.4} noise={:.4} bias={:.4} low={:.4} high={:.4} unknown={:.4}{classes}",
             e.total, e.noise, e.bias, e.low, e.high, e.unknown_share
         )
     });

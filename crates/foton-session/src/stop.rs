@@ -94,6 +94,7 @@ mod tests {
             unknown_share: 0.01,
             effective_passes: 20.0,
             mean_luminance: 1.0,
+            classes: None,
         };
         let stops = |error: Option<&ErrorEstimate>| {
             rule.is_reached(30, Duration::from_secs(9), Duration::ZERO, error)

@@ -252,6 +252,8 @@ pub(crate) enum Rule {
     Local,
     /// All by one factor, by the photons emitted
     Global,
+    /// Each by the photons that it finds, as far as blur outweighs noise there
+    Adaptive,
 }
 
 impl From<Rule> for RadiusRule {
@@ -259,6 +261,7 @@ impl From<Rule> for RadiusRule {
         match rule {
             Rule::Local => Self::Local,
             Rule::Global => Self::Global,
+            Rule::Adaptive => Self::Adaptive,
         }
     }
 }

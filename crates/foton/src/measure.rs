@@ -9,7 +9,8 @@ use foton_session::{Session, StartError};
 use serde_json::json;
 
 use crate::args::{Measure, Radius};
-use crate::job::{build, choose_sensor, interrupt_on_signals, open, refuse_beyond_memory};
+use crate::job::{build, choose_sensor, interrupt_on_signals, open};
+use crate::memory;
 use crate::talk::{Failure, Talk};
 
 /// Runs `foton measure`.
@@ -30,14 +31,13 @@ pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
         samples_per_pixel: args.spp,
         radius,
         radius_scale,
+        radius_rule: args.radius_rule.into(),
         direct_light: args.direct.into(),
         max_depth: args.max_depth,
         seed: args.seed,
         sensor,
         ..defaults
     };
-    let threads = args.threads.map(usize::from);
-    refuse_beyond_memory(&scene, &centre, threads, None)?;
     let given = given.map(|(image, _)| {
         let path = args.reference.as_deref().unwrap_or(&args.scene);
         (image, format!("the image {}", path.display()))
@@ -52,9 +52,14 @@ pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
         given,
         folder: args.output.clone(),
     };
+    let pool = Session::pool(args.threads.map(usize::from)).map_err(StartError::from)?;
+    let needed = sweep.memory(pool.current_num_threads());
+    let refusal = needed.and_then(|needed| needed.refusal(memory::limit(None)));
+    if let Some(why) = refusal {
+        return Err(Failure::Memory(why));
+    }
     let interrupt = interrupt_on_signals(talk);
     talk.begin();
-    let pool = Session::pool(threads).map_err(StartError::from)?;
     let outcome = {
         let mut tell = |event: &Event| say(event, talk);
         pool.install(|| sweep.run(&|| interrupt.is_requested(), interrupt.cancel(), &mut tell))

@@ -5,7 +5,7 @@ use std::io::Write;
 
 use foton_film::{ReadError, WriteError};
 use foton_format::{Diagnostic, OpenError};
-use foton_integrator::{DirectLight, ErrorEstimate, Ledger, Ppm};
+use foton_integrator::{ClassError, DirectLight, ErrorEstimate, Ledger, Ppm};
 use foton_measure::CompareError;
 use foton_measure::sweep::SweepError;
 use foton_scene::BuildError;
@@ -281,8 +281,9 @@ impl Talk {
         ));
         if let Some(error) = ppm.error() {
             self.line(&format!(
-                "{}; 90 % confidence {:.2} to {:.2} %, without what eye samples miss and what no photon has found",
+                "{}{}; 90 % confidence {:.2} to {:.2} %, if all blur is that of edges; without what eye samples miss and what no photon has found",
                 error_text(&error),
+                classes_text(&error),
                 100.0 * error.low,
                 100.0 * error.high
             ));
@@ -347,6 +348,16 @@ impl Talk {
     }
 }
 
+/// Names of the path classes, in their order.
+const CLASSES: [&str; 3] = ["direct", "caustic", "indirect"];
+
+/// What direct, caustic and indirect light have of the error, in a few words.
+fn classes_text(e: &ErrorEstimate) -> String {
+    let parts = e.classes.iter().flat_map(|classes| CLASSES.into_iter().zip(classes));
+    let parts: Vec<String> = parts.map(|(name, c)| format!("{name} {:.2}", 100.0 * c.total())).collect();
+    if parts.is_empty() { String::new() } else { format!("; of it {}", parts.join(", ")) }
+}
+
 /// The error in a few words.
 fn error_text(e: &ErrorEstimate) -> String {
     let percent = |share: f64| 100.0 * share;
@@ -360,6 +371,12 @@ fn add_error(event: &mut Value, error: Option<&ErrorEstimate>) {
     for (i, name) in names.into_iter().enumerate() {
         event[name] = json!(error.map(|e| fields(e)[i]));
     }
+    event["classes"] = json!(error.and_then(|e| e.classes).map(|classes| {
+        let of = |(name, c): (&str, ClassError)| {
+            (name.to_owned(), json!({ "error": c.total(), "noise": c.noise, "bias": c.bias }))
+        };
+        CLASSES.into_iter().zip(classes).map(of).collect::<serde_json::Map<_, _>>()
+    }));
 }
 
 fn located(event: &str, d: &Diagnostic) -> Value {

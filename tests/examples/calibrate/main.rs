@@ -1,12 +1,13 @@
-//! Whether the live error can be believed: estimated against true error, how often bounds of tiles hold, where `--error` stops, and
-//! how fast noise and bias fall.
+//! Whether the live error can be believed: estimated against true error, how often bounds of tiles hold, where `--error` stops,
+//! how fast noise and bias fall, and what radii that adapt are worth.
 //!
-//! `cargo run --release -p foton-tests --example calibrate` prints the table of docs/error.md and writes its plot; `stops` and
-//! `slopes` print the other two. Names of assets, `seeds=4` and `truth=64` (its passes) may be given. The truth has the same eye
+//! `cargo run --release -p foton-tests --example calibrate` prints the table of docs/error.md and writes its plot; `stops`,
+//! `slopes` and `rules` print the others. Names of assets, `seeds=4` and `truth=64` (its passes) may be given. The truth has the same eye
 //! samples and photons of its own, a fifth of the first radius throughout, and direct light by shadow rays. Its noise, known
 //! from its passes, is taken off the squared error.
 #![allow(clippy::print_stdout, reason = "a program that prints a table")]
 
+mod rules;
 mod stops;
 mod truth;
 
@@ -44,6 +45,7 @@ fn main() {
     let mut named: Vec<&str> = arguments.iter().map(String::as_str).filter(|a| !a.contains('=')).collect();
     match named.first() {
         Some(&"stops") => stops::print(&named.split_off(1), 1, passes),
+        Some(&"rules") => rules::print(&named.split_off(1), number("seeds=", 2), passes),
         Some(&"slopes") => print_slopes(seeds.max(8)),
         _ => coverage(&named, seeds, passes),
     }

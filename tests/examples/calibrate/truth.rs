@@ -105,13 +105,24 @@ impl Truth {
 
     /// Root mean square difference over what is seen, relative to the mean; the truth's own noise taken off.
     pub(crate) fn error(&self, reflected: &[f64]) -> f64 {
-        let (mut squares, mut count) = (0.0, 0.0);
-        for ((x, (t, variance)), _) in reflected.iter().zip(&self.pixels).zip(&self.seen).filter(|(_, s)| **s)
+        self.squares(reflected, &|_| true)[0].max(0.0).sqrt()
+    }
+
+    /// Mean square difference relative to the squared mean, the truth's own noise taken off: over all that is seen, over tiles that `picks`
+    /// picks, and over the others.
+    pub(crate) fn squares(&self, reflected: &[f64], picks: &dyn Fn(usize) -> bool) -> [f64; 3] {
+        let picked: Vec<bool> = (0..self.tiles.len()).map(picks).collect();
+        let (mut squares, mut counts) = ([0.0; 3], [0.0; 3]);
+        for (i, (x, (t, variance))) in
+            reflected.iter().zip(&self.pixels).enumerate().filter(|(i, _)| self.seen[*i])
         {
-            squares += (x - t).powi(2) - variance;
-            count += 1.0;
+            let part = if picked[tile_of(i)] { 1 } else { 2 };
+            for part in [0, part] {
+                squares[part] += (x - t).powi(2) - variance;
+                counts[part] += 1.0;
+            }
         }
-        (squares / count).max(0.0).sqrt() / self.mean
+        [0, 1, 2].map(|part| squares[part] / f64::max(counts[part], 1.0) / (self.mean * self.mean))
     }
 
     /// Its own noise, relative to the mean.
@@ -138,11 +149,17 @@ fn conclude(sums: &mut [(f64, f64)], passes: u64) {
     }
 }
 
+/// The tile of a pixel.
+const fn tile_of(pixel: usize) -> usize {
+    let width = SIDE as usize;
+    pixel / width / TILE * (width / TILE) + pixel % width / TILE
+}
+
 fn tile_means(pixels: &[f64]) -> Vec<f64> {
-    let (width, across) = (SIDE as usize, SIDE as usize / TILE);
+    let across = SIDE as usize / TILE;
     let mut tiles = vec![0.0; across * across];
     for (i, p) in pixels.iter().enumerate() {
-        tiles[i / width / TILE * across + i % width / TILE] += p / (TILE * TILE) as f64;
+        tiles[tile_of(i)] += p / (TILE * TILE) as f64;
     }
     tiles
 }

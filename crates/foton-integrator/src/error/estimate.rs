@@ -1,5 +1,6 @@
 //! The error of an image in one figure, and of its tiles.
 
+use super::classes::ClassError;
 use super::moments::{Scatter, Weights};
 
 /// Half of the outer 10 % of a normal distribution lie beyond this many standard deviations.
@@ -34,6 +35,9 @@ pub struct ErrorEstimate {
     pub effective_passes: f64,
     /// The mean that the others are relative to (W/m²/sr).
     pub mean_luminance: f64,
+    /// What direct, caustic and indirect light contribute, in this order: their squares add up to those of noise and bias.
+    /// `None` until passes have asked about each.
+    pub classes: Option<[ClassError; 3]>,
 }
 
 /// The mean over the seen pixels of a square of 8 × 8 and what is known of its error. Luminance, W/m²/sr.
@@ -78,6 +82,8 @@ pub(super) struct Sums {
     pub(super) unknown: f64,
     /// Squares of what a photon would bring there.
     pub(super) unknown2: f64,
+    /// What the pass says of one class.
+    pub(super) answer: f64,
 }
 
 impl Sums {
@@ -91,6 +97,7 @@ impl Sums {
             deviation: self.deviation + o.deviation,
             unknown: self.unknown + o.unknown,
             unknown2: self.unknown2 + o.unknown2,
+            answer: self.answer + o.answer,
         }
     }
 
@@ -125,6 +132,7 @@ impl Sums {
             unknown_share: self.unknown / self.seen,
             effective_passes,
             mean_luminance: mean,
+            classes: None,
         })
     }
 }

@@ -7,8 +7,11 @@
 //! Among all radial weights with this expectation, the one linear in s has the smallest variance: Var B̂ = 36 Var(s) Var L =
 //! 3 Var L (4 for two concentric discs, 4.5 for the derivative kernel of `[HJJ10]`), and B̂ and L are uncorrelated.
 //!
+//! `classes.rs` says what direct, caustic and indirect light contribute.
+//!
 //! Luminance only: photons carry all channels, so their errors go together.
 
+mod classes;
 mod estimate;
 mod moments;
 mod state;
@@ -16,6 +19,8 @@ mod state;
 use foton_math::Rgb;
 use rayon::prelude::*;
 
+pub use classes::ClassError;
+pub(crate) use classes::Question;
 pub use estimate::{ErrorEstimate, TileError};
 
 use crate::hit_point::{HitPoints, Irradiance};
@@ -23,6 +28,7 @@ use crate::layers::LayerKind;
 use crate::packet::LANES;
 use crate::ppm::Ppm;
 use crate::radiance::Radiance;
+use classes::Classes;
 use estimate::Sums;
 use moments::{Moments, Scatter, Weights};
 
@@ -53,14 +59,15 @@ struct Tile {
 
 /// Sums over all passes so far.
 pub(crate) struct ErrorSums {
-    /// 6(s − ½)Φ/(π r²) of this pass by slot, in luminance.
-    moment_slots: Vec<f32>,
+    /// 6(s − ½)Φ/(π r²) of this pass by slot, in luminance, and the answer about one class.
+    moment_slots: Vec<[f32; 2]>,
     pixels: Vec<Pixel>,
     tiles: Vec<Tile>,
     width: usize,
     samples: f64,
     weights: Weights,
     scatter: Scatter,
+    classes: Classes,
     estimate: Option<ErrorEstimate>,
 }
 
@@ -73,29 +80,42 @@ pub(crate) struct Pass<'a, const LAYERS: usize> {
     pub(crate) photons: u64,
     /// Mean power of a photon where it leaves its emitter.
     pub(crate) power: f64,
+    /// What was asked of each of them.
+    pub(crate) question: Question,
+    /// Whether direct light came by shadow rays.
+    pub(crate) shadow_rays: bool,
 }
 
 /// What a pixel's own pass says.
 struct Addend {
     light: f64,
     bias: f64,
+    /// Of one class: its blur, or a sum of squares.
+    answer: f64,
 }
 
 impl<const LAYERS: usize> Pass<'_, LAYERS> {
-    fn addend(&self, pixel: usize, moment_slots: &[f32], samples: f64) -> Addend {
+    fn addend(&self, pixel: usize, moment_slots: &[[f32; 2]], samples: f64) -> Addend {
         let hit_points = self.hit_points;
         let range = hit_points.pixel_start[pixel] as usize..hit_points.pixel_start[pixel + 1] as usize;
-        let mut bias = 0.0;
+        let (mut bias, mut answer) = (0.0, 0.0);
         for (&slot, &weight) in hit_points.slot_of[range.clone()].iter().zip(&hit_points.weights[range]) {
             let irradiance: Rgb = self.irradiance_slots[slot as usize].iter().copied().sum();
             let luminance = irradiance.luminance();
             if luminance > 0.0 {
                 let seen = (weight * irradiance).luminance() / luminance;
-                bias += f64::from(seen * moment_slots[slot as usize]);
+                let [moment, of_class] = moment_slots[slot as usize];
+                bias += f64::from(seen * moment);
+                // A photon reaches all hit points of a pixel about alike.
+                answer += f64::from(seen * if self.question.noise { of_class.sqrt() } else { of_class });
             }
         }
         let light: Rgb = self.radiance.last[pixel].iter().copied().sum();
-        Addend { light: f64::from(light.luminance()), bias: bias / samples }
+        answer /= samples;
+        if self.question.noise {
+            answer *= answer;
+        }
+        Addend { light: f64::from(light.luminance()), bias: bias / samples, answer }
     }
 
     /// Luminance per emitted photon that a pixel would gain if each of its hit points that know nothing found one.
@@ -122,25 +142,27 @@ impl ErrorSums {
             tiles[tile].pixels += u32::from(is_seen);
         }
         Self {
-            moment_slots: vec![0.0; hit_points.packets.len() * LANES],
+            moment_slots: vec![[0.0; 2]; hit_points.packets.len() * LANES],
             pixels: vec![Pixel::default(); pixels],
             tiles,
             width,
             samples: f64::from(samples),
             weights: Weights::default(),
             scatter: Scatter::default(),
+            classes: Classes::default(),
             estimate: None,
         }
     }
 
     /// Where the gather puts each slot's moment.
-    pub(crate) fn moment_slots(&mut self) -> &mut [f32] {
+    pub(crate) fn moment_slots(&mut self) -> &mut [[f32; 2]] {
         &mut self.moment_slots
     }
 
     /// Takes a pass that has been added to `radiance` already.
     pub(crate) fn add<const LAYERS: usize>(&mut self, pass: &Pass<'_, LAYERS>) {
         let photons = pass.photons as f64;
+        let before = self.weights.photons;
         self.weights.add(photons);
         let (width, samples, weights) = (self.width, self.samples, self.weights);
         let moment_slots = &self.moment_slots;
@@ -157,6 +179,9 @@ impl ErrorSums {
                         continue;
                     }
                     let addend = pass.addend(index, moment_slots, samples);
+                    let answer =
+                        if pass.question.noise { addend.answer } else { pixel.bias / before * addend.answer };
+                    sums.answer += if answer.is_finite() { answer } else { 0.0 };
                     pixel.add(&addend, photons);
                     let mean = pass.radiance.luminance_sum(index) / weights.photons;
                     pixel.sum_up(mean, &weights, &mut sums);
@@ -181,7 +206,12 @@ impl ErrorSums {
         if share < 1.0 && sums.seen > 0.0 {
             self.scatter.add(photons * sums.deviation / sums.seen / (1.0 - share));
         }
-        self.estimate = sums.estimate(&self.weights, &self.scatter);
+        self.classes.add(pass.question, sums.answer, photons, before);
+        self.estimate = sums.estimate(&self.weights, &self.scatter).map(|whole| {
+            let squares = (whole.noise * whole.noise, whole.bias * whole.bias);
+            let variance = pass.shadow_rays.then_some(sums.variance);
+            ErrorEstimate { classes: self.classes.split(squares, variance, &self.weights), ..whole }
+        });
     }
 
     /// The figure after the last pass.
@@ -233,13 +263,13 @@ impl ErrorSums {
 
     /// Bytes held.
     pub(crate) const fn bytes(&self) -> usize {
-        size_of::<f32>() * self.moment_slots.len()
+        Self::BYTES_PER_HIT_POINT * self.moment_slots.len()
             + Self::BYTES_PER_PIXEL * self.pixels.len()
             + size_of::<Tile>() * self.tiles.len()
     }
 
     /// Bytes held per hit point.
-    pub(crate) const BYTES_PER_HIT_POINT: usize = size_of::<f32>();
+    pub(crate) const BYTES_PER_HIT_POINT: usize = size_of::<[f32; 2]>();
     /// Bytes held per pixel, without the tiles' two.
     pub(crate) const BYTES_PER_PIXEL: usize = size_of::<Pixel>();
 }

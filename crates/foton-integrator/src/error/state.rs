@@ -1,5 +1,6 @@
 //! The sums behind the error as numbers, for checkpoints.
 
+use super::classes::{ClassError, Classes};
 use super::estimate::ErrorEstimate;
 use super::moments::{Moments, Scatter, Weights};
 use super::{ErrorSums, Pixel, Tile};
@@ -10,11 +11,14 @@ impl ErrorSums {
         let mut put = |numbers: &[f64]| numbers.iter().for_each(|&n| out.f64(n));
         put(&self.weights.numbers());
         put(&self.scatter.numbers());
+        put(&self.classes.numbers());
         let e = self.estimate;
         put(&[f64::from(u8::from(e.is_some()))]);
         if let Some(e) = e {
             put(&[e.total, e.noise, e.bias, e.low, e.high]);
             put(&[e.unknown_share, e.effective_passes, e.mean_luminance]);
+            put(&[f64::from(u8::from(e.classes.is_some()))]);
+            e.classes.iter().flatten().for_each(|c| put(&[c.noise, c.bias]));
         }
         for p in &self.pixels {
             put(&[p.squares, p.cross, p.bias, p.bias_squares.into(), p.bias_cross.into()]);
@@ -28,11 +32,18 @@ impl ErrorSums {
     pub(crate) fn read(&mut self, input: &mut Reader<'_>) -> Result<(), StateError> {
         self.weights = Weights::of(numbers(input)?);
         self.scatter = Scatter::of(numbers(input)?);
+        self.classes = Classes::of(numbers(input)?);
         let [is_known] = numbers(input)?;
         self.estimate = None;
         if is_known > 0.0 {
             let [total, noise, bias, low, high, unknown_share, effective_passes, mean_luminance] =
                 numbers(input)?;
+            let [has_classes] = numbers(input)?;
+            let class = |[noise, bias]: [f64; 2]| ClassError { noise, bias };
+            let mut classes = None;
+            if has_classes > 0.0 {
+                classes = Some([class(numbers(input)?), class(numbers(input)?), class(numbers(input)?)]);
+            }
             self.estimate = Some(ErrorEstimate {
                 total,
                 noise,
@@ -42,6 +53,7 @@ impl ErrorSums {
                 unknown_share,
                 effective_passes,
                 mean_luminance,
+                classes,
             });
         }
         for pixel in &mut self.pixels {

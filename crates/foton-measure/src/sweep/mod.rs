@@ -21,7 +21,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use foton_film::{Image, ReadError, WriteError};
-use foton_integrator::{Cancel, Cancelled, Ppm, Settings};
+use foton_integrator::{Cancel, Cancelled, MemoryEstimate, Ppm, Settings};
 use foton_scene::Scene;
 use thiserror::Error;
 
@@ -154,6 +154,19 @@ pub enum SweepError {
 }
 
 impl Sweep {
+    /// What the largest job takes on so many threads: its runs stand side by side.
+    #[must_use]
+    pub fn memory(&self, threads: usize) -> Option<MemoryEstimate> {
+        let depth = Ppm::max_depth(&self.scene, &self.centre);
+        let estimate = |settings: &Settings| MemoryEstimate::pilot(&self.scene, settings, depth, threads);
+        let of_job = |job: &Job| {
+            let runs: Vec<MemoryEstimate> = job.settings(&self.centre).iter().map(estimate).collect();
+            MemoryEstimate::together(&runs)
+        };
+        let jobs = plan::jobs(&Configuration::of(&self.centre));
+        jobs.iter().filter_map(of_job).max_by(|a, b| a.peak_bytes().total_cmp(&b.peak_bytes()))
+    }
+
     /// Runs what is not finished yet, as far as the time goes, and writes tables and page. Meant for a pool of threads.
     ///
     /// # Errors

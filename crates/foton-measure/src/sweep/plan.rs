@@ -65,8 +65,8 @@ impl Configuration {
         if self.radius_scale != RadiusScale::default() {
             options += &format!(" --radius x{}", self.radius_scale);
         }
-        if self.radius_rule == RadiusRule::Global {
-            options += " --radius-rule global";
+        if self.radius_rule != RadiusRule::default() {
+            options += &format!(" --radius-rule {}", self.radius_rule.name());
         }
         if self.direct_light == DirectLight::ShadowRays {
             options += " --direct shadow-rays";
@@ -84,8 +84,10 @@ impl fmt::Display for Configuration {
             count(self.photons.get().into()),
             scale(self.radius_scale.get())
         )?;
-        if self.radius_rule == RadiusRule::Global {
-            write!(f, " shrinking globally")?;
+        match self.radius_rule {
+            RadiusRule::Local => {}
+            RadiusRule::Global => write!(f, " shrinking globally")?,
+            RadiusRule::Adaptive => write!(f, " adapting")?,
         }
         if self.direct_light == DirectLight::ShadowRays {
             write!(f, ", shadow rays")?;
@@ -122,6 +124,18 @@ pub(crate) fn count(n: u64) -> String {
 pub(crate) struct Job {
     pub(crate) photons: NonZeroU32,
     pub(crate) configurations: Vec<Configuration>,
+}
+
+impl Job {
+    /// Settings of its runs; after those of its configurations, where the centre is among them, the centre's with layers.
+    pub(crate) fn settings(&self, base: &Settings) -> Vec<Settings> {
+        let centre = Configuration::of(base);
+        let mut settings: Vec<Settings> = self.configurations.iter().map(|c| c.settings(base)).collect();
+        if self.configurations.contains(&centre) {
+            settings.push(Settings { layers: true, ..centre.settings(base) });
+        }
+        settings
+    }
 }
 
 /// All jobs, the centre's first, then the others by how far from it they are.
@@ -161,13 +175,7 @@ fn arms(centre: &Configuration) -> Vec<Configuration> {
         },
         ..*centre
     });
-    arms.push(Configuration {
-        radius_rule: match centre.radius_rule {
-            RadiusRule::Local => RadiusRule::Global,
-            RadiusRule::Global => RadiusRule::Local,
-        },
-        ..*centre
-    });
+    arms.extend(RadiusRule::ALL.map(|radius_rule| Configuration { radius_rule, ..*centre }));
     arms.retain(|arm| arm != centre);
     arms
 }
@@ -181,7 +189,7 @@ mod tests {
         let centre = Configuration::of(&Settings::default());
         let jobs = jobs(&centre);
         assert_eq!(jobs.len(), 9);
-        assert_eq!(jobs[0].configurations.len(), 7 + 4 + 2);
+        assert_eq!(jobs[0].configurations.len(), 7 + 4 + 3);
         assert_eq!(jobs[0].configurations.iter().filter(|c| **c == centre).count(), 1);
         assert!(jobs[1..].iter().all(|job| job.configurations.len() == 7));
         let mut photons: Vec<u32> = jobs.iter().map(|job| job.photons.get()).collect();

@@ -97,10 +97,7 @@ impl Runner<'_> {
         tell: &mut dyn FnMut(u64, u64),
     ) -> Result<Finished, Unfinished> {
         let is_central = job.configurations.contains(centre);
-        let mut settings: Vec<Settings> = job.configurations.iter().map(|c| c.settings(self.base)).collect();
-        if is_central {
-            settings.push(Settings { layers: true, ..centre.settings(self.base) });
-        }
+        let settings = job.settings(self.base);
         let mut finished = Finished::default();
         // Passes that are judged, and photons by then.
         let mut passes: Vec<(u64, u64)> = Vec::new();

@@ -162,10 +162,7 @@ pub(crate) fn summary(points: &[Point]) -> String {
 }
 
 fn configuration(c: &Configuration) -> String {
-    let rule = match c.radius_rule {
-        RadiusRule::Local => "local",
-        RadiusRule::Global => "global",
-    };
+    let rule = c.radius_rule.name();
     let direct = match c.direct_light {
         DirectLight::Photons => "photons",
         DirectLight::ShadowRays => "shadow-rays",
@@ -204,11 +201,7 @@ fn read_point(fields: &HashMap<&str, &str>) -> Option<Point> {
             alpha: Alpha::new(number("alpha")?)?,
             photons: NonZeroU32::new(u32::try_from(whole("photons_per_pass")?).ok()?)?,
             radius_scale: RadiusScale::new(number("radius_scale")?)?,
-            radius_rule: match *fields.get("radius_rule")? {
-                "local" => RadiusRule::Local,
-                "global" => RadiusRule::Global,
-                _ => return None,
-            },
+            radius_rule: RadiusRule::from_name(fields.get("radius_rule")?)?,
             direct_light: match *fields.get("direct")? {
                 "photons" => DirectLight::Photons,
                 "shadow-rays" => DirectLight::ShadowRays,

@@ -4,7 +4,7 @@ use std::num::NonZeroU32;
 use std::time::Duration;
 
 use foton_session::engine::{Command, Configuration, Gesture};
-use foton_session::{Alpha, Change, DirectLight, Settings, StopRule};
+use foton_session::{Alpha, Change, DirectLight, RadiusRule, Settings, StopRule};
 
 use super::{heading, slider};
 use crate::state::State;
@@ -100,6 +100,19 @@ fn anew(ui: &mut egui::Ui, state: &mut State, settings: &Settings, threads: Opti
         );
         ui.selectable_value(&mut draft.direct_light, DirectLight::ShadowRays, "shadow rays").on_hover_text(
             "A shadow ray from each hit point in each pass: sharp shadows at once, slower passes",
+        );
+    });
+    ui.horizontal(|ui| {
+        ui.label("Radii shrink");
+        let mut choice = |rule, name, help| {
+            ui.selectable_value(&mut draft.radius_rule, rule, name).on_hover_text(help);
+        };
+        choice(RadiusRule::Local, "each", "Each by the photons that it finds: fast where there is light");
+        choice(RadiusRule::Global, "together", "All by one factor, by the photons emitted");
+        choice(
+            RadiusRule::Adaptive,
+            "adaptive",
+            "Each as far as blur outweighs noise there; α says how fast where they are in balance",
         );
     });
     let mut samples = draft.samples_per_pixel.get();

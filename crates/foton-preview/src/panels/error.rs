@@ -14,6 +14,23 @@ const HELP: &str = "Root mean square error of the image over its mean reflected 
                     photons take away, blur what smaller radii do. Left out: what the eye samples miss, light that no photon has \
                     found, most of the blur right at edges";
 
+/// Names and remedies of the parts of the error.
+const CLASSES: [(&str, &str); 3] = [
+    (
+        "of it direct",
+        "What light straight from emitters has of the error (noise, blur). Direct light by shadow rays has no blur",
+    ),
+    (
+        "caustic",
+        "What light by mirrors and glass has of the error (noise, blur). Against its blur helps a smaller radius, against its noise \
+         more photons",
+    ),
+    (
+        "indirect",
+        "What light by surfaces that scatter has of the error (noise, blur). Against its noise help a larger radius and more passes",
+    ),
+];
+
 /// "3.1 %".
 fn percent(share: f64) -> String {
     let digits = if share < 0.1 { 2 } else { 1 };
@@ -39,9 +56,14 @@ pub(super) fn rows(state: &State) -> Vec<(&'static str, String, &'static str)> {
         (
             "from, to ",
             format!("{}, {}", percent(e.low), percent(e.high)),
-            "The error lies between these, nine times in ten",
+            "The error lies between these, nine times in ten; the upper end takes all blur to be that of edges, of which the \
+             estimate sees a half",
         ),
     ];
+    for ((name, help), part) in CLASSES.into_iter().zip(e.classes.iter().flatten()) {
+        let text = format!("{} ({}, {})", percent(part.total()), percent(part.noise), percent(part.bias));
+        rows.push((name, text, help));
+    }
     let goal = frame.stop.error.unwrap_or(USUAL_GOAL);
     if let Some(seconds) = seconds_to(&state.error, goal) {
         let text = format!("about {} to {}", duration(seconds), percent(goal));

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use foton_integrator::{DirectLight, Settings};
+use foton_integrator::{DirectLight, RadiusRule, Settings};
 
 use crate::edit::{DragMode, FieldId, Value};
 use crate::stop::StopRule;
@@ -21,6 +21,8 @@ pub enum Source {
 pub struct Configuration {
     /// First radius in world units; `None`: from the pixel's footprint.
     pub radius: Option<f64>,
+    /// How radii shrink.
+    pub radius_rule: RadiusRule,
     /// How direct light is estimated.
     pub direct_light: DirectLight,
     /// Eye samples a pixel.
@@ -43,6 +45,7 @@ impl Configuration {
     pub fn of(settings: &Settings, threads: Option<usize>) -> Self {
         Self {
             radius: settings.radius,
+            radius_rule: settings.radius_rule,
             direct_light: settings.direct_light,
             samples_per_pixel: settings.samples_per_pixel,
             seed: settings.seed,
@@ -56,6 +59,7 @@ impl Configuration {
     /// Settings with this configuration.
     pub(super) fn apply(&self, settings: &mut Settings) {
         settings.radius = self.radius;
+        settings.radius_rule = self.radius_rule;
         settings.direct_light = self.direct_light;
         settings.samples_per_pixel = self.samples_per_pixel;
         settings.seed = self.seed;

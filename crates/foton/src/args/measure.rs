@@ -7,7 +7,7 @@ use std::time::Duration;
 use clap::Args as ClapArgs;
 use foton_integrator::{Alpha, Settings};
 
-use super::{Direct, Radius, Size, alpha, define, duration, exr, radius};
+use super::{Direct, Radius, Rule, Size, alpha, define, duration, exr, radius};
 
 /// `foton measure`.
 #[derive(Debug, ClapArgs)]
@@ -35,6 +35,9 @@ pub(crate) struct Measure {
     /// First radius at the star's centre: in world units, or x0.5 for half of what the pixel's footprint gives
     #[arg(long, value_name = "R|xF", value_parser = radius)]
     pub(crate) radius: Option<Radius>,
+    /// How radii shrink at the star's centre
+    #[arg(long, value_name = "RULE", value_enum, default_value_t = Rule::Local)]
+    pub(crate) radius_rule: Rule,
     /// How light straight from emitters is estimated at the star's centre
     #[arg(long, value_name = "HOW", value_enum, default_value_t = Direct::Photons)]
     pub(crate) direct: Direct,

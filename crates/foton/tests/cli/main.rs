@@ -181,6 +181,9 @@ fn a_render_stops_at_the_error_asked_for_and_not_before_it_is_known() {
     assert!(events[0]["error"].is_null() && number(done, "error_high") <= 0.2, "{done}");
     assert!(number(&events[events.len() - 3], "error_high") > 0.2 || passes < 10.0, "{passes}");
     assert!(folder.exr("x.exr").1.get("foton:error").is_some_and(|e| e.contains("noise=")));
+    let part = |class: &str| number(&done["classes"][class], "error").powi(2);
+    let parts = part("direct") + part("caustic") + part("indirect");
+    assert!((parts.sqrt() / number(done, "error") - 1.0).abs() < 1e-6, "{done}");
 }
 
 #[test]

@@ -79,8 +79,8 @@ impl Report<'_> {
                 c.configuration.radius_rule != centre.radius_rule,
                 c.configuration.direct_light != centre.direct_light,
             ) {
-                (true, _) if c.configuration.radius_rule == RadiusRule::Global => "global",
-                (true, _) => "local radii",
+                (true, _) if c.configuration.radius_rule == RadiusRule::Local => "local radii",
+                (true, _) => c.configuration.radius_rule.name(),
                 (_, true) => direct_name(&c.configuration),
                 _ => "centre",
             };

@@ -19,7 +19,7 @@ use foton_session::engine::{
     Activity, Command, Configuration, Event, Frame, Numbers, Picture, SceneFacts, Selection, SensorFacts,
     Shown, Source,
 };
-use foton_session::{Alpha, Change, DirectLight, Ledger, Settings, StopRule};
+use foton_session::{Alpha, Change, DirectLight, Ledger, RadiusRule, Settings, StopRule};
 
 use crate::preferences::Preferences;
 use crate::state::State;
@@ -299,6 +299,9 @@ fn what_starts_anew_says_so_and_is_sent_once_it_is_let_go() {
     let shadow_rays = Configuration { direct_light: DirectLight::ShadowRays, ..now };
     assert_asked(&mut harness, &Command::Configure(shadow_rays));
     assert!(harness.state().messages.iter().any(|m| m.text.contains("Started anew")));
+    click(&mut harness, Role::Button, "adaptive");
+    let adaptive = Configuration { radius_rule: RadiusRule::Adaptive, ..now };
+    assert_asked(&mut harness, &Command::Configure(adaptive));
 
     // While a number is typed nothing starts; then once.
     type_into(&mut harness, "Seed", "12");

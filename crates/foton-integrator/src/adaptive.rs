@@ -1,0 +1,163 @@
+//! Radii that shrink where blur is what is wrong, and stay where it is noise: the adaptive rule, after `[KD13]`.
+//!
+//! Noise of variance V/(n r²) and blur B r² add least where blur² = noise²/2, so each hit point goes by the quotient
+//! R = blur²/(noise²/2) of what it has gathered so far. α stands for the odds of a photon being kept, α : 1 − α; here they are
+//! α : (1 − α) R, so that α is as meant where the two are in balance, nothing shrinks where there is no blur, and radii go to zero
+//! wherever there is some, since noise does.
+//!
+//! Blur is seen in two ways, each with its own noise taken off. The Laplacian's is that of the error estimate (`error/mod.rs`).
+//! Right on an edge of light both sides cancel in it, but the middle of the light is off the middle of the disc: by g of its
+//! radius, blur is about 6 g² of the light there (0.54 for 0.5 at a straight edge through the middle), and has the order of the
+//! Laplacian's where light is smooth.
+
+use std::f64::consts::PI;
+
+use crate::packet::{LANES, Packet};
+use crate::settings::Alpha;
+use crate::state::{Reader, StateError, Writer};
+
+/// Blur over light, per square of how far the light's middle is off.
+const OF_OFFSET: f64 = 6.0;
+
+/// How many times its own variance is taken off a square.
+const CAUTION: f64 = 2.0;
+
+/// R beyond which radii shrink no faster.
+const MOST: f64 = 10.0;
+
+/// Sums over the photons of a packet's lanes, of luminance Φ.
+pub(crate) struct Shape {
+    /// Σ Φ².
+    pub(crate) squares: [f32; LANES],
+    /// Σ Φ d, d from the photon to the hit point.
+    pub(crate) offset: [[f32; LANES]; 3],
+}
+
+impl Shape {
+    pub(crate) const NONE: Self = Self { squares: [0.0; LANES], offset: [[0.0; LANES]; 3] };
+}
+
+/// What a hit point knows of its light after all passes, each with its own radius.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Evidence {
+    /// Σ Φ/(π r²).
+    light: f64,
+    /// Σ (Φ/(π r²))²: the variance of that.
+    variance: f64,
+    /// Σ 6(s − ½) Φ/(π r²), s = d²/r².
+    laplacian: f64,
+    /// Σ Φ d/(π r³).
+    offset: [f64; 3],
+}
+
+impl Evidence {
+    /// Takes what a lane has found: `flux` is Σ Φ, `moment` Σ Φ d².
+    pub(crate) fn add(&mut self, packet: &Packet, lane: usize, (flux, moment): (f32, f32), shape: &Shape) {
+        let radius2 = f64::from(packet.radius2[lane]);
+        let per_area = 1.0 / (PI * radius2);
+        let (flux, moment) = (f64::from(flux), f64::from(moment));
+        self.light += flux * per_area;
+        self.variance += f64::from(shape.squares[lane]) * per_area * per_area;
+        self.laplacian += (6.0 * moment / radius2 - 3.0 * flux) * per_area;
+        let per_length = per_area / radius2.sqrt();
+        for (sum, offset) in self.offset.iter_mut().zip(&shape.offset) {
+            *sum += f64::from(offset[lane]) * per_length;
+        }
+    }
+
+    /// R: blur² over half the noise², at most [`MOST`]; 1 while nothing is known.
+    fn balance(&self) -> f64 {
+        if self.light <= 0.0 || self.variance <= 0.0 {
+            return 1.0;
+        }
+        // Over a disc 36 (s − ½)² is 3 on average, and d²/r² a half.
+        let laplacian2 = self.laplacian * self.laplacian - CAUTION * 3.0 * self.variance;
+        let offset2 = self.offset.iter().map(|o| o * o).sum::<f64>() - CAUTION * 0.5 * self.variance;
+        let at_edges = OF_OFFSET * offset2.max(0.0) / self.light;
+        let blur2 = laplacian2.max(0.0) + at_edges * at_edges;
+        // A quotient of what is no finite number is none; then the most is taken.
+        (blur2 / (0.5 * self.variance)).min(MOST)
+    }
+
+    /// The share of new photons to keep where blur and noise in balance ask for `alpha`.
+    pub(crate) fn alpha(&self, alpha: Alpha) -> Alpha {
+        let kept = alpha.get();
+        Alpha::new(kept / (kept + (1.0 - kept) * self.balance())).unwrap_or(alpha)
+    }
+
+    pub(crate) fn write(&self, out: &mut Writer) {
+        let Self { light, variance, laplacian, offset: [x, y, z] } = *self;
+        [light, variance, laplacian, x, y, z].into_iter().for_each(|n| out.f64(n));
+    }
+
+    pub(crate) fn read(input: &mut Reader<'_>) -> Result<Self, StateError> {
+        let mut next = || input.f64();
+        Ok(Self {
+            light: next()?,
+            variance: next()?,
+            laplacian: next()?,
+            offset: [next()?, next()?, next()?],
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a disc of radius 1 knows of `n` photons a unit of area, dimmed as `lit` says: laid out evenly, with the noise of random ones.
+    fn evidence(n: f64, lit: impl Fn(f64, f64) -> f64) -> Evidence {
+        const RINGS: i32 = 200;
+        let mut e = Evidence::default();
+        for (ring, turn) in (0..RINGS * RINGS).map(|i| (f64::from(i / RINGS), f64::from(i % RINGS))) {
+            let s = (ring + 0.5) / f64::from(RINGS);
+            let (y, x) = ((turn + 0.5) / f64::from(RINGS) * 2.0 * PI).sin_cos();
+            let (x, y) = (x * s.sqrt(), y * s.sqrt());
+            let light = lit(x, y) * n / f64::from(RINGS * RINGS);
+            e.light += light;
+            e.variance += light / PI;
+            e.laplacian += 6.0 * (s - 0.5) * light;
+            e.offset[0] += x * light;
+            e.offset[1] += y * light;
+        }
+        e
+    }
+
+    #[test]
+    fn uniform_light_keeps_its_radius_whatever_its_photons() {
+        for n in [1.0, 1e3, 1e9] {
+            assert_eq!(evidence(n, |_, _| 1.0).alpha(Alpha::default()).get(), 1.0);
+        }
+    }
+
+    #[test]
+    fn alpha_is_as_meant_where_blur_is_half_the_noise() {
+        // L = 1 + c(2s − 1) is 1 − c in the middle: blur c, of which its noise 3/(πn) is taken off twice.
+        let c = 0.1;
+        let evidence = |n: f64| evidence(n, |x, y| 1.0 + c * (2.0 * (x * x + y * y) - 1.0));
+        let n = (CAUTION * 3.0 + 0.5) / (PI * c * c);
+        assert!((evidence(n).balance() - 1.0).abs() < 0.02, "{}", evidence(n).balance());
+        assert!((evidence(n).alpha(Alpha::default()).get() - 2.0 / 3.0).abs() < 0.01);
+        assert_eq!(evidence(0.9 * CAUTION * 3.0 / (PI * c * c)).balance(), 0.0, "it may be noise");
+        assert_eq!(evidence(100.0 * n).balance(), MOST);
+    }
+
+    #[test]
+    fn edges_through_the_middle_are_seen_and_gentle_slopes_are_not() {
+        let edge = evidence(100.0, |x, _| f64::from(u8::from(x > 0.0)));
+        assert!(edge.laplacian.abs() < 1e-3 * edge.light, "both sides cancel");
+        assert_eq!(edge.balance(), MOST);
+        let slope = |n: f64| evidence(n, |x, _| 1.0 + 0.1 * x);
+        assert!(slope(1e3).balance() < 0.1);
+        assert_eq!(slope(1e9).balance(), MOST, "in the end all blur outweighs noise");
+    }
+
+    #[test]
+    fn without_light_or_with_numbers_that_are_none_alpha_is_a_share() {
+        let alpha = Alpha::default();
+        assert_eq!(Evidence::default().alpha(alpha), alpha);
+        let infinite = Evidence { variance: f64::INFINITY, light: f64::INFINITY, ..Evidence::default() };
+        assert!(infinite.alpha(alpha).get() > 0.0);
+        assert_eq!(evidence(1e6, |x, _| x + 1.0).alpha(Alpha::new(1.0).expect("in range")).get(), 1.0);
+    }
+}

@@ -1,0 +1,121 @@
+//! What direct, caustic and indirect light contribute to the error: passes ask about one class after the other, so that a hit
+//! point keeps a single number for it.
+//!
+//! **Noise.** Photons are independent, so those of a class add the sum of their squared contributions to the variance, up to
+//! what is common to all classes. A photon reaches all hit points of a pixel about alike, so their roots are added first.
+//! **Bias.** B = Σ B_c makes B² = Σ B B_c: a class's part is what its blur has in common with all of it. The mean over earlier
+//! passes times what this pass says of the class has no noise in its expectation.
+//!
+//! Both give shares of the figures for the whole image, whose squares then add up to the whole.
+
+use super::moments::Weights;
+use crate::photon::PathClass;
+
+const CLASSES: usize = PathClass::ALL.len();
+
+/// What a pass asks of each photon of one class.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Question {
+    pub(crate) class: usize,
+    /// About its noise; else about its blur.
+    pub(crate) noise: bool,
+}
+
+impl Question {
+    /// That of the pass after `passes` others: noise of the three classes, then blur. The first pass has no blur to compare with.
+    pub(crate) const fn after(passes: u64) -> Self {
+        let turn = (passes % (2 * CLASSES as u64)) as usize;
+        Self { class: turn % CLASSES, noise: turn < CLASSES }
+    }
+}
+
+/// A class's part of the error, relative to the mean reflected luminance of the whole image.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ClassError {
+    /// Its part of the noise.
+    pub noise: f64,
+    /// Its part of the blur.
+    pub bias: f64,
+}
+
+impl ClassError {
+    /// √(noise² + bias²).
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.noise.hypot(self.bias)
+    }
+}
+
+/// Answers so far, by class.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Classes {
+    /// Variance a photon of the last pass that asked, summed over pixels.
+    rates: [f64; CLASSES],
+    /// Σ over passes of photons times that rate: the variance of the image, times all photons squared.
+    noise: [f64; CLASSES],
+    /// Σ over pixels and passes of the blur so far times the class's.
+    bias: [f64; CLASSES],
+    /// Photons of the passes that asked for the bias.
+    asked: [f64; CLASSES],
+}
+
+impl Classes {
+    /// Takes the answer of a pass of `photons`, summed over pixels.
+    pub(super) fn add(&mut self, question: Question, answer: f64, photons: f64, before: f64) {
+        let class = question.class;
+        if question.noise {
+            let rate = answer / photons;
+            if self.rates[class] == 0.0 {
+                self.noise[class] = before * rate;
+            }
+            self.rates[class] = rate;
+        } else {
+            self.bias[class] += answer;
+            self.asked[class] += photons;
+        }
+        for (sum, rate) in self.noise.iter_mut().zip(self.rates) {
+            *sum += photons * rate;
+        }
+    }
+
+    /// Splits squares of noise and bias; `None` until each class has been asked for both. `variance` is the sum over pixels of
+    /// that of the image: what shadow rays add to it, if they do, is direct light's.
+    pub(super) fn split(
+        &self,
+        (noise2, bias2): (f64, f64),
+        shadow_rays: Option<f64>,
+        weights: &Weights,
+    ) -> Option<[ClassError; CLASSES]> {
+        if self.asked.contains(&0.0) {
+            return None;
+        }
+        let mut noise = self.noise;
+        if let Some(variance) = shadow_rays {
+            let photons: f64 = noise.iter().sum();
+            noise[PathClass::Direct as usize] =
+                (variance * weights.photons * weights.photons - photons).max(0.0);
+        }
+        let rates = [0, 1, 2].map(|c| (self.bias[c] / self.asked[c]).max(0.0));
+        let (noise, bias) = (shares(noise), shares(rates));
+        Some(
+            [0, 1, 2]
+                .map(|c| ClassError { noise: (noise2 * noise[c]).sqrt(), bias: (bias2 * bias[c]).sqrt() }),
+        )
+    }
+
+    pub(super) fn numbers(&self) -> [f64; 4 * CLASSES] {
+        let mut all = [self.rates, self.noise, self.bias, self.asked].into_iter().flatten();
+        [(); 4 * CLASSES].map(|()| all.next().unwrap_or(0.0))
+    }
+
+    pub(super) fn of(numbers: [f64; 4 * CLASSES]) -> Self {
+        let part = |i: usize| [0, 1, 2].map(|c| numbers[i * CLASSES + c]);
+        Self { rates: part(0), noise: part(1), bias: part(2), asked: part(3) }
+    }
+}
+
+/// Each over the sum of all; nothing where that is zero.
+fn shares(values: [f64; CLASSES]) -> [f64; CLASSES] {
+    let sum: f64 = values.iter().sum();
+    values.map(|v| if sum > 0.0 { v / sum } else { 0.0 })
+}

@@ -1,0 +1,145 @@
+//! Radii that adapt against every fixed α and first radius, at equal processor time.
+//!
+//! All renders of a scene share their photons and its truth; each is charged for the photons as if it had traced them alone. One
+//! thread, so that the time of a step is what the process took in it.
+
+use std::num::NonZeroU32;
+use std::sync::Arc;
+use std::time::Duration;
+
+use foton_integrator::{Alpha, Cancel, RadiusRule, RadiusScale, Settings, Step, Variants};
+use foton_measure::sweep::processor_time;
+use foton_scene::Scene;
+
+use crate::truth::{self, Truth};
+
+const ALPHAS: [f64; 6] = [0.5, 0.6, 2.0 / 3.0, 0.7, 0.8, 1.0];
+const SCALES: [f64; 5] = [0.5, 0.7, 1.0, 1.4, 2.0];
+const PHOTONS: u32 = 1 << 16;
+/// Passes after which renders are compared.
+const SHOWN: [u64; 3] = [4, 16, 64];
+
+/// Squared errors at a time: of all that is seen, of its smooth tiles, of the rest.
+#[derive(Clone, Copy, Default)]
+struct At {
+    seconds: f64,
+    squares: [f64; 3],
+}
+
+/// What a render came to, whenever its passes had doubled.
+type Course = Vec<At>;
+
+/// Prints the table, on one thread.
+pub(crate) fn print(named: &[&str], seeds: u64, truth_passes: u64) {
+    println!(
+        "| scene | passes | processor s | default % | best fixed % | which | adaptive % | over best fixed | smooth: best fixed, adaptive % | rest: best fixed, adaptive % |\n|---|---|---|---|---|---|---|---|---|---|"
+    );
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    for name in if named.is_empty() { crate::ASSETS.to_vec() } else { named.to_vec() } {
+        pool.install(|| rows(name, seeds, truth_passes));
+    }
+}
+
+fn rows(name: &str, seeds: u64, truth_passes: u64) {
+    let scene = truth::open(name);
+    let photons = NonZeroU32::new(PHOTONS).expect("above 0");
+    let base = Settings { first_pass: photons, ..truth::settings(PHOTONS, 1) };
+    let truth = Truth::render(&scene, &base, truth_passes);
+    let fixed: Vec<Settings> = SCALES
+        .iter()
+        .flat_map(|&scale| ALPHAS.map(|alpha| (alpha, scale)))
+        .map(|(alpha, scale)| Settings {
+            alpha: Alpha::new(alpha).expect("in range"),
+            radius_scale: RadiusScale::new(scale).expect("above 0"),
+            ..base.clone()
+        })
+        .collect();
+    let local = base.clone();
+    let adaptive = Settings { radius_rule: RadiusRule::Adaptive, ..base };
+    let all: Vec<Settings> = [adaptive, local].into_iter().chain(fixed).collect();
+    let courses = run(&scene, &all, &truth, seeds);
+    for (i, at) in courses[0].iter().enumerate().filter(|(i, _)| SHOWN.contains(&(1 << i))) {
+        let percent = |course: &Course, part: usize| 100.0 * error_at(course, at.seconds, part);
+        let (best, course) = courses[1..]
+            .iter()
+            .enumerate()
+            .min_by(|a, b| percent(a.1, 0).total_cmp(&percent(b.1, 0)))
+            .expect("some are fixed");
+        let settings = &all[1 + best];
+        let least = |part| courses[1..].iter().map(|c| percent(c, part)).fold(f64::INFINITY, f64::min);
+        println!(
+            "| {name} | {} | {:.2} | {:.2} | {:.2} | α {:.2}, × {} | {:.2} | {:.2} | {:.2}, {:.2} | {:.2}, {:.2} |",
+            1 << i,
+            at.seconds,
+            percent(&courses[1], 0),
+            percent(course, 0),
+            settings.alpha.get(),
+            settings.radius_scale.get(),
+            percent(&courses[0], 0),
+            percent(&courses[0], 0) / percent(course, 0),
+            least(1),
+            percent(&courses[0], 1),
+            least(2),
+            percent(&courses[0], 2),
+        );
+    }
+    eprintln!("{name}: noise of the truth {:.1} %", 100.0 * truth.noise());
+}
+
+/// All renders over the same photons, seed after seed.
+fn run(scene: &Arc<Scene>, all: &[Settings], truth: &Truth, seeds: u64) -> Vec<Course> {
+    let mut courses: Vec<Course> = vec![Vec::new(); all.len()];
+    let cancel = Cancel::default();
+    for seed in 0..seeds {
+        let mut clock = Clock { spent: vec![0.0; all.len()], last: (Step::Share, processor_time()) };
+        let runs = Variants::start(scene, all, seed + 1, &mut |step| clock.begin(step), &cancel);
+        let mut runs = runs.expect("not cancelled").expect("they share their photons");
+        clock.begin(Step::Share);
+        for pass in 1..=SHOWN[SHOWN.len() - 1] {
+            runs.advance(&mut |step| clock.begin(step), &cancel).expect("not cancelled");
+            clock.begin(Step::Share);
+            if !pass.is_power_of_two() {
+                continue;
+            }
+            for ((course, ppm), seconds) in courses.iter_mut().zip(runs.runs()).zip(&clock.spent) {
+                let i = pass.ilog2() as usize;
+                course.resize(course.len().max(i + 1), At::default());
+                let squares =
+                    truth.squares(&truth::reflected(ppm), &|tile| crate::is_smooth(tile, truth, ppm));
+                course[i].seconds += seconds / seeds as f64;
+                for (sum, square) in course[i].squares.iter_mut().zip(squares) {
+                    *sum += square / seeds as f64;
+                }
+            }
+        }
+    }
+    courses
+}
+
+/// The root mean square after some seconds: between two points of a course, and beyond its ends, a power of time.
+fn error_at(course: &Course, seconds: f64, part: usize) -> f64 {
+    let after = course.partition_point(|at| at.seconds < seconds).clamp(1, course.len() - 1);
+    let (a, b) = (&course[after - 1], &course[after]);
+    let log = |at: &At| at.squares[part].max(1e-12).ln();
+    let share = (seconds / a.seconds).ln() / (b.seconds / a.seconds).ln();
+    (0.5 * (log(a) + share * (log(b) - log(a)))).exp()
+}
+
+/// Processor seconds of each render.
+struct Clock {
+    spent: Vec<f64>,
+    last: (Step, Duration),
+}
+
+impl Clock {
+    fn begin(&mut self, step: Step) {
+        let now = processor_time();
+        let took = now.saturating_sub(self.last.1).as_secs_f64();
+        match self.last.0 {
+            Step::Trace => self.spent.iter_mut().for_each(|spent| *spent += took),
+            Step::Of(i, _) => self.spent[i] += took,
+            Step::Share => {}
+        }
+        self.last = (step, now);
+    }
+}
