@@ -19,10 +19,10 @@ pub(super) const LIST: &[Mutation] = &[
         test: "rays_off_triangles_do_not_meet_them",
     },
     Mutation {
-        what: "scenes are scaled by a power of two",
+        what: "scenes are scaled to one size",
         file: "crates/foton-scene/src/normalise.rs",
         from: "2f64.powi(HALF_SIZE_EXPONENT - half.log2().ceil() as i32)",
-        to: "2f64.powi(HALF_SIZE_EXPONENT) / half",
+        to: "2f64.powi(HALF_SIZE_EXPONENT)",
         target: GEOMETRY,
         test: "a_scene_scaled_by_a_power_of_two_has_the_same_hits_bit_for_bit",
     },
