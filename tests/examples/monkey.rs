@@ -20,7 +20,8 @@ const SPELLS: usize = 6;
 /// Passes of the picture that are waited for.
 const PASSES: u64 = 3;
 
-/// Memory after the last spell may be so much more than after the second.
+/// The mean of the later half of the spells may be so much more than that of the earlier: single ones scatter by a tenth, as the
+/// allocator keeps more or less.
 const GROWTH: f64 = 1.05;
 
 const KEYS: [&str; 26] = [
@@ -181,9 +182,10 @@ impl Monkey {
     }
 }
 
-/// Fails if memory has grown from the second spell to the last.
+/// Fails if memory has grown from the earlier half of the spells to the later.
 fn judge(memory: &[u64]) {
     let mib: Vec<f64> = memory.iter().map(|&bytes| bytes as f64 / f64::from(1 << 20)).collect();
     println!("memory after each spell, MiB: {mib:.1?}");
-    assert!(mib[SPELLS - 1] <= mib[1] * GROWTH, "memory has grown");
+    let [earlier, later] = [&mib[..SPELLS / 2], &mib[SPELLS / 2..]].map(|half| half.iter().sum::<f64>());
+    assert!(later <= earlier * GROWTH, "memory has grown");
 }

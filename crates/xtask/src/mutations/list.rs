@@ -43,22 +43,6 @@ pub(super) const LIST: &[Mutation] = &[
         test: "coordinates_are_finite",
     },
     Mutation {
-        what: "discs are met in double precision",
-        file: "crates/foton-scene/src/primitive.rs",
-        from: "let t = (centre - self.origin).dot(normal) / self.direction.dot(normal);",
-        to: "let t = f64::from((centre - self.origin).dot(normal) as f32 / self.ray.direction.dot(normal.as_vec3()));",
-        target: GEOMETRY,
-        test: "points_where_rays_meet_shapes_are_those_of_double_precision",
-    },
-    Mutation {
-        what: "skies are checked for NaN",
-        file: "crates/foton-scene/src/build/checks.rs",
-        from: "if !(scale.is_finite() && bitmap.pixels.iter().all(|p| p.is_finite())) {",
-        to: "if !scale.is_finite() {",
-        target: ANALYTIC,
-        test: "environments_with_a_pixel_that_is_not_a_number_are_refused_by_name",
-    },
-    Mutation {
         what: "N is double precision",
         file: "crates/foton-integrator/src/refine.rs",
         from: "self.kept = n + alpha * m;",
