@@ -5,6 +5,9 @@ use foton_math::warp;
 
 use super::{Path, WAVE};
 
+/// Rows are filled by so many at once, as far as there are photons.
+const AT_ONCE: usize = 16;
+
 /// Numbers that each edge of a path may draw, and that come before the first.
 const DIMENSIONS: u64 = 8;
 
@@ -47,7 +50,7 @@ impl Draws {
             y[i] = stream.next_1d();
             survival[i] = stream.next_1d();
         }
-        for i in 0..WAVE {
+        for i in 0..paths.len().next_multiple_of(AT_ONCE).min(WAVE) {
             let direction = warp::square_to_cosine_hemisphere(Vec2::new(x[i], y[i]));
             (dx[i], dy[i], dz[i]) = (direction.x, direction.y, direction.z);
         }
