@@ -1,29 +1,33 @@
 //! Whether the live error can be believed: estimated against true error, how often bounds of tiles hold, where `--error` stops,
 //! how fast noise and bias fall, and what radii that adapt are worth.
 //!
-//! `cargo run --release -p foton-tests --example calibrate` prints the table of docs/error.md and writes its plot; `stops`,
-//! `slopes` and `rules` print the others. Names of assets, `seeds=4` and `truth=64` (its passes) may be given. The truth has the same eye
-//! samples and photons of its own, a fifth of the first radius throughout, and direct light by shadow rays. Its noise, known
-//! from its passes, is taken off the squared error.
+//! `cargo run --release -p foton-tests --example calibrate` prints the tables of docs/error.md and writes its plot; `stops`,
+//! `slopes`, `rules` and `kernels` print the others. Names of assets, `seeds=4` and `truth=1024` (its passes) may be given. The
+//! truth has the same eye samples and photons of its own, small discs of two radii, and direct light by shadow rays.
 #![allow(clippy::print_stdout, reason = "a program that prints a table")]
 
+mod kernels;
 mod rules;
 mod stops;
 mod truth;
 
+use std::num::NonZeroU32;
 use std::path::Path;
 use std::sync::Arc;
 
-use foton_integrator::{LayerKind, Ppm, Settings};
+use foton_integrator::{Ppm, Settings, TileError};
 use foton_measure::plot::{Plot, Series, colour};
 use foton_scene::Scene;
 use foton_tests::slopes;
-use truth::{SIDE, TILE, Truth, open, settings};
+use truth::{TILE, Truth, open};
+
+/// Pixels along a side of what is judged.
+const SIDE: u32 = 128;
 
 const ASSETS: [&str; 7] =
     ["furnace", "cornell-diffuse", "cornell-spheres", "box-spheres", "ring", "glass-and-ring", "pool"];
 const CHECKPOINTS: [u64; 4] = [16, 32, 64, 128];
-const PHOTONS: u32 = 1 << 14;
+const PHOTONS: u32 = 1 << 16;
 /// Standard deviations of nominal 50, 90 and 99 % bounds.
 const Z: [f64; 3] = [0.674, 1.645, 2.576];
 
@@ -31,9 +35,22 @@ const Z: [f64; 3] = [0.674, 1.645, 2.576];
 struct Found {
     estimated: [f64; 3],
     truth: f64,
+    deviation: f64,
     is_within: bool,
     /// Tiles within each bound, and all, of smooth tiles and of others.
     covered: [([f64; 3], f64); 2],
+    /// Shares of the squared error of direct, caustic and indirect light, estimated and true.
+    classes: [[f64; 3]; 2],
+}
+
+/// One eye sample a pixel.
+fn settings(photons: u32, seed: u64) -> Settings {
+    Settings {
+        photons_per_pass: NonZeroU32::new(photons).expect("above 0"),
+        samples_per_pixel: NonZeroU32::MIN,
+        seed,
+        ..Settings::default()
+    }
 }
 
 fn main() {
@@ -41,10 +58,11 @@ fn main() {
     let number = |name: &str, default: u64| {
         arguments.iter().find_map(|a| a.strip_prefix(name)?.parse().ok()).unwrap_or(default)
     };
-    let (seeds, passes) = (number("seeds=", 4), number("truth=", 48));
+    let (seeds, passes) = (number("seeds=", 4), number("truth=", 1024));
     let mut named: Vec<&str> = arguments.iter().map(String::as_str).filter(|a| !a.contains('=')).collect();
     match named.first() {
         Some(&"stops") => stops::print(&named.split_off(1), 1, passes),
+        Some(&"kernels") => kernels::print(&named.split_off(1), seeds, passes),
         Some(&"rules") => rules::print(&named.split_off(1), number("seeds=", 2), passes),
         Some(&"slopes") => print_slopes(seeds.max(8)),
         _ => coverage(&named, seeds, passes),
@@ -76,15 +94,28 @@ fn coverage(named: &[&str], seeds: u64, passes: u64) {
     );
     println!("|---|---|---|---|---|---|---|---|");
     let mut plotted = Vec::new();
+    let mut classes = String::new();
     for name in if named.is_empty() { ASSETS.to_vec() } else { named.to_vec() } {
-        let scene = open(name);
+        let scene = open(name, SIDE);
         let runs: Vec<Vec<Found>> = (0..seeds).map(|seed| run(&scene, seed, passes)).collect();
         for (i, passes) in CHECKPOINTS.iter().enumerate() {
             row(name, *passes, &runs.iter().map(|run| &run[i]).collect::<Vec<_>>());
         }
+        let last: Vec<&Found> = runs.iter().filter_map(|run| run.last()).collect();
+        classes += &row_of_classes(name, &last);
         plotted.push((name, runs));
     }
+    println!("\n| scene | direct: estimated, true % | caustic | indirect |\n|---|---|---|---|\n{classes}");
     plot(&plotted);
+}
+
+/// Shares of the squared error after the last checkpoint.
+fn row_of_classes(name: &str, found: &[&Found]) -> String {
+    let mean = |which: usize, class: usize| {
+        100.0 * found.iter().map(|f| f.classes[which][class]).sum::<f64>() / found.len() as f64
+    };
+    let cells = [0, 1, 2].map(|class| format!(" {:.0}, {:.0} |", mean(0, class), mean(1, class)));
+    format!("| {name} |{}\n", cells.concat())
 }
 
 /// Estimated over true error, a marker a checkpoint: means over seeds.
@@ -121,8 +152,13 @@ fn plot(plotted: &[(&str, Vec<Vec<Found>>)]) {
 }
 
 fn run(scene: &Arc<Scene>, seed: u64, passes: u64) -> Vec<Found> {
-    let settings = Settings { error: true, ..settings(PHOTONS, seed) };
+    let settings = Settings { error: true, layers: true, ..settings(PHOTONS, seed) };
     let truth = Truth::render(scene, &settings, passes);
+    eprintln!(
+        "noise of the truth {:.1} %, smooth {:.0} %",
+        100.0 * truth.noise(),
+        100.0 * truth.smooth_share()
+    );
     let mut runs = truth::start(scene, settings, seed);
     let mut found = Vec::new();
     for pass in 1..=CHECKPOINTS[CHECKPOINTS.len() - 1] {
@@ -136,17 +172,17 @@ fn run(scene: &Arc<Scene>, seed: u64, passes: u64) -> Vec<Found> {
 
 fn judge(ppm: &Ppm, truth: &Truth) -> Found {
     let error = ppm.error().expect("passes and light");
-    let relative = truth.error(&truth::reflected(ppm));
+    let relative = truth.error(ppm);
     let mut covered = [([0.0; 3], 0.0); 2];
     for (i, (tile, (t, variance))) in ppm.error_tiles().iter().zip(&truth.tiles).enumerate() {
         if tile.pixels < (TILE * TILE) as u32 {
             continue;
         }
-        let kind = usize::from(!is_smooth(i, truth, ppm));
+        let kind = usize::from(!truth.is_smooth(i));
         // The truth's noise widens what is compared, not the error: the bound is widened by as much.
         let widened = |z: f64| {
             let noise = (tile.noise * tile.noise + variance).sqrt();
-            foton_integrator::TileError { noise, ..*tile }.bound(z)
+            TileError { noise, ..*tile }.bound(z)
         };
         let off = (tile.mean - t).abs();
         for (sum, z) in covered[kind].0.iter_mut().zip(Z) {
@@ -154,30 +190,15 @@ fn judge(ppm: &Ppm, truth: &Truth) -> Found {
         }
         covered[kind].1 += 1.0;
     }
+    let estimated = error.classes.expect("each was asked for").map(|c| (c.total() / error.total).powi(2));
     Found {
         estimated: [error.total, error.noise, error.bias],
-        truth: relative,
-        is_within: (error.low..=error.high).contains(&relative),
+        truth: relative.value,
+        deviation: relative.deviation,
+        is_within: (error.low..=error.high).contains(&relative.value),
         covered,
+        classes: [estimated, truth.class_shares(ppm)],
     }
-}
-
-/// A tile that sees one shape, and whose light differs from its neighbours' by less than a third.
-fn is_smooth(tile: usize, truth: &Truth, ppm: &Ppm) -> bool {
-    let across = SIDE as usize / TILE;
-    let (x, y) = ((tile % across) as i64, (tile / across) as i64);
-    let around = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (x + dx, y + dy)));
-    let mean = truth.tiles[tile].0;
-    let is_even = around
-        .filter(|(x, y)| (0..across as i64).contains(x) && (0..across as i64).contains(y))
-        .all(|(x, y)| (truth.tiles[y as usize * across + x as usize].0 / mean - 1.0).abs() < 1.0 / 3.0);
-    let shapes = match ppm.layer(LayerKind::ShapeId).map(|l| l.channels) {
-        Some(foton_film::LayerData::U32(plane)) => plane.values,
-        _ => return false,
-    };
-    let corner = y as usize * TILE * SIDE as usize + x as usize * TILE;
-    let pixels = (0..TILE).flat_map(|dy| (0..TILE).map(move |dx| corner + dy * SIDE as usize + dx));
-    is_even && pixels.into_iter().all(|p| shapes[p] == shapes[corner])
 }
 
 fn row(name: &str, passes: u64, found: &[&Found]) {
@@ -195,8 +216,9 @@ fn row(name: &str, passes: u64, found: &[&Found]) {
         format!("{:.0} {:.0} {:.0} (of {all})", share(0), share(1), share(2))
     };
     println!(
-        "| {name} | {passes} | {:.2} | {:.2} ({:.2}, {:.2}) | {:.2} ({least:.2}–{most:.2}) | {within}/{} | {} | {} |",
+        "| {name} | {passes} | {:.2} ± {:.2} | {:.2} ({:.2}, {:.2}) | {:.2} ({least:.2}–{most:.2}) | {within}/{} | {} | {} |",
         100.0 * mean(&|f| f.truth),
+        100.0 * mean(&|f| f.deviation) / n.sqrt(),
         100.0 * mean(&|f| f.estimated[0]),
         100.0 * mean(&|f| f.estimated[1]),
         100.0 * mean(&|f| f.estimated[2]),

@@ -15,6 +15,8 @@ use crate::truth::{self, Truth};
 
 const ALPHAS: [f64; 6] = [0.5, 0.6, 2.0 / 3.0, 0.7, 0.8, 1.0];
 const SCALES: [f64; 5] = [0.5, 0.7, 1.0, 1.4, 2.0];
+/// Pixels along a side.
+const SIDE: u32 = 64;
 const PHOTONS: u32 = 1 << 16;
 /// Passes after which renders are compared.
 const SHOWN: [u64; 3] = [4, 16, 64];
@@ -41,9 +43,9 @@ pub(crate) fn print(named: &[&str], seeds: u64, truth_passes: u64) {
 }
 
 fn rows(name: &str, seeds: u64, truth_passes: u64) {
-    let scene = truth::open(name);
+    let scene = truth::open(name, SIDE);
     let photons = NonZeroU32::new(PHOTONS).expect("above 0");
-    let base = Settings { first_pass: photons, ..truth::settings(PHOTONS, 1) };
+    let base = Settings { first_pass: photons, ..crate::settings(PHOTONS, 1) };
     let truth = Truth::render(&scene, &base, truth_passes);
     let fixed: Vec<Settings> = SCALES
         .iter()
@@ -104,8 +106,7 @@ fn run(scene: &Arc<Scene>, all: &[Settings], truth: &Truth, seeds: u64) -> Vec<C
             for ((course, ppm), seconds) in courses.iter_mut().zip(runs.runs()).zip(&clock.spent) {
                 let i = pass.ilog2() as usize;
                 course.resize(course.len().max(i + 1), At::default());
-                let squares =
-                    truth.squares(&truth::reflected(ppm), &|tile| crate::is_smooth(tile, truth, ppm));
+                let squares = truth.squares(&truth::reflected(ppm)).map(|known| known.value);
                 course[i].seconds += seconds / seeds as f64;
                 for (sum, square) in course[i].squares.iter_mut().zip(squares) {
                     *sum += square / seeds as f64;

@@ -9,10 +9,12 @@ use foton_session::StopRule;
 
 use crate::truth::{self, Truth};
 
-const SCENES: [&str; 5] = ["cornell-diffuse", "cornell-spheres", "furnace", "ring", "glass-and-ring"];
-const GOALS: [f64; 2] = [0.2, 0.1];
+/// Pixels along a side.
+const SIDE: u32 = 128;
+const SCENES: [&str; 6] = ["furnace", "cornell-diffuse", "cornell-spheres", "ring", "pool", "box-spheres"];
+const GOALS: [f64; 3] = [0.2, 0.15, 0.1];
 const PHOTONS: u32 = 1 << 16;
-const MOST_PASSES: u64 = 4000;
+const MOST_PASSES: u64 = 2000;
 /// Eye samples a pixel of the image that has none of the antialiasing error.
 const MANY_SAMPLES: NonZeroU32 = NonZeroU32::new(16).expect("above 0");
 
@@ -23,15 +25,15 @@ pub(crate) fn print(named: &[&str], seed: u64, passes: u64) {
     );
     println!("|---|---|---|---|---|---|---|");
     for name in if named.is_empty() { SCENES.to_vec() } else { named.to_vec() } {
-        rows(name, &truth::open(name), seed, passes);
+        rows(name, &truth::open(name, SIDE), seed, passes);
     }
 }
 
 fn rows(name: &str, scene: &Arc<Scene>, seed: u64, truth_passes: u64) {
-    let settings = Settings { error: true, ..truth::settings(PHOTONS, seed) };
+    let settings = Settings { error: true, ..crate::settings(PHOTONS, seed) };
     let same_eyes = Truth::render(scene, &settings, truth_passes);
     let other = Settings { samples_per_pixel: MANY_SAMPLES, seed: seed + 1000, ..settings };
-    let many_eyes = Truth::render(scene, &other, truth_passes / 2);
+    let many_eyes = Truth::render(scene, &other, truth_passes / 8);
     let mut runs = truth::start(scene, settings, seed);
     for goal in GOALS {
         let rule = StopRule { error: Some(goal), ..StopRule::default() };
@@ -46,24 +48,20 @@ fn rows(name: &str, scene: &Arc<Scene>, seed: u64, truth_passes: u64) {
         }
         let ppm = &runs.runs()[0];
         let Some(error) = ppm.error() else { continue };
-        let reflected = truth::reflected(ppm);
-        let (real, total) = (same_eyes.error(&reflected), many_eyes.error(&reflected));
+        let real = same_eyes.error(ppm);
+        let total = many_eyes.error(ppm).value;
         let never = if ppm.passes() >= MOST_PASSES { " (never stopped)" } else { "" };
         println!(
-            "| {name} | {:.0} | {}{never} | {:.1} ({:.1}–{:.1}) | {:.1} | {:.2} | {:.1} |",
+            "| {name} | {:.0} | {}{never} | {:.1} ({:.1}–{:.1}) | {:.1} ± {:.1} | {:.2} | {:.1} |",
             100.0 * goal,
             ppm.passes(),
             100.0 * error.total,
             100.0 * error.low,
             100.0 * error.high,
-            100.0 * real,
-            real / goal,
+            100.0 * real.value,
+            100.0 * real.deviation,
+            real.value / goal,
             100.0 * total,
         );
     }
-    eprintln!(
-        "{name}: noise of the truths {:.1}, {:.1} %",
-        100.0 * same_eyes.noise(),
-        100.0 * many_eyes.noise()
-    );
 }

@@ -1,52 +1,55 @@
-//! The converged image at some eye samples, by a run whose photons nobody else has.
+//! The converged image at some eye samples, by runs whose photons nobody else has.
+//!
+//! Two runs of their own photons, a and b: then (x − a)(x − b) has neither's noise in its mean, whatever that is. Each comes in
+//! discs of two radii, of which squares are extrapolated to none (`foton_measure::sweep::reference`).
 
-use std::num::NonZeroU32;
 use std::path::Path;
 use std::sync::Arc;
 
 use foton_format::Options;
-use foton_integrator::{Alpha, Cancel, DirectLight, LayerKind, Ppm, RadiusScale, Settings, Variants};
+use foton_integrator::{Cancel, LayerKind, Ppm, Settings, Variants};
+use foton_measure::sweep::reference::{OwnRun, Reference, luminance};
 use foton_scene::Scene;
 
-pub(crate) const SIDE: u32 = 64;
 pub(crate) const TILE: usize = 8;
 
-/// Photons a pass of the truth.
-const PHOTONS: u32 = 1 << 17;
 /// Its radius over the first radius of what is judged.
-const SCALE: f64 = 0.2;
+const SCALE: f64 = 0.07;
 /// Distance of its photons' seed from any other.
 const OTHER_PHOTONS: u64 = 1 << 32;
 
-/// Reflected luminance and the variance of that, by pixel; mean and variance by tile.
+/// What is true.
 pub(crate) struct Truth {
-    pub(crate) pixels: Vec<(f64, f64)>,
+    halves: [Reference; 2],
+    /// Mean and variance of the mean of each tile's luminance, reflected.
     pub(crate) tiles: Vec<(f64, f64)>,
-    /// Pixels that see something reflect.
-    pub(crate) seen: Vec<bool>,
-    /// Mean reflected luminance over those.
-    pub(crate) mean: f64,
+    width: usize,
 }
 
-/// An asset at [`SIDE`]² pixels.
-pub(crate) fn open(name: &str) -> Arc<Scene> {
+/// A figure and its standard deviation.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Known {
+    pub(crate) value: f64,
+    pub(crate) deviation: f64,
+}
+
+impl Known {
+    /// Of a mean square.
+    pub(crate) fn root(self) -> Self {
+        let value = self.value.max(0.0).sqrt();
+        Self { value, deviation: 0.5 * self.deviation / value.max(1e-12) }
+    }
+}
+
+/// An asset at `side`² pixels.
+pub(crate) fn open(name: &str, side: u32) -> Arc<Scene> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the repository");
     let path = root.join(format!("assets/{name}/scene.xml"));
     let mut description = foton_format::open(&path, &Options::default()).expect("an asset").description;
     for sensor in &mut description.sensors {
-        sensor.resize(SIDE, SIDE);
+        sensor.resize(side, side);
     }
     Arc::new(Scene::build(&description).expect("a sound asset"))
-}
-
-/// One eye sample a pixel.
-pub(crate) fn settings(photons: u32, seed: u64) -> Settings {
-    Settings {
-        photons_per_pass: NonZeroU32::new(photons).expect("above 0"),
-        samples_per_pixel: NonZeroU32::MIN,
-        seed,
-        ..Settings::default()
-    }
 }
 
 /// A run whose eye samples are of the settings' seed and whose photons are of another.
@@ -62,104 +65,132 @@ pub(crate) fn advance(runs: &mut Variants) {
 /// Luminance without what emitters themselves show.
 pub(crate) fn reflected(ppm: &Ppm) -> Vec<f64> {
     let emission = ppm.colour_layer(LayerKind::Emission).expect("always kept");
-    let image = ppm.image();
-    let pixels = image.pixels.iter().zip(&emission.pixels);
-    pixels.map(|(all, e)| f64::from(all.luminance()) - f64::from(e.luminance())).collect()
-}
-
-pub(crate) fn seen(ppm: &Ppm) -> Vec<bool> {
-    (0..(SIDE * SIDE) as usize).map(|p| !ppm.discs(p).is_empty()).collect()
+    luminance(&ppm.image()).iter().zip(luminance(&emission)).map(|(all, e)| all - e).collect()
 }
 
 impl Truth {
     /// Of the eye samples of `like`, by `passes` passes of small fixed radii, direct light by shadow rays.
     pub(crate) fn render(scene: &Arc<Scene>, like: &Settings, passes: u64) -> Self {
-        let photons = NonZeroU32::new(PHOTONS).expect("above 0");
-        let settings = Settings {
-            alpha: Alpha::new(1.0).expect("in range"),
-            radius_scale: RadiusScale::new(SCALE).expect("above 0"),
-            direct_light: DirectLight::ShadowRays,
-            photons_per_pass: photons,
-            first_pass: photons,
-            error: false,
-            ..like.clone()
-        };
-        let mut runs = start(scene, settings, like.seed + OTHER_PHOTONS);
-        let count = (SIDE * SIDE) as usize;
-        let mut pixels = vec![(0.0, 0.0); count];
-        let mut tiles = vec![(0.0, 0.0); (SIDE as usize / TILE).pow(2)];
-        for _ in 0..passes {
-            advance(&mut runs);
-            let pass: Vec<f64> =
-                runs.runs()[0].last_pass().pixels.iter().map(|p| f64::from(p.luminance())).collect();
-            add(&mut pixels, &pass);
-            add(&mut tiles, &tile_means(&pass));
+        let cancel = Cancel::default();
+        let width = scene.sensors()[like.sensor].width as usize;
+        let mut tiles = vec![(0.0, 0.0); (width / TILE).pow(2)];
+        let halves = [0, 1].map(|half| {
+            let photons = (SCALE, like.seed + (1 + half) * OTHER_PHOTONS);
+            let mut run = OwnRun::start(scene, like, photons, &cancel).expect("not cancelled");
+            for _ in 0..passes / 2 {
+                let [fine, wide] = run.advance(&cancel).expect("not cancelled");
+                let least_blurred: Vec<f64> = fine.iter().zip(wide).map(|(f, w)| 2.0 * f - w).collect();
+                for ((sum, squares), x) in tiles.iter_mut().zip(tile_means(&least_blurred, width)) {
+                    *sum += x;
+                    *squares += x * x;
+                }
+            }
+            run.conclude().expect("an asset has light")
+        });
+        let n = (passes / 2 * 2) as f64;
+        for (sum, squares) in &mut tiles {
+            *sum /= n;
+            *squares = ((*squares / n - *sum * *sum) / (n - 1.0)).max(0.0);
         }
-        conclude(&mut pixels, passes);
-        conclude(&mut tiles, passes);
-        let seen = seen(&runs.runs()[0]);
-        let lit: f64 = pixels.iter().zip(&seen).filter(|(_, s)| **s).map(|(p, _)| p.0).sum();
-        let mean = lit / seen.iter().filter(|s| **s).count() as f64;
-        Self { pixels, tiles, seen, mean }
+        Self { halves, tiles, width }
     }
 
-    /// Root mean square difference over what is seen, relative to the mean; the truth's own noise taken off.
-    pub(crate) fn error(&self, reflected: &[f64]) -> f64 {
-        self.squares(reflected, &|_| true)[0].max(0.0).sqrt()
+    /// Pixels away from edges of shapes and of light.
+    pub(crate) fn smooth(&self) -> &[bool] {
+        &self.halves[0].masks.smooth
     }
 
-    /// Mean square difference relative to the squared mean, the truth's own noise taken off: over all that is seen, over tiles that `picks`
-    /// picks, and over the others.
-    pub(crate) fn squares(&self, reflected: &[f64], picks: &dyn Fn(usize) -> bool) -> [f64; 3] {
-        let picked: Vec<bool> = (0..self.tiles.len()).map(picks).collect();
-        let (mut squares, mut counts) = ([0.0; 3], [0.0; 3]);
-        for (i, (x, (t, variance))) in
-            reflected.iter().zip(&self.pixels).enumerate().filter(|(i, _)| self.seen[*i])
-        {
-            let part = if picked[tile_of(i)] { 1 } else { 2 };
-            for part in [0, part] {
-                squares[part] += (x - t).powi(2) - variance;
+    fn seen(&self) -> &[bool] {
+        &self.halves[0].masks.seen
+    }
+
+    /// Share of the seen pixels that are smooth.
+    pub(crate) fn smooth_share(&self) -> f64 {
+        self.halves[0].masks.smooth_share()
+    }
+
+    /// Mean reflected luminance of the seen pixels.
+    pub(crate) fn mean(&self) -> f64 {
+        0.5 * (self.halves[0].mean + self.halves[1].mean)
+    }
+
+    /// Whether all of a tile is smooth.
+    pub(crate) fn is_smooth(&self, tile: usize) -> bool {
+        let across = self.width / TILE;
+        let corner = tile / across * TILE * self.width + tile % across * TILE;
+        (0..TILE * TILE).all(|i| self.smooth()[corner + i / TILE * self.width + i % TILE])
+    }
+
+    /// Root mean square difference over what is seen, relative to the mean.
+    pub(crate) fn error(&self, ppm: &Ppm) -> Known {
+        self.squares(&reflected(ppm))[0].root()
+    }
+
+    /// Mean square difference of reflected luminance relative to the squared mean: over all that is seen, over what is smooth of
+    /// it, and over the rest.
+    pub(crate) fn squares(&self, reflected: &[f64]) -> [Known; 3] {
+        let (mut squares, mut variances, mut counts) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+        for (pixel, x) in reflected.iter().enumerate().filter(|(pixel, _)| self.seen()[*pixel]) {
+            let [a, b] = [0, 1].map(|half| {
+                let reference = &self.halves[half];
+                let wide = reference.wide.as_ref().expect("a run of its own");
+                [&reference.fine, wide].map(|of| of.luminance[pixel] - reference.emission[pixel])
+            });
+            let product = |i: usize| (x - a[i]) * (x - b[i]);
+            let square = 2.0 * product(0) - product(1);
+            // A product of two halves, each off by its own noise, whose variance is v; doubled above.
+            let v = 0.5 * (a[0] - b[0]).powi(2);
+            let variance = 4.0 * (2.0 * product(0).max(0.0) * v + v * v);
+            for part in [0, if self.smooth()[pixel] { 1 } else { 2 }] {
+                squares[part] += square;
+                variances[part] += variance;
                 counts[part] += 1.0;
             }
         }
-        [0, 1, 2].map(|part| squares[part] / f64::max(counts[part], 1.0) / (self.mean * self.mean))
+        let scale = |part: usize| f64::max(counts[part], 1.0) * self.mean() * self.mean();
+        [0, 1, 2].map(|part| Known {
+            value: squares[part] / scale(part),
+            deviation: f64::sqrt(variances[part]) / scale(part),
+        })
+    }
+
+    /// What direct, caustic and indirect light have of the squared error: Σ (x − t)(x_c − t_c), each over their sum. `ppm` keeps
+    /// them apart.
+    pub(crate) fn class_shares(&self, ppm: &Ppm) -> [f64; 3] {
+        let image = reflected(ppm);
+        let kinds = [LayerKind::Direct, LayerKind::Caustic, LayerKind::Indirect];
+        let layers = kinds.map(|kind| luminance(&ppm.colour_layer(kind).expect("classes are kept apart")));
+        let of = |class: usize| -> f64 {
+            let pixels = (0..image.len()).filter(|pixel| self.seen()[*pixel]);
+            let off = |half: usize, pixel: usize| {
+                let half = &self.halves[half];
+                image[pixel] + half.emission[pixel] - half.fine.luminance[pixel]
+            };
+            let of_class = |half: usize, pixel: usize| {
+                let truth = &self.halves[half].classes.as_ref().expect("a run of its own")[class];
+                layers[class][pixel] - truth[pixel]
+            };
+            pixels.map(|p| off(0, p) * of_class(1, p) + off(1, p) * of_class(0, p)).sum()
+        };
+        let parts = [0, 1, 2].map(of);
+        parts.map(|part| part / parts.iter().sum::<f64>())
     }
 
     /// Its own noise, relative to the mean.
     pub(crate) fn noise(&self) -> f64 {
-        let picked = self.pixels.iter().zip(&self.seen).filter(|(_, s)| **s);
-        let (sum, count) = picked.fold((0.0, 0.0), |(s, n), ((_, v), _)| (s + v, n + 1.0));
-        (sum / count).sqrt() / self.mean
+        let [a, b] = &self.halves;
+        let difference = |pixel: usize| a.fine.luminance[pixel] - b.fine.luminance[pixel];
+        let pixels: Vec<usize> = (0..self.seen().len()).filter(|pixel| self.seen()[*pixel]).collect();
+        let squares: f64 = pixels.iter().map(|pixel| (0.5 * difference(*pixel)).powi(2)).sum();
+        (squares / pixels.len() as f64).sqrt() / self.mean()
     }
 }
 
-fn add(sums: &mut [(f64, f64)], pass: &[f64]) {
-    for ((sum, squares), x) in sums.iter_mut().zip(pass) {
-        *sum += x;
-        *squares += x * x;
-    }
-}
-
-/// From sums and squares of equal passes to their mean and its variance.
-fn conclude(sums: &mut [(f64, f64)], passes: u64) {
-    let n = passes as f64;
-    for (sum, squares) in sums {
-        *sum /= n;
-        *squares = ((*squares / n - *sum * *sum) / (n - 1.0)).max(0.0);
-    }
-}
-
-/// The tile of a pixel.
-const fn tile_of(pixel: usize) -> usize {
-    let width = SIDE as usize;
-    pixel / width / TILE * (width / TILE) + pixel % width / TILE
-}
-
-fn tile_means(pixels: &[f64]) -> Vec<f64> {
-    let across = SIDE as usize / TILE;
+fn tile_means(pixels: &[f64], width: usize) -> Vec<f64> {
+    let across = width / TILE;
     let mut tiles = vec![0.0; across * across];
     for (i, p) in pixels.iter().enumerate() {
-        tiles[tile_of(i)] += p / (TILE * TILE) as f64;
+        tiles[i / width / TILE * across + i % width / TILE] += p / (TILE * TILE) as f64;
     }
     tiles
 }

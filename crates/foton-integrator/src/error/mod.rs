@@ -261,6 +261,12 @@ impl ErrorSums {
         (variance.iter().map(|v| v.sqrt() as f32).collect(), (0..bias2.len()).map(smooth).collect())
     }
 
+    /// The estimated blur of each pixel.
+    fn blur(&self) -> Vec<f64> {
+        let photons = self.weights.photons.max(1.0);
+        self.pixels.iter().map(|pixel| pixel.bias / photons).collect()
+    }
+
     /// Bytes held.
     pub(crate) const fn bytes(&self) -> usize {
         Self::BYTES_PER_HIT_POINT * self.moment_slots.len()
@@ -285,6 +291,13 @@ impl Ppm {
     #[must_use]
     pub fn error_tiles(&self) -> Vec<TileError> {
         self.error_sums().map_or_else(Vec::new, ErrorSums::tiles)
+    }
+
+    /// What blur by the radius has added to each pixel's luminance, as estimated (W/m²/sr): with its sign, and √3 times as noisy as the
+    /// pixel. `None` without [`Settings::error`](crate::Settings::error).
+    #[must_use]
+    pub fn blur(&self) -> Option<Vec<f64>> {
+        Some(self.error_sums()?.blur())
     }
 
     /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`Settings::error`](crate::Settings::error).

@@ -10,8 +10,8 @@ use crate::{CompareError, Pair};
 /// How far one image is off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Judged {
-    /// Root mean square error of luminance over the mean reflected luminance, the reference's noise taken off: of all that is
-    /// seen, of its smooth part, of the rest.
+    /// Root mean square error of luminance over the mean reflected luminance, the reference's noise and blur taken off: of all
+    /// that is seen, of its smooth part, of the rest.
     pub(crate) error: [f64; 3],
     /// In units of radiance, over all pixels and channels.
     pub(crate) rmse: f64,
@@ -55,12 +55,12 @@ impl Sums {
         }
     }
 
-    /// bias² = mean((x̄ − y)²) − Var/K − Var y, relative to `scale`².
-    fn squares(&self, seeds: f64, mask: &[bool], reference_variance: &[f64], scale: f64) -> Squares {
+    /// bias² = mean((x̄ − y)²) − Var/K, relative to `scale`²; `square` is that of a pixel from its x̄ − y, without what is y's own.
+    fn squares(&self, seeds: f64, mask: &[bool], square: &dyn Fn(usize, f64) -> f64, scale: f64) -> Squares {
         let of = |(e, q): (&f64, &f64)| (q - e * e / seeds) / (seeds - 1.0);
         let variance = mean(mask, self.errors.iter().zip(&self.squares).map(of));
-        let off = mean(mask, self.errors.iter().map(|e| (e / seeds) * (e / seeds)));
-        let bias2 = off - variance / seeds - mean(mask, reference_variance.iter().copied());
+        let off = mean(mask, self.errors.iter().enumerate().map(|(pixel, e)| square(pixel, e / seeds)));
+        let bias2 = off - variance / seeds;
         Squares { variance: variance / (scale * scale), bias2: bias2 / (scale * scale) }
     }
 }
@@ -70,7 +70,6 @@ pub(crate) struct Judge {
     seeds: f64,
     whole: Sums,
     classes: Option<[Sums; 3]>,
-    reference: Vec<f64>,
 }
 
 impl Judge {
@@ -81,7 +80,6 @@ impl Judge {
             seeds: 0.0,
             whole: Sums::new(pixels),
             classes: by_class.then(|| CLASSES.map(|_| Sums::new(pixels))),
-            reference: luminance(&reference.image),
         }
     }
 
@@ -93,7 +91,7 @@ impl Judge {
         reference: &Reference,
     ) -> Result<Judged, CompareError> {
         let x = luminance(image);
-        self.whole.add(&x, &self.reference);
+        self.whole.add(&x, &reference.fine.luminance);
         self.seeds += 1.0;
         if let (Some(sums), Some(truth)) = (&mut self.classes, &reference.classes) {
             for ((sum, truth), kind) in sums.iter_mut().zip(truth).zip(CLASSES) {
@@ -104,9 +102,8 @@ impl Judge {
         }
         let pair = Pair::new(image, &reference.image)?;
         let error = reference.masks.all().map(|mask| {
-            let squares = x.iter().zip(&self.reference).map(|(x, y)| (x - y) * (x - y));
-            let noise = mean(mask, reference.variance.iter().copied());
-            (mean(mask, squares) - noise).max(0.0).sqrt() / reference.mean
+            let squares = x.iter().enumerate().map(|(pixel, x)| reference.square(pixel, *x));
+            mean(mask, squares).max(0.0).sqrt() / reference.mean
         });
         let (rmse, rel_mse) = (pair.rmse().all, pair.rel_mse().all);
         Ok(Judged { error, rmse, rel_mse, flip: pair.flip().mean })
@@ -114,15 +111,16 @@ impl Judge {
 
     /// What all seeds say.
     pub(crate) fn spread(&self, reference: &Reference) -> Spread {
-        let squares = |sums: &Sums, mask: &[bool], variance: &[f64]| {
-            sums.squares(self.seeds, mask, variance, reference.mean)
+        let whole = |pixel: usize, e: f64| reference.square(pixel, e + reference.fine.luminance[pixel]);
+        let squares = |sums: &Sums, mask: &[bool], square: &dyn Fn(usize, f64) -> f64| {
+            sums.squares(self.seeds, mask, square, reference.mean)
         };
-        let masks = reference.masks.all().map(|mask| squares(&self.whole, mask, &reference.variance));
-        // A class's share of the reference's noise is not known: it is left in.
-        let none = vec![0.0; reference.variance.len()];
+        let masks = reference.masks.all().map(|mask| squares(&self.whole, mask, &whole));
+        // A class's share of the reference's noise and blur is not known: it is left in.
+        let of_class = |_: usize, e: f64| e * e;
         let seen = &reference.masks.seen;
         let classes =
-            self.classes.as_ref().map(|all| [&all[0], &all[1], &all[2]].map(|s| squares(s, seen, &none)));
+            self.classes.as_ref().map(|all| [&all[0], &all[1], &all[2]].map(|s| squares(s, seen, &of_class)));
         Spread { masks, classes }
     }
 }
@@ -141,11 +139,11 @@ mod tests {
             sums.add(&[13.0 + off, 50.0], &[10.0, 50.0]);
         }
         let k = f64::from(seeds);
-        let got = sums.squares(k, &[true, false], &[0.0, 0.0], 10.0);
+        let got = sums.squares(k, &[true, false], &|_, e| e * e, 10.0);
         let variance = 4.0 * k / (k - 1.0);
         assert!((got.variance - variance / 100.0).abs() < 1e-12, "{got:?}");
         assert!((got.bias2 - (9.0 - variance / k) / 100.0).abs() < 1e-12, "{got:?}");
-        let noisy_truth = sums.squares(k, &[true, false], &[1.0, 0.0], 10.0);
+        let noisy_truth = sums.squares(k, &[true, false], &|_, e| e * e - 1.0, 10.0);
         assert!(
             (got.bias2 - noisy_truth.bias2 - 0.01).abs() < 1e-12,
             "the reference's own noise is taken off"

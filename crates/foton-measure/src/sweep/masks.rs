@@ -8,13 +8,13 @@ const SMOOTH: f64 = 0.25;
 
 /// Which pixels count. Fixed before anything is measured, by shapes and by the reference alone.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Masks {
+pub struct Masks {
     /// Sees something that reflects.
-    pub(crate) seen: Vec<bool>,
+    pub seen: Vec<bool>,
     /// Seen, of one shape for three pixels around, and among the smoother.
-    pub(crate) smooth: Vec<bool>,
+    pub smooth: Vec<bool>,
     /// Seen and not smooth.
-    pub(crate) edge: Vec<bool>,
+    pub edge: Vec<bool>,
 }
 
 impl Masks {
@@ -52,7 +52,8 @@ impl Masks {
     }
 
     /// Share of the seen pixels that are smooth.
-    pub(crate) fn smooth_share(&self) -> f64 {
+    #[must_use]
+    pub fn smooth_share(&self) -> f64 {
         let count = |mask: &[bool]| mask.iter().filter(|m| **m).count() as f64;
         count(&self.smooth) / count(&self.seen).max(1.0)
     }

@@ -10,7 +10,7 @@ mod judge;
 mod masks;
 mod page;
 mod plan;
-mod reference;
+pub mod reference;
 mod run;
 mod store;
 mod table;
@@ -26,6 +26,7 @@ use foton_scene::Scene;
 use thiserror::Error;
 
 pub use clock::processor_time;
+pub use masks::Masks;
 pub use plan::Configuration;
 
 use crate::CompareError;
@@ -307,7 +308,7 @@ impl Sweep {
         tell: &mut dyn FnMut(&Event),
     ) -> Result<Reference, SweepError> {
         if let Some((image, origin)) = &self.given {
-            let reference = Reference::new(eye, image.clone(), None, None, origin.clone());
+            let reference = Reference::new(eye, image.clone(), None, (None, None), origin.clone());
             return reference.ok_or(SweepError::Dark);
         }
         if let Some(found) = store.reference(eye)? {
@@ -335,7 +336,7 @@ impl Sweep {
     fn identity(&self) -> String {
         let s = &self.centre;
         let sensor = &self.scene.sensors()[s.sensor];
-        let reference = self.given.as_ref().map_or("its own", |(_, origin)| origin);
+        let reference = self.given.as_ref().map_or("its own, of two radii", |(_, origin)| origin);
         format!(
             "{} {:016x}, {} × {} pixels of \"{}\", {} eye samples, seed {}, depth {}, first radius {}, {} seeds, centre {}, reference {reference}, \
              foton {}",

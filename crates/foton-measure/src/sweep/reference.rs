@@ -5,13 +5,19 @@
 //! takes direct light by shadow rays. Its radius falls with its time as n^(−1/6), as a run's at α = 2/3 does: its noise and what is
 //! left of its blur stay in proportion. An image that is given has no noise of its own known, and differs by what few eye
 //! samples miss.
+//!
+//! **What is left of its blur.** Across an edge of light even a small disc blurs, over a width that goes with its radius r, and the
+//! squared difference from what is judged falls short by as much: by half of it where r is a fifth of the judged one's. So the
+//! same photons are gathered in discs of twice the radius too, and squares are extrapolated to none: 2 E²(r) − E²(2r).
 
 use std::num::NonZeroU32;
 use std::sync::Arc;
 use std::time::Duration;
 
 use foton_film::{Image, LayerData};
-use foton_integrator::{Alpha, Cancel, Cancelled, DirectLight, LayerKind, Ppm, RadiusScale, Settings};
+use foton_integrator::{
+    Alpha, Cancel, Cancelled, DirectLight, LayerKind, Ppm, RadiusScale, Settings, Variants,
+};
 use foton_scene::Scene;
 
 use super::masks::{self, Masks};
@@ -21,29 +27,56 @@ const FEWEST: u64 = 16;
 /// Photons a pass at most.
 const MOST_PHOTONS: NonZeroU32 = NonZeroU32::new(1 << 16).expect("above 0");
 /// Radius over the centre's first radius at `TIME` seconds of rendering.
-const SCALE: f64 = 0.25;
+const SCALE: f64 = 0.15;
 const TIME: f64 = 180.0;
 /// Path classes: direct, caustic, indirect.
-pub(crate) const CLASSES: [LayerKind; 3] = [LayerKind::Direct, LayerKind::Caustic, LayerKind::Indirect];
+pub const CLASSES: [LayerKind; 3] = [LayerKind::Direct, LayerKind::Caustic, LayerKind::Indirect];
 
 /// The truth as far as it is known.
-pub(crate) struct Reference {
-    pub(crate) image: Image,
+pub struct Reference {
+    /// Radiance.
+    pub image: Image,
     /// Luminance of direct, caustic and indirect light by pixel; none of an image that is given.
-    pub(crate) classes: Option<[Vec<f64>; 3]>,
-    /// Variance of luminance by pixel; zero where nothing is known.
-    pub(crate) variance: Vec<f64>,
-    pub(crate) masks: Masks,
+    pub classes: Option<[Vec<f64>; 3]>,
+    /// Luminance of `image` by pixel.
+    pub fine: Known,
+    /// The same photons in discs of twice the radius; none of an image that is given.
+    pub wide: Option<Known>,
+    /// Luminance by pixel that emitters themselves show.
+    pub emission: Vec<f64>,
+    /// Which pixels count.
+    pub masks: Masks,
     /// Mean reflected luminance of the seen pixels, which shares are relative to (W/m²/sr).
-    pub(crate) mean: f64,
+    pub mean: f64,
     /// In words.
-    pub(crate) origin: String,
+    pub origin: String,
+}
+
+/// Luminance by pixel and its variance, zero where nothing is known of that (W/m²/sr).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Known {
+    /// The mean.
+    pub luminance: Vec<f64>,
+    /// Its variance.
+    pub variance: Vec<f64>,
 }
 
 impl Reference {
     /// Root mean square noise over the seen pixels, relative to their mean.
-    pub(crate) fn noise(&self) -> f64 {
-        masks::mean(&self.masks.seen, self.variance.iter().copied()).sqrt() / self.mean
+    #[must_use]
+    pub fn noise(&self) -> f64 {
+        masks::mean(&self.masks.seen, self.fine.variance.iter().copied()).sqrt() / self.mean
+    }
+
+    /// The squared error of a pixel of luminance `x`: the reference's own noise taken off, its blur extrapolated to none. Only
+    /// means over pixels mean anything; by chance they too may be below zero.
+    #[must_use]
+    pub fn square(&self, pixel: usize, x: f64) -> f64 {
+        let square = |of: &Known| (x - of.luminance[pixel]).powi(2) - of.variance[pixel];
+        match &self.wide {
+            Some(wide) => 2.0 * square(&self.fine) - square(wide),
+            None => square(&self.fine),
+        }
     }
 
     /// Of an image with the pixels of `ppm`, which knows what is seen. `None` where nothing is, or all is dark.
@@ -51,22 +84,26 @@ impl Reference {
         ppm: &Ppm,
         image: Image,
         classes: Option<[Vec<f64>; 3]>,
-        variance: Option<Vec<f64>>,
+        (variance, wide): (Option<Vec<f64>>, Option<Known>),
         origin: String,
     ) -> Option<Self> {
         let emission = luminance(&ppm.colour_layer(LayerKind::Emission)?);
         let pixels = emission.len();
-        let reflected: Vec<f64> =
-            luminance(&image).iter().zip(&emission).map(|(l, e)| (l - e).max(0.0)).collect();
+        let of_image = luminance(&image);
+        let reflected =
+            |all: &[f64]| -> Vec<f64> { all.iter().zip(&emission).map(|(l, e)| (l - e).max(0.0)).collect() };
         let seen: Vec<bool> = (0..pixels).map(|p| !ppm.discs(p).is_empty()).collect();
         let shapes = match ppm.layer(LayerKind::ShapeId)?.channels {
             LayerData::U32(plane) => plane.values,
             LayerData::Rgb(_) | LayerData::F32(_) => return None,
         };
-        let masks = Masks::new(seen, &shapes, &reflected, image.width as usize);
-        let mean = masks::mean(&masks.seen, reflected.into_iter());
+        // The less noisy of the two says where light is smooth.
+        let calm = wide.as_ref().map_or(&of_image, |wide| &wide.luminance);
+        let masks = Masks::new(seen, &shapes, &reflected(calm), image.width as usize);
+        let mean = masks::mean(&masks.seen, reflected(&of_image).into_iter());
         let variance = variance.unwrap_or_else(|| vec![0.0; pixels]);
-        (mean > 0.0).then_some(Self { image, classes, variance, masks, mean, origin })
+        let fine = Known { luminance: of_image, variance };
+        (mean > 0.0).then_some(Self { image, classes, fine, wide, emission, masks, mean, origin })
     }
 
     /// A run of its own, until `is_enough` says so.
@@ -79,20 +116,8 @@ impl Reference {
         cancel: &Cancel,
     ) -> Result<Option<Self>, Cancelled> {
         let scale = SCALE * (time.as_secs_f64().max(1e-3) / TIME).powf(-1.0 / 6.0);
-        let scale = scale.min(1.0) * base.radius_scale.get();
-        let settings = Settings {
-            alpha: Alpha::new(1.0).unwrap_or_default(),
-            radius_scale: RadiusScale::new(scale).unwrap_or_default(),
-            // Equal passes, whose scatter is that of equals; many, since each has one shadow ray a hit point.
-            photons_per_pass: base.photons_per_pass.min(MOST_PHOTONS),
-            first_pass: base.photons_per_pass.min(MOST_PHOTONS),
-            direct_light: DirectLight::ShadowRays,
-            layers: true,
-            error: false,
-            ..base.clone()
-        };
-        let mut own = OwnRun::start(scene, settings, scale / base.radius_scale.get(), cancel)?;
-        while !(is_enough() && own.ppm.passes() >= FEWEST) {
+        let mut own = OwnRun::start(scene, base, (scale.min(0.5), base.seed), cancel)?;
+        while !(is_enough() && own.passes() >= FEWEST) {
             is_stopped()?;
             own.advance(cancel)?;
         }
@@ -100,50 +125,92 @@ impl Reference {
     }
 }
 
-/// A reference under way: Σ and Σ² of its passes' luminance.
-struct OwnRun {
-    ppm: Ppm,
-    sums: Vec<f64>,
-    squares: Vec<f64>,
+/// A reference under way.
+pub struct OwnRun {
+    runs: Variants,
+    /// Σ and Σ² of passes' luminance, fine and wide.
+    sums: [Known; 2],
     /// Radius over the centre's first.
     scale: f64,
 }
 
 impl OwnRun {
-    fn start(scene: &Arc<Scene>, settings: Settings, scale: f64, cancel: &Cancel) -> Result<Self, Cancelled> {
-        let ppm = Ppm::start(Arc::clone(scene), settings, &mut |_| (), cancel)?;
-        let zeros = vec![0.0; ppm.image().pixels.len()];
-        Ok(Self { ppm, sums: zeros.clone(), squares: zeros, scale })
+    /// With the eye samples of `base`, radii of `scale` times its first, and photons of the seed `photons`.
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub fn start(
+        scene: &Arc<Scene>,
+        base: &Settings,
+        (scale, photons): (f64, u64),
+        cancel: &Cancel,
+    ) -> Result<Self, Cancelled> {
+        let photons_per_pass = base.photons_per_pass.min(MOST_PHOTONS);
+        let of_radius = |scale: f64, layers| Settings {
+            alpha: Alpha::new(1.0).unwrap_or_default(),
+            radius_scale: RadiusScale::new(scale * base.radius_scale.get()).unwrap_or_default(),
+            // Equal passes, whose scatter is that of equals; many, since each has one shadow ray a hit point.
+            photons_per_pass,
+            first_pass: photons_per_pass,
+            direct_light: DirectLight::ShadowRays,
+            layers,
+            error: false,
+            ..base.clone()
+        };
+        let settings = [of_radius(scale, true), of_radius(2.0 * scale, false)];
+        let runs = Variants::start(scene, &settings, photons, &mut |_| (), cancel)?.ok_or(Cancelled)?;
+        let zeros = vec![0.0; runs.runs()[0].image().pixels.len()];
+        let sums = Known { luminance: zeros.clone(), variance: zeros };
+        Ok(Self { runs, sums: [sums.clone(), sums], scale })
     }
 
-    fn advance(&mut self, cancel: &Cancel) -> Result<(), Cancelled> {
-        self.ppm.advance(&mut |_| (), cancel)?;
-        for (i, pixel) in self.ppm.last_pass().pixels.iter().enumerate() {
-            let l = f64::from(pixel.luminance());
-            self.sums[i] += l;
-            self.squares[i] += l * l;
+    /// Passes so far.
+    #[must_use]
+    pub fn passes(&self) -> u64 {
+        self.runs.runs()[0].passes()
+    }
+
+    /// One more pass. Returns its own estimates of reflected luminance by pixel: in discs of the radius, and of twice that.
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub fn advance(&mut self, cancel: &Cancel) -> Result<[Vec<f64>; 2], Cancelled> {
+        self.runs.advance(&mut |_| (), cancel)?;
+        let passes = [0, 1].map(|i| luminance(&self.runs.runs()[i].last_pass()));
+        for (sums, pass) in self.sums.iter_mut().zip(&passes) {
+            for ((sum, square), l) in sums.luminance.iter_mut().zip(&mut sums.variance).zip(pass) {
+                *sum += l;
+                *square += l * l;
+            }
         }
-        Ok(())
+        Ok(passes)
     }
 
-    fn conclude(self) -> Option<Reference> {
-        let n = self.ppm.passes() as f64;
-        let of = |(s, q): (&f64, &f64)| ((q / n - (s / n) * (s / n)) / (n - 1.0)).max(0.0);
-        let variance = self.sums.iter().zip(&self.squares).map(of).collect();
-        let class = |kind| self.ppm.colour_layer(kind).map(|image| luminance(&image));
+    /// The reference; `None` where nothing is seen, or all is dark.
+    #[must_use]
+    pub fn conclude(&self) -> Option<Reference> {
+        let [fine, wide] = self.runs.runs() else { return None };
+        let n = fine.passes() as f64;
+        let variances = |sums: &Known| -> Vec<f64> {
+            let of = |(s, q): (&f64, &f64)| ((q / n - (s / n) * (s / n)) / (n - 1.0)).max(0.0);
+            sums.luminance.iter().zip(&sums.variance).map(of).collect()
+        };
+        let class = |kind| fine.colour_layer(kind).map(|image| luminance(&image));
         let [direct, caustic, indirect] = CLASSES.map(class);
         let classes = direct.zip(caustic).zip(indirect).map(|((d, c), i)| [d, c, i]);
         let origin = format!(
             "a run of its own of the same eye samples: the mean of {n} passes, {:.1} M photons, at radii fixed at {:.2} of the \
-             centre's first; direct light by shadow rays",
-            self.ppm.photons_emitted() as f64 / 1e6,
+             centre's first and at twice that, of which squared errors are extrapolated to none; direct light by shadow rays",
+            fine.photons_emitted() as f64 / 1e6,
             self.scale,
         );
-        Reference::new(&self.ppm, self.ppm.image(), classes, Some(variance), origin)
+        let wide = Known { luminance: luminance(&wide.image()), variance: variances(&self.sums[1]) };
+        Reference::new(fine, fine.image(), classes, (Some(variances(&self.sums[0])), Some(wide)), origin)
     }
 }
 
 /// Luminance by pixel.
-pub(crate) fn luminance(image: &Image) -> Vec<f64> {
+#[must_use]
+pub fn luminance(image: &Image) -> Vec<f64> {
     image.pixels.iter().map(|p| f64::from(p.luminance())).collect()
 }

@@ -9,7 +9,7 @@ use foton_integrator::Ppm;
 use foton_math::Rgb;
 
 use super::plan::Job;
-use super::reference::Reference;
+use super::reference::{Known, Reference};
 use super::run::Picture;
 use super::table::{self, Point};
 use super::{SweepError, io_error};
@@ -113,7 +113,7 @@ impl Store {
         let of = |pixel: &dyn Fn(usize) -> [f64; 3]| Image {
             width,
             height,
-            pixels: (0..reference.variance.len())
+            pixels: (0..reference.fine.variance.len())
                 .map(|p| Rgb::from_array(pixel(p).map(|v| v as f32)))
                 .collect(),
         };
@@ -121,7 +121,9 @@ impl Store {
             let image = of(&|p| [classes[0][p], classes[1][p], classes[2][p]]);
             write_exr(&self.path("reference-classes.exr"), &image, &[], &metadata)?;
         }
-        let image = of(&|p| [reference.variance[p]; 3]);
+        // Of the reference, of the one with twice its radius, and that one's luminance.
+        let Known { luminance, variance } = reference.wide.as_ref().unwrap_or(&reference.fine);
+        let image = of(&|p| [reference.fine.variance[p], variance[p], luminance[p]]);
         write_exr(&self.path("reference-variance.exr"), &image, &[], &metadata)?;
         // Last: where it is, all is.
         write_exr(&self.path("reference.exr"), &reference.image, &[], &metadata)?;
@@ -142,9 +144,10 @@ impl Store {
         let channel =
             |image: &Image, of: fn(&Rgb) -> f32| image.pixels.iter().map(|p| f64::from(of(p))).collect();
         let classes = [channel(&classes, |p| p.r), channel(&classes, |p| p.g), channel(&classes, |p| p.b)];
+        let wide = Known { luminance: channel(&variance, |p| p.b), variance: channel(&variance, |p| p.g) };
         let variance = channel(&variance, |p| p.r);
         let origin = metadata.get(ORIGIN).unwrap_or_default().to_owned();
-        Ok(Reference::new(eye, image, Some(classes), Some(variance), origin))
+        Ok(Reference::new(eye, image, Some(classes), (Some(variance), Some(wide)), origin))
     }
 
     /// Keeps pictures at equal times and maps of their errors, all on one scale.
