@@ -1,4 +1,5 @@
-//! A pass in batches is the same pass: counts and radii bit by bit, light to rounding, and the same bits on any number of threads.
+//! A pass in batches is the same pass: counts and radii bit by bit where radii go by counts, light (and radii that go by that) to
+//! rounding, and the same bits on any number of threads.
 
 use std::num::NonZeroU32;
 
@@ -8,7 +9,7 @@ use foton_math::Rgb;
 use super::{PassReport, Ppm};
 use crate::cancel::Cancel;
 use crate::layers::LayerKind;
-use crate::settings::{DirectLight, Settings};
+use crate::settings::{DirectLight, RadiusRule, Settings};
 use crate::stage::Stage;
 use crate::test_scene::scene;
 
@@ -45,7 +46,8 @@ fn state(ppm: &Ppm) -> (Vec<u8>, String) {
 
 #[test]
 fn a_pass_in_batches_is_the_pass_at_once() {
-    let (mut whole, mut parts) = (start(settings(), u64::MAX), start(settings(), MOST));
+    let local = || Settings { radius_rule: RadiusRule::Local, ..settings() };
+    let (mut whole, mut parts) = (start(local(), u64::MAX), start(local(), MOST));
     for _ in 0..4 {
         let (at_once, in_parts) = (advance(&mut whole), advance(&mut parts));
         assert_eq!(at_once, in_parts, "counted by the pass, not by the batch");
@@ -73,6 +75,25 @@ fn a_pass_in_batches_is_the_pass_at_once() {
     assert!((a.noise / b.noise - 1.0).abs() < 1e-4 && (a.bias / b.bias - 1.0).abs() < 1e-3, "{a:?} {b:?}");
     assert!((whole.ledger().absorbed / parts.ledger().absorbed - 1.0).abs() < 1e-12);
     assert_eq!(whole.ledger().imbalance().abs() < 1e-6, parts.ledger().imbalance().abs() < 1e-6);
+}
+
+#[test]
+fn radii_that_adapt_do_so_by_all_batches_of_a_pass() {
+    let (mut whole, mut parts) = (start(settings(), u64::MAX), start(settings(), MOST));
+    let mut radii = || {
+        advance(&mut whole);
+        advance(&mut parts);
+        [&whole, &parts].map(|ppm| match ppm.layer(LayerKind::Radius).expect("known").channels {
+            LayerData::F32(plane) => plane.values,
+            _ => panic!("radii are numbers"),
+        })
+    };
+    for _ in 0..2 {
+        let [at_once, in_parts] = radii();
+        for (a, b) in at_once.iter().zip(&in_parts) {
+            assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
+        }
+    }
 }
 
 #[test]
@@ -147,8 +168,8 @@ fn memory_does_not_grow_with_photons_beyond_a_batch() {
 fn batches_end_when_passes_are_small_again() {
     let mut ppm = start(settings(), MOST);
     advance(&mut ppm);
-    assert!(!ppm.count_slots.is_empty());
+    assert!(!ppm.kept.counts.is_empty());
     let ppm = &mut ppm.with_batches_of(u64::MAX);
     advance(ppm);
-    assert!(ppm.count_slots.capacity() == 0, "what one batch needs is no more than before");
+    assert!(ppm.kept.bytes() == 0, "what one batch needs is no more than before");
 }

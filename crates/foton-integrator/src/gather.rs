@@ -22,7 +22,7 @@ use crate::photon::Photon;
 use crate::photon_map::PhotonMap;
 use crate::photon_pass::SMALLEST_COSINE;
 use crate::settings::Alpha;
-use crate::slots::{Asked, Found, Slots};
+use crate::slots::{Asked, Found, Kept, Slots};
 
 /// A photon counts only where its surface faces about the same way: the cosine between the normals must exceed this.
 const SMALLEST_NORMAL_COSINE: f32 = 0.1;
@@ -81,7 +81,7 @@ impl AddAssign for Tally {
 /// hold the pass's estimates; before, they and the other slots hold sums.
 ///
 /// `LAYERS` is 3 to keep path classes apart, or 1. With `MOMENTS`, `moment_slots` get what the bias is estimated from, where
-/// there are any. There are `count_slots` where a pass has more than one batch.
+/// there are any. `kept` has room where a pass has more than one batch.
 pub(crate) fn all<const LAYERS: usize, const MOMENTS: u8>(
     hit_points: &mut HitPoints,
     map: &PhotonMap,
@@ -89,11 +89,11 @@ pub(crate) fn all<const LAYERS: usize, const MOMENTS: u8>(
     rule: Rule,
     irradiance_slots: &mut [Irradiance<LAYERS>],
     moment_slots: &mut [[f32; 2]],
-    count_slots: &mut [u64],
+    kept: &mut Kept,
 ) -> Tally {
     let blocks = hit_points.packets.len().div_ceil(BLOCK);
     let moments = by_block(moment_slots, blocks);
-    let counts = by_block(count_slots, blocks);
+    let (counts, shapes) = (by_block(&mut kept.counts, blocks), by_block(&mut kept.shapes, blocks));
     let evidence = by_block(&mut hit_points.evidence_slots, blocks);
     let shading = &hit_points.shading_normals;
     let (first_glossy, gloss_slots) = (hit_points.first_glossy, &hit_points.gloss_slots);
@@ -103,12 +103,12 @@ pub(crate) fn all<const LAYERS: usize, const MOMENTS: u8>(
         .zip(hit_points.statistics_slots.par_chunks_mut(BLOCK * LANES))
         .zip(irradiance_slots.par_chunks_mut(BLOCK * LANES))
         .zip(moments)
-        .zip(counts)
+        .zip(counts.into_par_iter().zip(shapes))
         .zip(evidence)
         .enumerate()
-        .map(|(block, (((((packets, statistics), irradiance), moments), counts), evidence))| {
+        .map(|(block, (((((packets, statistics), irradiance), moments), (counts, shapes)), evidence))| {
             let first = block * BLOCK;
-            let slots = Slots { statistics, irradiance, moments, counts, evidence };
+            let slots = Slots { statistics, irradiance, moments, counts, shapes, evidence };
             let block = Block { first, first_glossy, packets, slots, shading, gloss_slots };
             rule.arch.dispatch(Gather::<LAYERS, MOMENTS> { block, map, grid, rule })
         })
@@ -184,15 +184,15 @@ impl<const LAYERS: usize, const MOMENTS: u8> WithSimd for Gather<'_, LAYERS, MOM
                 }
             }
             let mut slots = slots.of_packet(i);
-            if MOMENTS >= ADAPTIVE {
-                found.add_evidence(packet, slots.evidence);
-            }
             if !rule.batch.is_first() {
                 slots.add_earlier(&mut found);
             }
             if !rule.batch.is_last() {
                 slots.keep(&found);
                 continue;
+            }
+            if MOMENTS >= ADAPTIVE {
+                found.add_evidence(packet, slots.evidence);
             }
             found.write_moments(packet, rule.question, slots.moments);
             conclude(packet, &found, slots, rule, &mut tally);

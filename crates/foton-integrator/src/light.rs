@@ -11,6 +11,7 @@ use crate::packet::LANES;
 use crate::photon::PathClass;
 use crate::photon_map::PhotonMap;
 use crate::radiance::Radiance;
+use crate::slots::Kept;
 use crate::state::{Reader, StateError, Writer};
 use crate::{direct_light, settings::Settings};
 
@@ -77,7 +78,7 @@ impl Light {
         grid: &Grid,
         rule: Rule,
         error: Option<&mut ErrorSums>,
-        counts: &mut [u64],
+        kept: &mut Kept,
     ) -> Tally {
         each!(self, s => {
             let irradiance = &mut s.irradiance_slots;
@@ -85,9 +86,9 @@ impl Light {
             let is_asked = error.is_some();
             let moments = error.map_or_else(Default::default, ErrorSums::moment_slots);
             match (adapts, is_asked) {
-                (true, _) => gather::all::<_, ADAPTIVE>(hit_points, map, grid, rule, irradiance, moments, counts),
-                (false, true) => gather::all::<_, ERROR>(hit_points, map, grid, rule, irradiance, moments, counts),
-                (false, false) => gather::all::<_, NO_MOMENTS>(hit_points, map, grid, rule, irradiance, moments, counts),
+                (true, _) => gather::all::<_, ADAPTIVE>(hit_points, map, grid, rule, irradiance, moments, kept),
+                (false, true) => gather::all::<_, ERROR>(hit_points, map, grid, rule, irradiance, moments, kept),
+                (false, false) => gather::all::<_, NO_MOMENTS>(hit_points, map, grid, rule, irradiance, moments, kept),
             }
         })
     }

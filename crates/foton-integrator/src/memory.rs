@@ -17,6 +17,7 @@ use crate::photon_map::PhotonMap;
 use crate::radiance::Radiance;
 use crate::refine::Statistics;
 use crate::settings::{DirectLight, RadiusRule, Settings};
+use crate::slots::Kept;
 
 /// Share of a packet's lanes that are used, measured on the shipped scenes: 0.8 to 0.95.
 const FILL: f64 = 0.8;
@@ -106,11 +107,12 @@ impl MemoryEstimate {
         let layers = if settings.layers { 3.0 } else { 1.0 };
         let shadow = settings.direct_light == DirectLight::ShadowRays;
         let shaded = scene.census().shading_normals;
+        let adapts = settings.radius_rule == RadiusRule::Adaptive;
         let slot = size_of::<Packet>() / LANES
             + size_of::<Statistics>()
             + if shadow { size_of::<ShadowOrigin>() } else { 0 }
             + if settings.error { ErrorSums::BYTES_PER_HIT_POINT } else { 0 }
-            + if settings.radius_rule == RadiusRule::Adaptive { size_of::<Evidence>() } else { 0 }
+            + if adapts { size_of::<Evidence>() } else { 0 }
             + if shaded { 3 * size_of::<f32>() } else { 0 };
         let slot = slot as f64 + layers * size_of::<Irradiance<1>>() as f64;
         let per_pixel =
@@ -120,7 +122,7 @@ impl MemoryEstimate {
         let pass = settings.photons_per_pass.get().into();
         let batches = Batch::all(pass, MOST_PHOTONS);
         let batch = batches.map(|b| b.photons(pass)).max().unwrap_or(0);
-        let slot = slot + if batch < pass { size_of::<u64>() as f64 } else { 0.0 };
+        let slot = slot + if batch < pass { Kept::bytes_per_slot(adapts) as f64 } else { 0.0 };
         Self {
             hit_points,
             pixels: pixels as f64,

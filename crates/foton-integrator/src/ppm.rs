@@ -23,6 +23,7 @@ use crate::photon_pass::{Chunk, PhotonPass};
 use crate::radius::FirstRadius;
 use crate::refine::Statistics;
 use crate::settings::{Change, DirectLight, RadiusRule, Settings};
+use crate::slots::Kept;
 use crate::stage::Stage;
 
 mod parts;
@@ -79,8 +80,7 @@ pub struct Ppm {
     marked_radius2: f64,
     chunks: Vec<Chunk>,
     map: PhotonMap,
-    /// See [`crate::slots::Slots::counts`].
-    count_slots: Vec<u64>,
+    kept: Kept,
     /// Photons of a batch at most: [`batch::MOST_PHOTONS`] but in tests.
     most_in_batch: u64,
     ledger: Ledger,
@@ -136,7 +136,7 @@ impl Ppm {
             marked_radius2: f64::INFINITY,
             chunks: Vec::new(),
             map: PhotonMap::default(),
-            count_slots: Vec::new(),
+            kept: Kept::default(),
             most_in_batch: batch::MOST_PHOTONS,
             ledger: Ledger::default(),
             lights,
@@ -174,12 +174,10 @@ impl Ppm {
     /// Makes ready for the batches of a pass.
     pub(crate) fn begin_pass(&mut self) -> Counts {
         let photons = u64::from(self.settings.photons_after(self.passes).get());
-        self.count_slots.clear();
-        if self.batches(photons).nth(1).is_some() {
-            self.count_slots.resize(self.hit_points.statistics_slots.len(), 0);
-        } else {
-            self.count_slots = Vec::new();
-        }
+        let slots = self.hit_points.statistics_slots.len();
+        let adapts = !self.hit_points.evidence_slots.is_empty();
+        let several = self.batches(photons).nth(1).is_some();
+        self.kept = if several { Kept::of(slots, adapts) } else { Kept::default() };
         Counts {
             ledger: self.ledger,
             lights: self.lights.clone(),
@@ -217,8 +215,8 @@ impl Ppm {
             question: Question::after(self.passes),
             arch: self.arch,
         };
-        let (error, found) = (self.error.as_mut(), &mut self.count_slots);
-        let tally = self.light.gather(&mut self.hit_points, &self.map, &self.grid, rule, error, found);
+        let (error, kept) = (self.error.as_mut(), &mut self.kept);
+        let tally = self.light.gather(&mut self.hit_points, &self.map, &self.grid, rule, error, kept);
         counts.add(&self.chunks, &tally);
         Ok(())
     }
@@ -406,7 +404,7 @@ impl Ppm {
             + self.error.as_ref().map_or(0, ErrorSums::bytes)
             + self.grid.bytes()
             + self.map.bytes()
-            + self.count_slots.capacity() * size_of::<u64>()
+            + self.kept.bytes()
             + self.chunks.iter().map(chunk).sum::<usize>()
             + self.shapes.len() * size_of::<u32>()
     }

@@ -1,4 +1,5 @@
 //! What a gather finds for a packet, and the slots it goes to: those of a pass's results, which hold sums between its batches.
+//! What radii go by is added with the last batch only: a pass that is cancelled between two has not happened.
 
 use std::f32::consts::PI;
 
@@ -72,9 +73,10 @@ impl<const LAYERS: usize> Found<LAYERS> {
         self.flux.iter().map(|f| Rgb::new(f[0][lane], f[1][lane], f[2][lane]).luminance()).sum()
     }
 
-    /// Adds what this batch has found to what radii go by.
+    /// Adds what the pass has found to what radii go by.
     pub(crate) fn add_evidence(&self, packet: &Packet, evidence: &mut [Evidence]) {
-        for (lane, evidence) in evidence.iter_mut().enumerate().filter(|(l, _)| self.count[*l] > 0) {
+        for (lane, evidence) in evidence.iter_mut().enumerate().filter(|(l, _)| self.shape.squares[*l] > 0.0)
+        {
             evidence.add(packet, lane, (self.luminance(lane), self.moment[lane]), &self.shape);
         }
     }
@@ -92,14 +94,41 @@ impl<const LAYERS: usize> Found<LAYERS> {
     }
 }
 
+/// What the batches of a pass leave for the last one beside what its results have room for, by slot; nothing where there is one.
+#[derive(Default)]
+pub(crate) struct Kept {
+    /// Photons found.
+    pub(crate) counts: Vec<u64>,
+    /// Where radii adapt: Σ Φ², Σ Φ d and Σ Φ d² (see [`Shape`]).
+    pub(crate) shapes: Vec<[f32; 5]>,
+}
+
+impl Kept {
+    /// Room for so many slots.
+    pub(crate) fn of(slots: usize, adapts: bool) -> Self {
+        Self { counts: vec![0; slots], shapes: vec![[0.0; 5]; if adapts { slots } else { 0 }] }
+    }
+
+    /// Bytes held.
+    pub(crate) const fn bytes(&self) -> usize {
+        self.counts.capacity() * size_of::<u64>() + self.shapes.capacity() * size_of::<[f32; 5]>()
+    }
+
+    /// Bytes held a slot.
+    pub(crate) const fn bytes_per_slot(adapts: bool) -> usize {
+        size_of::<u64>() + if adapts { size_of::<[f32; 5]>() } else { 0 }
+    }
+}
+
 /// What a gather fills, of some packets.
 pub(crate) struct Slots<'a, const LAYERS: usize> {
     pub(crate) statistics: &'a mut [Statistics],
     pub(crate) irradiance: &'a mut [Irradiance<LAYERS>],
     /// Empty unless the error is asked for.
     pub(crate) moments: &'a mut [[f32; 2]],
-    /// Photons that earlier batches found; empty where a pass is one batch.
+    /// Of [`Kept`].
     pub(crate) counts: &'a mut [u64],
+    pub(crate) shapes: &'a mut [[f32; 5]],
     /// Empty unless radii adapt.
     pub(crate) evidence: &'a mut [Evidence],
 }
@@ -113,6 +142,7 @@ impl<const LAYERS: usize> Slots<'_, LAYERS> {
             irradiance: &mut self.irradiance[lanes.clone()],
             moments: self.moments.get_mut(lanes.clone()).unwrap_or_default(),
             counts: self.counts.get_mut(lanes.clone()).unwrap_or_default(),
+            shapes: self.shapes.get_mut(lanes.clone()).unwrap_or_default(),
             evidence: self.evidence.get_mut(lanes).unwrap_or_default(),
         }
     }
@@ -130,6 +160,13 @@ impl<const LAYERS: usize> Slots<'_, LAYERS> {
             found.moment[l] += moment;
             found.answer[l] += answer;
         }
+        for (l, [squares, x, y, z, moment]) in self.shapes.iter().enumerate() {
+            found.shape.squares[l] += squares;
+            for (sums, earlier) in found.shape.offset.iter_mut().zip([x, y, z]) {
+                sums[l] += earlier;
+            }
+            found.moment[l] += if self.moments.is_empty() { *moment } else { 0.0 };
+        }
     }
 
     /// Keeps sums for the next batch: flux and moments that no area has divided yet.
@@ -142,6 +179,10 @@ impl<const LAYERS: usize> Slots<'_, LAYERS> {
         self.counts.iter_mut().zip(found.count).for_each(|(sum, count)| *sum += u64::from(count));
         for (l, moment) in self.moments.iter_mut().enumerate() {
             *moment = [found.moment[l], found.answer[l]];
+        }
+        for (l, shape) in self.shapes.iter_mut().enumerate() {
+            let [x, y, z] = [0, 1, 2].map(|axis| found.shape.offset[axis][l]);
+            *shape = [found.shape.squares[l], x, y, z, found.moment[l]];
         }
     }
 }

@@ -128,7 +128,7 @@ pub(crate) struct Render {
     #[arg(long, value_name = "R|xF", value_parser = radius)]
     pub(crate) radius: Option<Radius>,
     /// How radii shrink
-    #[arg(long, value_name = "RULE", value_enum, default_value_t = Rule::Local)]
+    #[arg(long, value_name = "RULE", value_enum, default_value_t = Settings::default().radius_rule.into())]
     pub(crate) radius_rule: Rule,
     /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = Settings::default().seed)]
@@ -262,6 +262,16 @@ impl From<Rule> for RadiusRule {
             Rule::Local => Self::Local,
             Rule::Global => Self::Global,
             Rule::Adaptive => Self::Adaptive,
+        }
+    }
+}
+
+impl From<RadiusRule> for Rule {
+    fn from(rule: RadiusRule) -> Self {
+        match rule {
+            RadiusRule::Local => Self::Local,
+            RadiusRule::Global => Self::Global,
+            RadiusRule::Adaptive => Self::Adaptive,
         }
     }
 }

@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use foton_integrator::{Cancel, RadiusScale, Settings, Variants};
+use foton_integrator::{Cancel, RadiusRule, RadiusScale, Settings, Variants};
 use foton_scene::Scene;
 
 use crate::truth::{self, Truth};
@@ -31,7 +31,8 @@ pub(crate) fn print(named: &[&str], seeds: u64, truth_passes: u64) {
 }
 
 fn rows(name: &str, scene: &Arc<Scene>, seeds: u64, truth_passes: u64) {
-    let base = Settings { error: true, ..crate::settings(PHOTONS, 1) };
+    // Radii that adapt go by the box's noise and blur, whatever the kernel.
+    let base = Settings { error: true, radius_rule: RadiusRule::Local, ..crate::settings(PHOTONS, 1) };
     let truth = Truth::render(scene, &base, truth_passes);
     let of_scale =
         |scale| Settings { radius_scale: RadiusScale::new(scale).expect("above 0"), ..base.clone() };

@@ -15,6 +15,9 @@ use crate::truth::{self, Truth};
 
 const ALPHAS: [f64; 6] = [0.5, 0.6, 2.0 / 3.0, 0.7, 0.8, 1.0];
 const SCALES: [f64; 5] = [0.5, 0.7, 1.0, 1.4, 2.0];
+/// Of radii that adapt: one or the other is not the default.
+const OTHER_ALPHAS: [f64; 3] = [0.5, 0.6, 0.8];
+const OTHER_SCALES: [f64; 4] = [0.5, 0.7, 1.4, 2.0];
 /// Pixels along a side.
 const SIDE: u32 = 64;
 const PHOTONS: u32 = 1 << 16;
@@ -34,7 +37,7 @@ type Course = Vec<At>;
 /// Prints the table, on one thread.
 pub(crate) fn print(named: &[&str], seeds: u64, truth_passes: u64) {
     println!(
-        "| scene | passes | processor s | default % | best fixed % | which | adaptive % | over best fixed | smooth: best fixed, adaptive % | rest: best fixed, adaptive % |\n|---|---|---|---|---|---|---|---|---|---|"
+        "| scene | passes | processor s | local % | best fixed % (which) | adaptive % | over best fixed | best adaptive % (which) | smooth: best fixed, adaptive % | rest: best fixed, adaptive % |\n|---|---|---|---|---|---|---|---|---|---|"
     );
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     for name in if named.is_empty() { crate::ASSETS.to_vec() } else { named.to_vec() } {
@@ -45,7 +48,8 @@ pub(crate) fn print(named: &[&str], seeds: u64, truth_passes: u64) {
 fn rows(name: &str, seeds: u64, truth_passes: u64) {
     let scene = truth::open(name, SIDE);
     let photons = NonZeroU32::new(PHOTONS).expect("above 0");
-    let base = Settings { first_pass: photons, ..crate::settings(PHOTONS, 1) };
+    let base =
+        Settings { first_pass: photons, radius_rule: RadiusRule::Local, ..crate::settings(PHOTONS, 1) };
     let truth = Truth::render(&scene, &base, truth_passes);
     let fixed: Vec<Settings> = SCALES
         .iter()
@@ -56,33 +60,44 @@ fn rows(name: &str, seeds: u64, truth_passes: u64) {
             ..base.clone()
         })
         .collect();
-    let local = base.clone();
-    let adaptive = Settings { radius_rule: RadiusRule::Adaptive, ..base };
-    let all: Vec<Settings> = [adaptive, local].into_iter().chain(fixed).collect();
+    let adaptive = |alpha: f64, scale: f64| Settings {
+        alpha: Alpha::new(alpha).expect("in range"),
+        radius_scale: RadiusScale::new(scale).expect("above 0"),
+        radius_rule: RadiusRule::Adaptive,
+        ..base.clone()
+    };
+    let central = Alpha::default().get();
+    let adaptive: Vec<Settings> = [adaptive(central, 1.0)]
+        .into_iter()
+        .chain(OTHER_ALPHAS.map(|alpha| adaptive(alpha, 1.0)))
+        .chain(OTHER_SCALES.map(|scale| adaptive(central, scale)))
+        .collect();
+    let adapting = adaptive.len();
+    let all: Vec<Settings> = adaptive.into_iter().chain([base.clone()]).chain(fixed).collect();
     let courses = run(&scene, &all, &truth, seeds);
     for (i, at) in courses[0].iter().enumerate().filter(|(i, _)| SHOWN.contains(&(1 << i))) {
-        let percent = |course: &Course, part: usize| 100.0 * error_at(course, at.seconds, part);
-        let (best, course) = courses[1..]
-            .iter()
-            .enumerate()
-            .min_by(|a, b| percent(a.1, 0).total_cmp(&percent(b.1, 0)))
-            .expect("some are fixed");
-        let settings = &all[1 + best];
-        let least = |part| courses[1..].iter().map(|c| percent(c, part)).fold(f64::INFINITY, f64::min);
+        let percent = |which: usize, part: usize| 100.0 * error_at(&courses[which], at.seconds, part);
+        let best = |of: std::ops::Range<usize>| {
+            of.min_by(|a, b| percent(*a, 0).total_cmp(&percent(*b, 0))).expect("some")
+        };
+        let (best_fixed, best_adaptive) = (best(adapting..all.len()), best(0..adapting));
+        let which = |i: usize| format!("α {:.2}, × {}", all[i].alpha.get(), all[i].radius_scale.get());
+        let least = |part| (adapting..all.len()).map(|i| percent(i, part)).fold(f64::INFINITY, f64::min);
         println!(
-            "| {name} | {} | {:.2} | {:.2} | {:.2} | α {:.2}, × {} | {:.2} | {:.2} | {:.2}, {:.2} | {:.2}, {:.2} |",
+            "| {name} | {} | {:.2} | {:.2} | {:.2} ({}) | {:.2} | {:.2} | {:.2} ({}) | {:.2}, {:.2} | {:.2}, {:.2} |",
             1 << i,
             at.seconds,
-            percent(&courses[1], 0),
-            percent(course, 0),
-            settings.alpha.get(),
-            settings.radius_scale.get(),
-            percent(&courses[0], 0),
-            percent(&courses[0], 0) / percent(course, 0),
+            percent(adapting, 0),
+            percent(best_fixed, 0),
+            which(best_fixed),
+            percent(0, 0),
+            percent(0, 0) / percent(best_fixed, 0),
+            percent(best_adaptive, 0),
+            which(best_adaptive),
             least(1),
-            percent(&courses[0], 1),
+            percent(0, 1),
             least(2),
-            percent(&courses[0], 2),
+            percent(0, 2),
         );
     }
     eprintln!("{name}: noise of the truth {:.1} %", 100.0 * truth.noise());

@@ -85,9 +85,9 @@ impl fmt::Display for Configuration {
             scale(self.radius_scale.get())
         )?;
         match self.radius_rule {
-            RadiusRule::Local => {}
-            RadiusRule::Global => write!(f, " shrinking globally")?,
-            RadiusRule::Adaptive => write!(f, " adapting")?,
+            RadiusRule::Local => write!(f, " shrinking each by its photons")?,
+            RadiusRule::Global => write!(f, " shrinking together")?,
+            RadiusRule::Adaptive => {}
         }
         if self.direct_light == DirectLight::ShadowRays {
             write!(f, ", shadow rays")?;

@@ -36,7 +36,7 @@ pub(crate) struct Measure {
     #[arg(long, value_name = "R|xF", value_parser = radius)]
     pub(crate) radius: Option<Radius>,
     /// How radii shrink at the star's centre
-    #[arg(long, value_name = "RULE", value_enum, default_value_t = Rule::Local)]
+    #[arg(long, value_name = "RULE", value_enum, default_value_t = Settings::default().radius_rule.into())]
     pub(crate) radius_rule: Rule,
     /// How light straight from emitters is estimated at the star's centre
     #[arg(long, value_name = "HOW", value_enum, default_value_t = Direct::Photons)]

@@ -79,8 +79,11 @@ impl Report<'_> {
                 c.configuration.radius_rule != centre.radius_rule,
                 c.configuration.direct_light != centre.direct_light,
             ) {
-                (true, _) if c.configuration.radius_rule == RadiusRule::Local => "local radii",
-                (true, _) => c.configuration.radius_rule.name(),
+                (true, _) => match c.configuration.radius_rule {
+                    RadiusRule::Local => "local radii",
+                    RadiusRule::Global => "global radii",
+                    RadiusRule::Adaptive => "adaptive radii",
+                },
                 (_, true) => direct_name(&c.configuration),
                 _ => "centre",
             };
