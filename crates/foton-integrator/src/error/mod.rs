@@ -30,7 +30,7 @@ use crate::ppm::Ppm;
 use crate::radiance::Radiance;
 use classes::Classes;
 use estimate::Sums;
-use moments::{Moments, Scatter, Weights};
+use moments::{Moments, Scatter, Shares, Weights};
 
 /// Pixels along the side of a tile.
 const TILE: usize = 8;
@@ -95,7 +95,7 @@ struct Addend {
 }
 
 impl<const LAYERS: usize> Pass<'_, LAYERS> {
-    fn addend(&self, pixel: usize, moment_slots: &[[f32; 2]], samples: f64) -> Addend {
+    fn addend(&self, pixel: usize, moment_slots: &[[f32; 2]], per_sample: f64) -> Addend {
         let hit_points = self.hit_points;
         let range = hit_points.pixel_start[pixel] as usize..hit_points.pixel_start[pixel + 1] as usize;
         let (mut bias, mut answer) = (0.0, 0.0);
@@ -111,11 +111,11 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
             }
         }
         let light: Rgb = self.radiance.last[pixel].iter().copied().sum();
-        answer /= samples;
+        answer *= per_sample;
         if self.question.noise {
             answer *= answer;
         }
-        Addend { light: f64::from(light.luminance()), bias: bias / samples, answer }
+        Addend { light: f64::from(light.luminance()), bias: bias * per_sample, answer }
     }
 
     /// Luminance per emitted photon that a pixel would gain if each of its hit points that know nothing found one.
@@ -165,6 +165,8 @@ impl ErrorSums {
         let before = self.weights.photons;
         self.weights.add(photons);
         let (width, samples, weights) = (self.width, self.samples, self.weights);
+        let shares = weights.shares();
+        let (per_sample, per_photon, per_earlier) = (1.0 / samples, 1.0 / photons, 1.0 / before);
         let moment_slots = &self.moment_slots;
         let bands = self.pixels.par_chunks_mut(TILE * width);
         let sums: Vec<Sums> = bands
@@ -178,14 +180,17 @@ impl ErrorSums {
                     if pass.hit_points.pixel_start[index] == pass.hit_points.pixel_start[index + 1] {
                         continue;
                     }
-                    let addend = pass.addend(index, moment_slots, samples);
-                    let answer =
-                        if pass.question.noise { addend.answer } else { pixel.bias / before * addend.answer };
+                    let addend = pass.addend(index, moment_slots, per_sample);
+                    let answer = if pass.question.noise {
+                        addend.answer
+                    } else {
+                        pixel.bias * per_earlier * addend.answer
+                    };
                     sums.answer += if answer.is_finite() { answer } else { 0.0 };
                     pixel.add(&addend, photons);
-                    let mean = pass.radiance.luminance_sum(index) / weights.photons;
-                    pixel.sum_up(mean, &weights, &mut sums);
-                    sums.deviation += (addend.light / photons - mean).powi(2);
+                    let mean = pass.radiance.luminance_sum(index) * shares.per_photon;
+                    pixel.sum_up(mean, &shares, &mut sums);
+                    sums.deviation += (addend.light * per_photon - mean).powi(2);
                     if mean <= 0.0 {
                         sums.unknown += 1.0;
                         sums.unknown2 += (pass.one_photon(index, samples) / weights.photons).powi(2);
@@ -239,13 +244,10 @@ impl ErrorSums {
     /// Standard deviation and bias of each pixel's luminance. The bias is a root mean square over the 5 × 5 pixels around it,
     /// since a single pixel's is hardly known.
     pub(crate) fn planes<const LAYERS: usize>(&self, radiance: &Radiance<LAYERS>) -> (Vec<f32>, Vec<f32>) {
+        let shares = self.weights.shares();
         let of = |(index, pixel): (usize, &Pixel)| {
             let mut sums = Sums::default();
-            pixel.sum_up(
-                radiance.luminance_sum(index) / self.weights.photons.max(1.0),
-                &self.weights,
-                &mut sums,
-            );
+            pixel.sum_up(radiance.luminance_sum(index) * shares.per_photon, &shares, &mut sums);
             (sums.variance, sums.bias2)
         };
         let (variance, bias2): (Vec<f64>, Vec<f64>) = self.pixels.iter().enumerate().map(of).unzip();
@@ -263,8 +265,8 @@ impl ErrorSums {
 
     /// The estimated blur of each pixel.
     fn blur(&self) -> Vec<f64> {
-        let photons = self.weights.photons.max(1.0);
-        self.pixels.iter().map(|pixel| pixel.bias / photons).collect()
+        let per_photon = self.weights.shares().per_photon;
+        self.pixels.iter().map(|pixel| pixel.bias * per_photon).collect()
     }
 
     /// Bytes held.
@@ -322,12 +324,12 @@ impl Pixel {
         self.bias_cross += (photons * addend.bias) as f32;
     }
 
-    fn sum_up(&self, mean: f64, weights: &Weights, sums: &mut Sums) {
-        let bias = self.bias / weights.photons.max(1.0);
-        let bias_variance = weights.variance(bias, f64::from(self.bias_squares), f64::from(self.bias_cross));
+    fn sum_up(&self, mean: f64, shares: &Shares, sums: &mut Sums) {
+        let bias = self.bias * shares.per_photon;
+        let bias_variance = shares.variance(bias, f64::from(self.bias_squares), f64::from(self.bias_cross));
         sums.seen += 1.0;
         sums.light += mean;
-        sums.variance += weights.variance(mean, self.squares, self.cross);
+        sums.variance += shares.variance(mean, self.squares, self.cross);
         sums.bias2 += bias * bias - bias_variance;
         sums.bias_variance += bias_variance;
     }

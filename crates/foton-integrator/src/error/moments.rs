@@ -31,17 +31,30 @@ impl Weights {
         self.squares / (self.photons * self.photons).max(f64::MIN_POSITIVE)
     }
 
+    /// What means and variances need of these weights, worked out once for all pixels: divisions were most of their time.
+    pub(crate) fn shares(&self) -> Shares {
+        let rest = 1.0 - self.concentration();
+        let scale = if rest > 0.0 { 1.0 / (self.photons * self.photons * rest) } else { 0.0 };
+        Shares { per_photon: 1.0 / self.photons.max(1.0), squares: self.squares, scale }
+    }
+}
+
+/// Of [`Weights`]: 1/N, Σ nⱼ², and 1/(N² (1 − Σ wⱼ²)), which is zero when there is one pass.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shares {
+    pub(crate) per_photon: f64,
+    squares: f64,
+    scale: f64,
+}
+
+impl Shares {
     /// Var L from Σ aⱼ² and Σ nⱼ aⱼ, where aⱼ = nⱼ xⱼ and L is the mean: Σ wⱼ² (xⱼ − L)² / (1 − Σ wⱼ²).
     ///
     /// Unbiased if Var xⱼ ∝ 1/nⱼ, which holds while radii stand still, and for equal passes whatever their variances are.
     /// Zero when there is one pass.
     pub(crate) fn variance(&self, mean: f64, squares: f64, cross: f64) -> f64 {
-        let rest = 1.0 - self.concentration();
-        if rest <= 0.0 {
-            return 0.0;
-        }
         let sum = squares - 2.0 * mean * cross + mean * mean * self.squares;
-        (sum / (self.photons * self.photons * rest)).max(0.0)
+        (sum * self.scale).max(0.0)
     }
 }
 
@@ -75,7 +88,7 @@ impl Moments {
     /// The mean and its variance.
     pub(crate) fn mean_and_variance(&self, weights: &Weights) -> (f64, f64) {
         let mean = self.sum / weights.photons.max(1.0);
-        (mean, weights.variance(mean, self.squares, self.cross))
+        (mean, weights.shares().variance(mean, self.squares, self.cross))
     }
 }
 
