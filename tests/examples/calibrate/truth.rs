@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use foton_format::Options;
 use foton_integrator::{Cancel, LayerKind, Ppm, Settings, Variants};
-use foton_measure::sweep::reference::{OwnRun, Reference, luminance};
+use foton_measure::sweep::reference::{OwnRun, Reference, extrapolated, luminance};
 use foton_scene::Scene;
 
 pub(crate) const TILE: usize = 8;
@@ -129,7 +129,7 @@ impl Truth {
     /// Mean square difference of reflected luminance relative to the squared mean: over all that is seen, over what is smooth of
     /// it, and over the rest.
     pub(crate) fn squares(&self, reflected: &[f64]) -> [Known; 3] {
-        let (mut squares, mut variances, mut counts) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+        let (mut squares, mut variances, mut counts) = ([[0.0; 2]; 3], [0.0; 3], [0.0; 3]);
         for (pixel, x) in reflected.iter().enumerate().filter(|(pixel, _)| self.seen()[*pixel]) {
             let [a, b] = [0, 1].map(|half| {
                 let reference = &self.halves[half];
@@ -137,19 +137,19 @@ impl Truth {
                 [&reference.fine, wide].map(|of| of.luminance[pixel] - reference.emission[pixel])
             });
             let product = |i: usize| (x - a[i]) * (x - b[i]);
-            let square = 2.0 * product(0) - product(1);
-            // A product of two halves, each off by its own noise, whose variance is v; doubled above.
+            // A product of two halves, each off by its own noise, whose variance is v; doubled where it is extrapolated.
             let v = 0.5 * (a[0] - b[0]).powi(2);
             let variance = 4.0 * (2.0 * product(0).max(0.0) * v + v * v);
             for part in [0, if self.smooth()[pixel] { 1 } else { 2 }] {
-                squares[part] += square;
+                squares[part][0] += product(0);
+                squares[part][1] += product(1);
                 variances[part] += variance;
                 counts[part] += 1.0;
             }
         }
         let scale = |part: usize| f64::max(counts[part], 1.0) * self.mean() * self.mean();
         [0, 1, 2].map(|part| Known {
-            value: squares[part] / scale(part),
+            value: extrapolated(squares[part][0], squares[part][1]) / scale(part),
             deviation: f64::sqrt(variances[part]) / scale(part),
         })
     }

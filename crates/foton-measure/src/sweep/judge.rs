@@ -55,12 +55,12 @@ impl Sums {
         }
     }
 
-    /// bias² = mean((x̄ − y)²) − Var/K, relative to `scale`²; `square` is that of a pixel from its x̄ − y, without what is y's own.
-    fn squares(&self, seeds: f64, mask: &[bool], square: &dyn Fn(usize, f64) -> f64, scale: f64) -> Squares {
+    /// bias² = mean((x̄ − y)²) − Var/K, relative to `scale`²; `off` says that mean from each pixel's x̄ − y.
+    fn squares(&self, seeds: f64, mask: &[bool], off: &dyn Fn(&[f64]) -> f64, scale: f64) -> Squares {
         let of = |(e, q): (&f64, &f64)| (q - e * e / seeds) / (seeds - 1.0);
         let variance = mean(mask, self.errors.iter().zip(&self.squares).map(of));
-        let off = mean(mask, self.errors.iter().enumerate().map(|(pixel, e)| square(pixel, e / seeds)));
-        let bias2 = off - variance / seeds;
+        let errors: Vec<f64> = self.errors.iter().map(|e| e / seeds).collect();
+        let bias2 = off(&errors) - variance / seeds;
         Squares { variance: variance / (scale * scale), bias2: bias2 / (scale * scale) }
     }
 }
@@ -101,26 +101,27 @@ impl Judge {
             }
         }
         let pair = Pair::new(image, &reference.image)?;
-        let error = reference.masks.all().map(|mask| {
-            let squares = x.iter().enumerate().map(|(pixel, x)| reference.square(pixel, *x));
-            mean(mask, squares).max(0.0).sqrt() / reference.mean
-        });
+        let error = reference
+            .masks
+            .all()
+            .map(|mask| reference.mean_square(mask, |pixel| x[pixel]).max(0.0).sqrt() / reference.mean);
         let (rmse, rel_mse) = (pair.rmse().all, pair.rel_mse().all);
         Ok(Judged { error, rmse, rel_mse, flip: pair.flip().mean })
     }
 
     /// What all seeds say.
     pub(crate) fn spread(&self, reference: &Reference) -> Spread {
-        let whole = |pixel: usize, e: f64| reference.square(pixel, e + reference.fine.luminance[pixel]);
-        let squares = |sums: &Sums, mask: &[bool], square: &dyn Fn(usize, f64) -> f64| {
-            sums.squares(self.seeds, mask, square, reference.mean)
-        };
-        let masks = reference.masks.all().map(|mask| squares(&self.whole, mask, &whole));
+        let y = &reference.fine.luminance;
+        let masks = reference.masks.all().map(|mask| {
+            let off = |errors: &[f64]| reference.mean_square(mask, |pixel| errors[pixel] + y[pixel]);
+            self.whole.squares(self.seeds, mask, &off, reference.mean)
+        });
         // A class's share of the reference's noise and blur is not known: it is left in.
-        let of_class = |_: usize, e: f64| e * e;
         let seen = &reference.masks.seen;
-        let classes =
-            self.classes.as_ref().map(|all| [&all[0], &all[1], &all[2]].map(|s| squares(s, seen, &of_class)));
+        let off = |errors: &[f64]| mean(seen, errors.iter().map(|e| e * e));
+        let classes = self.classes.as_ref().map(|all| {
+            [&all[0], &all[1], &all[2]].map(|sums| sums.squares(self.seeds, seen, &off, reference.mean))
+        });
         Spread { masks, classes }
     }
 }
@@ -139,11 +140,11 @@ mod tests {
             sums.add(&[13.0 + off, 50.0], &[10.0, 50.0]);
         }
         let k = f64::from(seeds);
-        let got = sums.squares(k, &[true, false], &|_, e| e * e, 10.0);
+        let got = sums.squares(k, &[true, false], &|e| e[0] * e[0], 10.0);
         let variance = 4.0 * k / (k - 1.0);
         assert!((got.variance - variance / 100.0).abs() < 1e-12, "{got:?}");
         assert!((got.bias2 - (9.0 - variance / k) / 100.0).abs() < 1e-12, "{got:?}");
-        let noisy_truth = sums.squares(k, &[true, false], &|_, e| e * e - 1.0, 10.0);
+        let noisy_truth = sums.squares(k, &[true, false], &|e| e[0] * e[0] - 1.0, 10.0);
         assert!(
             (got.bias2 - noisy_truth.bias2 - 0.01).abs() < 1e-12,
             "the reference's own noise is taken off"

@@ -8,7 +8,9 @@
 //!
 //! **What is left of its blur.** Across an edge of light even a small disc blurs, over a width that goes with its radius r, and the
 //! squared difference from what is judged falls short by as much: by half of it where r is a fifth of the judged one's. So the
-//! same photons are gathered in discs of twice the radius too, and squares are extrapolated to none: 2 E²(r) − E²(2r).
+//! same photons are gathered in discs of twice the radius too, and squares are extrapolated to none: 2 E²(r) − E²(2r). What is
+//! judged may be as sharp as the reference itself, in the focus of a caustic; then E²(2r) is the larger one, and E²(r) is all
+//! that can be said.
 
 use std::num::NonZeroU32;
 use std::sync::Arc;
@@ -68,15 +70,16 @@ impl Reference {
         masks::mean(&self.masks.seen, self.fine.variance.iter().copied()).sqrt() / self.mean
     }
 
-    /// The squared error of a pixel of luminance `x`: the reference's own noise taken off, its blur extrapolated to none. Only
-    /// means over pixels mean anything; by chance they too may be below zero.
+    /// The mean squared error over `mask` of pixels of the luminance that `x` says: the reference's own noise taken off, its blur
+    /// extrapolated to none. By chance it may be below zero.
     #[must_use]
-    pub fn square(&self, pixel: usize, x: f64) -> f64 {
-        let square = |of: &Known| (x - of.luminance[pixel]).powi(2) - of.variance[pixel];
-        match &self.wide {
-            Some(wide) => 2.0 * square(&self.fine) - square(wide),
-            None => square(&self.fine),
-        }
+    pub fn mean_square(&self, mask: &[bool], x: impl Fn(usize) -> f64) -> f64 {
+        let mean = |of: &Known| {
+            let square = |(pixel, (y, v)): (usize, (&f64, &f64))| (x(pixel) - y).powi(2) - v;
+            masks::mean(mask, of.luminance.iter().zip(&of.variance).enumerate().map(square))
+        };
+        let fine = mean(&self.fine);
+        self.wide.as_ref().map_or(fine, |wide| extrapolated(fine, mean(wide)))
     }
 
     /// Of an image with the pixels of `ppm`, which knows what is seen. `None` where nothing is, or all is dark.
@@ -123,6 +126,12 @@ impl Reference {
         }
         Ok(own.conclude())
     }
+}
+
+/// A mean square without what a reference's blur has taken from it, from those against it and against the one of twice its radius.
+#[must_use]
+pub fn extrapolated(fine: f64, wide: f64) -> f64 {
+    fine + (fine - wide).max(0.0)
 }
 
 /// A reference under way.
@@ -213,4 +222,33 @@ impl OwnRun {
 #[must_use]
 pub fn luminance(image: &Image) -> Vec<f64> {
     image.pixels.iter().map(|p| f64::from(p.luminance())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A share of a disc of radius 1 beyond a straight line at a distance from its middle: what an edge looks like through it.
+    fn beyond(x: f64) -> f64 {
+        let x = x.clamp(-1.0, 1.0);
+        (x.acos() - x * (1.0 - x * x).sqrt()) / std::f64::consts::PI
+    }
+
+    #[test]
+    fn an_edge_is_judged_as_against_one_that_nothing_blurs() {
+        let pixels: Vec<f64> = (0..4000).map(|i| (f64::from(i) - 1999.5) / 1000.0).collect();
+        let edge = |r: f64| pixels.iter().map(|x| beyond(x / r)).collect::<Vec<_>>();
+        let square = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
+        let judged = edge(1.0);
+        let truth = square(&judged, &edge(1e-9));
+        let (fine, wide) = (square(&judged, &edge(0.1)), square(&judged, &edge(0.2)));
+        assert!(fine < 0.85 * truth, "a tenth of the radius hides {}", 1.0 - fine / truth);
+        assert!(
+            (extrapolated(fine, wide) / truth - 1.0).abs() < 0.05,
+            "{}",
+            extrapolated(fine, wide) / truth
+        );
+        // As sharp as the reference: nothing is extrapolated.
+        assert_eq!(extrapolated(0.0, square(&edge(0.1), &edge(0.2))), 0.0);
+    }
 }
