@@ -23,7 +23,7 @@ const OF_OFFSET: f64 = 6.0;
 const CAUTION: f64 = 2.0;
 
 /// R beyond which radii shrink no faster.
-const MOST: f64 = 10.0;
+const MOST: f64 = 30.0;
 
 /// Sums over the photons of a packet's lanes, of luminance Φ.
 pub(crate) struct Shape {
