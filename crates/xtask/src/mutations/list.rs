@@ -43,6 +43,23 @@ pub(super) const LIST: &[Mutation] = &[
         test: "coordinates_are_finite",
     },
     Mutation {
+        what: "discs are met in double precision",
+        file: "crates/foton-scene/src/primitive.rs",
+        from: "let t = (centre - self.origin).dot(normal) / self.direction.dot(normal);",
+        to: "let t = f64::from((centre.as_vec3() - self.ray.origin).dot(normal.as_vec3()) \
+             / self.ray.direction.dot(normal.as_vec3()));",
+        target: GEOMETRY,
+        test: "a_disc_is_met_from_a_step_away_by_the_rays_that_come_to_it_and_by_no_others",
+    },
+    Mutation {
+        what: "points of discs seen edge-on are in double precision",
+        file: "crates/foton-scene/src/primitive.rs",
+        from: "let t = (centre - self.origin).dot(normal) / self.direction.dot(normal);",
+        to: "let t = (centre - self.origin).dot(normal) / f64::from(self.ray.direction.dot(normal.as_vec3()));",
+        target: GEOMETRY,
+        test: "a_disc_seen_edge_on_is_met_as_exactly_as_one_seen_from_above",
+    },
+    Mutation {
         what: "N is double precision",
         file: "crates/foton-integrator/src/refine.rs",
         from: "self.kept = n + alpha * m;",
@@ -81,6 +98,14 @@ pub(super) const LIST: &[Mutation] = &[
         to: "if power.r.is_nan() {",
         target: ANALYTIC,
         test: "photons_too_heavy_for_a_number_are_dropped_and_counted_at_their_light",
+    },
+    Mutation {
+        what: "what emitters and skies emit is finite",
+        file: "crates/foton-scene/src/build.rs",
+        from: "emitters.iter().find(|e| !e.is_finite())",
+        to: "emitters.iter().find(|_| false)",
+        target: ANALYTIC,
+        test: "environments_with_a_pixel_that_is_not_a_number_are_refused_by_name",
     },
     Mutation {
         what: "radii are cut to the scene",
