@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use super::*;
 
-fn interrupt(child: &Child) {
+pub(super) fn interrupt(child: &Child) {
     let status = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(status.expect("kill runs").success());
 }
