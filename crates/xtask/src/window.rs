@@ -1,4 +1,5 @@
-//! What needs the real window on a display that nobody sees: `cargo xtask monkey`, and pictures of it.
+//! What runs the built program from outside: `cargo xtask monkey` and pictures of the real window on a display that nobody sees, and
+//! `cargo xtask kills`.
 
 use std::path::{Path, PathBuf};
 
@@ -14,6 +15,18 @@ pub(crate) fn monkey(minutes: &str) -> Result<(), Trouble> {
     }
     tools::run(&mut tools::cargo(&["build", "--package", "foton"]))?;
     example("monkey", &foton("debug"), minutes.as_ref())
+}
+
+/// Renders that are killed, in the dev build.
+///
+/// # Errors
+/// What could not be built, or what the kills broke.
+pub(crate) fn kills(count: &str) -> Result<(), Trouble> {
+    if !count.parse::<u32>().is_ok_and(|n| n > 0) {
+        return Err(Trouble::Failed(format!("\"{count}\" is no number of kills")));
+    }
+    tools::run(&mut tools::cargo(&["build", "--package", "foton"]))?;
+    example("kills", &foton("debug"), count.as_ref())
 }
 
 /// Pictures of the window, drawn by the program at `foton`.
