@@ -1,5 +1,5 @@
 //! What runs the built program from outside: `cargo xtask monkey` and pictures of the real window on a display that nobody sees, and
-//! `cargo xtask kills`.
+//! `cargo xtask kills` and `limits`.
 
 use std::path::{Path, PathBuf};
 
@@ -27,6 +27,15 @@ pub(crate) fn kills(count: &str) -> Result<(), Trouble> {
     }
     tools::run(&mut tools::cargo(&["build", "--package", "foton"]))?;
     example("kills", &foton("debug"), count.as_ref())
+}
+
+/// Renders in as little memory as they say they need, by the release build.
+///
+/// # Errors
+/// What could not be built, or did not end.
+pub(crate) fn limits() -> Result<(), Trouble> {
+    tools::run(&mut tools::cargo(&["build", "--release", "--package", "foton"]))?;
+    example("limits", &foton("release"), "".as_ref())
 }
 
 /// Pictures of the window, drawn by the program at `foton`.
