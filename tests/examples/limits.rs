@@ -1,6 +1,6 @@
 //! Renders in as little memory as `--memory` accepts, under a hard limit from outside: whether what the estimate says is enough.
 //!
-//! `cargo xtask limits` runs it with the release build, and docs/robustness.md keeps its table. The system limits address space,
+//! `cargo xtask limits` runs it with the dev build, and docs/robustness.md keeps its table. The system limits address space,
 //! of which some is the program's file and its threads' stacks, whose pages are hardly ever touched, and which no estimate
 //! counts: see [`reserve`]. The C library is told to keep no heaps a thread, which would be mostly address space too.
 #![allow(clippy::print_stdout, reason = "a program that prints figures")]

@@ -17,7 +17,7 @@ pub(crate) fn monkey(minutes: &str) -> Result<(), Trouble> {
     example("monkey", &foton("debug"), minutes.as_ref())
 }
 
-/// Renders that are killed, in the dev build.
+/// Renders that are killed, in the dev build without the window.
 ///
 /// # Errors
 /// What could not be built, or what the kills broke.
@@ -25,17 +25,20 @@ pub(crate) fn kills(count: &str) -> Result<(), Trouble> {
     if !count.parse::<u32>().is_ok_and(|n| n > 0) {
         return Err(Trouble::Failed(format!("\"{count}\" is no number of kills")));
     }
-    tools::run(&mut tools::cargo(&["build", "--package", "foton"]))?;
-    example("kills", &foton("debug"), count.as_ref())
+    example("kills", &windowless()?, count.as_ref())
 }
 
-/// Renders in as little memory as they say they need, by the release build.
+/// Renders in as little memory as they say they need, in the dev build without the window.
 ///
 /// # Errors
 /// What could not be built, or did not end.
 pub(crate) fn limits() -> Result<(), Trouble> {
-    tools::run(&mut tools::cargo(&["build", "--release", "--package", "foton"]))?;
-    example("limits", &foton("release"), "".as_ref())
+    example("limits", &windowless()?, "".as_ref())
+}
+
+fn windowless() -> Result<PathBuf, Trouble> {
+    tools::run(&mut tools::cargo(&["build", "--package", "foton", "--no-default-features"]))?;
+    Ok(foton("debug"))
 }
 
 /// Pictures of the window, drawn by the program at `foton`.
