@@ -104,6 +104,8 @@ fn coordinates_are_finite() {
             let ray = Ray::new(DVec3::ZERO.as_vec3(), crate::direction(&mut stream));
             let hit = scene.nearest(ray).expect("it is closed");
             assert!(hit.shading_normal.is_normalized() && hit.normal.is_normalized(), "{hit:?}");
+            // One of the eight faces has that corner.
+            assert_eq!(hit.curved, ray.direction.min_element() < 0.0, "{hit:?}");
         }
     }
 }

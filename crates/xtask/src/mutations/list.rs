@@ -66,7 +66,7 @@ pub(super) const LIST: &[Mutation] = &[
         from: "f64::from(x0) * f64::from(y0) - f64::from(x1) * f64::from(y1)",
         to: "f64::from(x0 * y0 - x1 * y1)",
         target: GEOMETRY,
-        test: "no_ray_leaves_at_a_vertex_an_edge_or_a_diagonal",
+        test: "rays_that_start_in_the_edges_of_a_box_stay_inside",
     },
     Mutation {
         what: "normals without direction are none",
