@@ -60,7 +60,8 @@ impl Environment {
         environment
     }
 
-    /// ∫ L dω by four points to a pixel.
+    /// ∫ L dω by four points to a pixel. Each pixel has a weight above zero in it: one that is no number makes the whole none, by
+    /// which such a sky is refused.
     fn integral(&self) -> Rgb {
         let (width, height) = (2 * self.bitmap.width, 2 * self.bitmap.height);
         let step = 1.0 / Vec2::new(width as f32, height as f32);

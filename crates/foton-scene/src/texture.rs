@@ -112,6 +112,25 @@ mod tests {
         assert!((value(Wrap::Repeat, true, 0.0, 0.75) - 1.5).abs() < 1e-6);
     }
 
+    /// A mesh may have coordinates of 10³⁰⁰, a transform may magnify them, and between two infinities lies no number.
+    #[test]
+    fn coordinates_beyond_all_fractions_have_a_colour_all_the_same() {
+        let bitmap = Arc::new(Bitmap { width: 2, height: 2, pixels: vec![Rgb::splat(0.5); 4] });
+        for far in [1e13, -1e30, f32::MAX, f32::INFINITY, f32::NEG_INFINITY, f32::NAN] {
+            for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
+                for bilinear in [false, true] {
+                    let kind = TextureKind::Bitmap { bitmap: bitmap.clone(), wrap, bilinear };
+                    for uv in [Vec2::new(far, 0.3), Vec2::new(0.3, far), Vec2::splat(far)] {
+                        assert_eq!(sampler(kind.clone()).colour(uv), Rgb::splat(0.5), "{uv} {wrap:?}");
+                        let mut magnified = sampler(kind.clone());
+                        magnified.to_uv = DAffine2::from_scale((1e300, 1e300).into());
+                        assert_eq!(magnified.colour(uv), Rgb::splat(0.5), "{uv} {wrap:?}, magnified");
+                    }
+                }
+            }
+        }
+    }
+
     #[test]
     fn the_checkerboards_first_field_is_at_the_origin() {
         let s = sampler(TextureKind::Checkerboard { colours: [Rgb::BLACK, Rgb::WHITE] });

@@ -13,7 +13,7 @@
 //! let settings = foton_integrator::Settings::default();
 //! let interrupt = Interrupt::default();
 //! let mut session = Session::start(scene, settings, None, interrupt.cancel())?;
-//! session.run(&StopRule::passes(2), &interrupt, &mut |_| Ok::<_, foton_session::StartError>(()))?;
+//! session.run(&StopRule::passes(2), &interrupt, &mut |_| ());
 //! assert_eq!(session.ppm().image().pixels.len(), 64);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -126,33 +126,30 @@ impl Session {
         Ok(Self { ppm, pool, stages, elapsed: begin.elapsed(), rays: 0, panic: None })
     }
 
-    /// Runs passes until `rule` or `interrupt` says stop. `after_pass` sees each pass; its errors end the run, and its time
-    /// is not counted.
-    ///
-    /// # Errors
-    /// Those of `after_pass`.
-    pub fn run<E>(
+    /// Runs passes until `rule` or `interrupt` says stop. `after_pass` sees each pass, and its time is not counted. It cannot
+    /// end the run: a file that it fails to write is no reason to lose the passes.
+    pub fn run(
         &mut self,
         rule: &StopRule,
         interrupt: &Interrupt,
-        after_pass: &mut dyn FnMut(&Progress<'_>) -> Result<(), E>,
-    ) -> Result<StopCause, E> {
+        after_pass: &mut dyn FnMut(&Progress<'_>),
+    ) -> StopCause {
         let mut last = Duration::ZERO;
         loop {
             let passes = self.ppm.passes();
             if interrupt.is_requested() && passes > 0 {
-                return Ok(StopCause::Interrupted);
+                return StopCause::Interrupted;
             }
             if rule.is_reached(passes, self.elapsed, last, self.ppm.error().as_ref()) {
-                return Ok(StopCause::Rule);
+                return StopCause::Rule;
             }
             let before = self.elapsed;
             let report = self.advance(interrupt.cancel());
             last = self.elapsed - before;
             let report = match report {
                 Ok(report) => report,
-                Err(PassError::Cancelled(_)) => return Ok(StopCause::Interrupted),
-                Err(PassError::Panicked(_)) => return Ok(StopCause::Panicked),
+                Err(PassError::Cancelled(_)) => return StopCause::Interrupted,
+                Err(PassError::Panicked(_)) => return StopCause::Panicked,
             };
             after_pass(&Progress {
                 ppm: &self.ppm,
@@ -160,7 +157,7 @@ impl Session {
                 elapsed: self.elapsed,
                 rays: self.rays,
                 stages: &self.stages,
-            })?;
+            });
         }
     }
 

@@ -92,14 +92,16 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
         talk.pass(progress, &rule);
         if args.every.is_some_and(|e| e.is_due(progress.report.pass)) {
             let path = snapshot::numbered(path, progress.report.pass);
-            snapshot::write(&path, *format, progress.ppm, layers, &identity)?;
-            outputs.push(path.display().to_string());
+            match snapshot::write(&path, *format, progress.ppm, layers, &identity) {
+                Ok(()) => outputs.push(path.display().to_string()),
+                // The passes are still there for the next image.
+                Err(error) => talk.warning(&format!("an image on the way is missing: {error}")),
+            }
         }
         if keeper.is_due(progress.elapsed) {
             keeper.keep(progress.ppm, progress.elapsed, progress.rays, &identity, talk);
         }
-        Ok::<_, Failure>(())
-    })?;
+    });
     // After a fault hit points may be half-way between two passes: the last checkpoint is the one to go on from.
     if session.panic().is_none() {
         keeper.keep(session.ppm(), session.elapsed(), session.rays(), &identity, talk);
@@ -238,13 +240,24 @@ pub(crate) fn finish(
     if let Some(panic) = fault.filter(|p| !p.leaves_the_image_whole()) {
         return Err(Failure::Panicked { panic: panic.clone(), passes: None });
     }
+    // One that cannot be written does not keep the others from it.
+    let mut unwritten = None;
     for (path, format) in files {
-        snapshot::write(path, *format, session.ppm(), layers, identity)?;
-        outputs.push(path.display().to_string());
+        match snapshot::write(path, *format, session.ppm(), layers, identity) {
+            Ok(()) => outputs.push(path.display().to_string()),
+            Err(error) => {
+                if let Some(earlier) = unwritten.replace(error) {
+                    talk.warning(&earlier.to_string());
+                }
+            }
+        }
     }
     talk.check_ledger(session.ppm());
     talk.check_lights(session.ppm());
     talk.done(session, &outputs);
+    if let Some(error) = unwritten {
+        return Err(error.into());
+    }
     let passes = Some(session.ppm().passes());
     fault.map_or(Ok(()), |panic| Err(Failure::Panicked { panic: panic.clone(), passes }))
 }

@@ -45,9 +45,10 @@ pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failur
         talk.pass(progress, &rule);
         if !first_picture && progress.elapsed >= FIRST_PICTURE {
             first_picture = true;
-            snapshot::write(&png, Format::Png, progress.ppm, &[], &identity)?;
+            if let Err(error) = snapshot::write(&png, Format::Png, progress.ppm, &[], &identity) {
+                talk.warning(&format!("the first picture is missing: {error}"));
+            }
         }
-        Ok::<_, Failure>(())
-    })?;
+    });
     finish(&session, &[(png, Format::Png), (exr, Format::Exr)], &[], &identity, Vec::new(), talk)
 }

@@ -1,4 +1,5 @@
-//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `versus`, `assets`, `pictures`, `bench`, `monkey`, `soak`, `mutations`.
+//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `versus`, `assets`, `pictures`, `bench`, `monkey`, `soak`, `kills`,
+//! `limits`, `mutations`.
 //!
 //! Nothing here is part of the program; what a task does is in the module of its name.
 #![allow(clippy::print_stdout, reason = "these tasks talk to the person who started them")]
@@ -31,6 +32,8 @@ cargo xtask bench [WHAT]            how fast, on a quiet machine: whole (the ben
                                     wide, accuracy (error a processor second), census (what leaving parts out saves)
 cargo xtask monkey [--minutes N]    random clicks and keys in the window for N (10) minutes: no error, no memory that grows
 cargo xtask soak [MINUTES]          one small render for MINUTES (20): no memory that grows, no drift of the mean, no NaN
+cargo xtask kills [N]               kills N (200) renders at random moments: all checkpoints open, no file is half of one
+cargo xtask limits                  renders in as little memory as --memory accepts, under a hard limit of the system
 cargo xtask mutations [WORD]        takes protections out of a copy of the tree, one by one: does their test notice? (many minutes)";
 
 fn main() -> ExitCode {
@@ -56,6 +59,9 @@ fn main() -> ExitCode {
         ["pictures", "--window"] => pictures::of_window(),
         ["monkey"] => window::monkey("10"),
         ["monkey", "--minutes", minutes] => window::monkey(minutes),
+        ["kills"] => window::kills("200"),
+        ["kills", count] => window::kills(count),
+        ["limits"] => window::limits(),
         ["mutations"] => mutations::run(""),
         ["mutations", word] => mutations::run(word),
         ["soak", minutes @ ..] if minutes.len() <= 1 => tools::run(

@@ -1,4 +1,5 @@
-//! What needs the real window on a display that nobody sees: `cargo xtask monkey`, and pictures of it.
+//! What runs the built program from outside: `cargo xtask monkey` and pictures of the real window on a display that nobody sees, and
+//! `cargo xtask kills` and `limits`.
 
 use std::path::{Path, PathBuf};
 
@@ -14,6 +15,30 @@ pub(crate) fn monkey(minutes: &str) -> Result<(), Trouble> {
     }
     tools::run(&mut tools::cargo(&["build", "--package", "foton"]))?;
     example("monkey", &foton("debug"), minutes.as_ref())
+}
+
+/// Renders that are killed, in the dev build without the window.
+///
+/// # Errors
+/// What could not be built, or what the kills broke.
+pub(crate) fn kills(count: &str) -> Result<(), Trouble> {
+    if !count.parse::<u32>().is_ok_and(|n| n > 0) {
+        return Err(Trouble::Failed(format!("\"{count}\" is no number of kills")));
+    }
+    example("kills", &windowless()?, count.as_ref())
+}
+
+/// Renders in as little memory as they say they need, in the dev build without the window.
+///
+/// # Errors
+/// What could not be built, or did not end.
+pub(crate) fn limits() -> Result<(), Trouble> {
+    example("limits", &windowless()?, "".as_ref())
+}
+
+fn windowless() -> Result<PathBuf, Trouble> {
+    tools::run(&mut tools::cargo(&["build", "--package", "foton", "--no-default-features"]))?;
+    Ok(foton("debug"))
 }
 
 /// Pictures of the window, drawn by the program at `foton`.

@@ -142,21 +142,30 @@ fn one_texel_that_is_not_a_number_is_refused_by_name() {
     assert_eq!(stretched, Some(BuildError::BadTexture("brick".into())));
 }
 
+/// At the poles, in the corners, in the middle: no pixel's weight is so small that it would be left out of what is checked.
 #[test]
 fn environments_with_a_pixel_that_is_not_a_number_are_refused_by_name() {
-    for value in [f32::NAN, f32::INFINITY] {
-        let sky = |s: &mut Sketch| {
-            let bitmap = Bitmap {
-                width: 2,
-                height: 2,
-                pixels: vec![Rgb::WHITE, Rgb::splat(value), Rgb::WHITE, Rgb::WHITE],
-            };
-            let kind =
-                EmitterKind::Environment { to_world: Default::default(), bitmap: bitmap.into(), scale: 1.0 };
+    let (width, height) = (3, 3);
+    let sky = |spoilt: Option<usize>, value: f32, scale: f32| {
+        refusal(|s: &mut Sketch| {
+            let mut pixels = vec![Rgb::WHITE; (width * height) as usize];
+            if let Some(pixel) = spoilt {
+                pixels[pixel].g = value;
+            }
+            let bitmap = Bitmap { width, height, pixels }.into();
+            let kind = EmitterKind::Environment { to_world: Default::default(), bitmap, scale };
             s.0.emitters.push(EmitterDescription { name: "sky".into(), kind });
-        };
-        assert_eq!(refusal(sky), Some(BuildError::NotFinite("sky".into())), "{value}");
+        })
+    };
+    let refused = Some(BuildError::NotFinite("sky".into()));
+    assert_eq!(sky(None, 1.0, 1.0), None);
+    for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        for pixel in 0..(width * height) as usize {
+            assert_eq!(sky(Some(pixel), value, 1.0), refused, "{value} in pixel {pixel}");
+        }
+        assert_eq!(sky(None, 1.0, value), refused, "a scale of {value}");
     }
+    assert_eq!(sky(Some(4), f32::INFINITY, 0.0), refused, "infinity times nothing");
 }
 
 /// Albedo above 1 would grow for ever, and an index of refraction of 0 or NaN has no law of refraction.

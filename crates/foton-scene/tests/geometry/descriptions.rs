@@ -82,15 +82,30 @@ fn coordinates_are_finite() {
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let mut hole = Mesh::cube();
         hole.positions[3].y = value;
+        let mut torn = Mesh::rectangle();
+        torn.texture_coordinates[2].x = value;
         let moved = DAffine3::from_translation(DVec3::X * value);
         for shape in [
             mesh(hole, DAffine3::IDENTITY),
+            mesh(torn, DAffine3::IDENTITY),
             mesh(Mesh::cube(), moved),
             shape(Geometry::Disc, moved),
             ball(DVec3::Z * value, 1.0),
             ball(DVec3::ZERO, value),
         ] {
             assert_eq!(error_of(shape), BuildError::NotFinite(bad()));
+        }
+        // A normal that is no direction is none: the face's own stands in for it.
+        let mut bald = smooth_geodesic(1);
+        bald.normals[0].x = value;
+        let scene = build(vec![mesh(bald, DAffine3::IDENTITY)]);
+        let mut stream = crate::stream(90);
+        for _ in 0..1000 {
+            let ray = Ray::new(DVec3::ZERO.as_vec3(), crate::direction(&mut stream));
+            let hit = scene.nearest(ray).expect("it is closed");
+            assert!(hit.shading_normal.is_normalized() && hit.normal.is_normalized(), "{hit:?}");
+            // One of the eight faces has that corner.
+            assert_eq!(hit.curved, ray.direction.min_element() < 0.0, "{hit:?}");
         }
     }
 }

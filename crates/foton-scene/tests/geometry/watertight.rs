@@ -50,11 +50,36 @@ fn boxes() -> [Room; 3] {
     ]
 }
 
+/// A box whose faces are cut at the same three places of each axis, of which two lie a millionth of the side apart: slivers of
+/// 10⁶ : 1 between large triangles.
+fn box_of_slivers() -> Room {
+    let cuts = [-1.0, -0.3, -0.3 + 2e-6, 1.0];
+    let mut shape = Mesh::default();
+    for (face, axis) in (0..6).map(|face| (face, face % 3)) {
+        let side = if face < 3 { -1.0 } else { 1.0 };
+        for (i, j) in (0..9).map(|n| (n / 3, n % 3)) {
+            let corner = |di: usize, dj: usize| {
+                let mut p = DVec3::splat(side);
+                (p[(axis + 1) % 3], p[(axis + 2) % 3]) = (cuts[i + di], cuts[j + dj]);
+                p
+            };
+            let first = shape.positions.len() as u32;
+            shape.positions.extend([corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)]);
+            let [a, b, c, d] = [0, 1, 2, 3].map(|n| first + n);
+            let faces = [[a, b, c], [a, c, d]];
+            shape.triangles.extend(if side > 0.0 { faces } else { faces.map(|[a, b, c]| [a, c, b]) });
+        }
+    }
+    let room = Room::of_mesh("box of slivers", &shape, DAffine3::from_quat(turn()), 0.5);
+    assert_eq!((room.scene.census().triangles, room.scene.census().degenerate_triangles), (108, 0));
+    room
+}
+
 fn rooms() -> impl Iterator<Item = Room> {
     let sphere = build(vec![ball(DVec3::new(0.1, 0.2, -0.1), 1.0)]);
     let sphere = Room { name: "sphere", scene: sphere, inside: 0.43, faces: Vec::new() };
     let globe = Room::of_mesh("globe", &geodesic(8), DAffine3::from_quat(turn()), 0.56);
-    boxes().into_iter().chain([globe, sphere])
+    boxes().into_iter().chain([box_of_slivers(), globe, sphere])
 }
 
 #[test]

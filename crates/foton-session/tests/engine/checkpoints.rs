@@ -83,3 +83,28 @@ fn edited_scenes_and_other_files_are_refused_and_the_render_goes_on() {
     assert!(failure(&rig).contains("save it"));
     assert_eq!(std::fs::read_to_string(&path).expect("still there"), "not one");
 }
+
+#[test]
+fn a_folder_that_vanishes_costs_what_is_kept_there_and_the_render_goes_on() {
+    let folder = Folder::new("vanish");
+    let path = folder.0.join("room.checkpoint");
+    let (rig, before) = Rig::at_pass(2);
+    rig.send(Command::KeepCheckpoint(path.clone()));
+    rig.saved();
+    std::fs::remove_dir_all(&folder.0).expect("ours");
+    rig.send(Command::StopAt(StopRule::passes(4)));
+    let after = rig.done(4);
+    assert_eq!(after.render, before.render);
+    // What is kept is written for the last time when another file is asked for; neither has a place.
+    rig.send(Command::KeepCheckpoint(path.clone()));
+    let expected =
+        format!("cannot write {}: the folder {} does not exist", path.display(), folder.0.display());
+    assert_eq!([failure(&rig), failure(&rig)], [expected.clone(), expected]);
+    rig.send(Command::StopAt(StopRule::passes(5)));
+    assert_eq!(rig.done(5).render, before.render);
+    // Once the folder is there again, so is the checkpoint.
+    std::fs::create_dir(&folder.0).expect("a folder");
+    rig.send(Command::KeepCheckpoint(path.clone()));
+    rig.saved();
+    assert_eq!(passes(&path), 5);
+}

@@ -51,3 +51,96 @@ fn passes_that_the_file_asks_for_are_done_unless_the_user_says_otherwise() {
     let said = text(&folder.done("render three.xml --photons 1000 -o a.png").stderr);
     assert!(said.contains("3 passes, as the scene file says"), "{said}");
 }
+
+/// What was warned of in a render of two passes, with the end's event.
+fn warnings(folder: &Folder, arguments: &str) -> (Vec<String>, Value) {
+    let output = folder.done(&format!("render {arguments} --passes 2 --photons 20000 -o x.exr --json"));
+    let events = events(&output.stdout);
+    let chosen = events.iter().filter(|e| e["event"] == "warning");
+    let warnings = chosen.map(|e| e["message"].as_str().expect("a message").to_owned()).collect();
+    (warnings, events.last().expect("an end").clone())
+}
+
+/// Each line of the ledger is counted where it happens; here their sum is taken anew.
+#[test]
+fn the_ledger_has_a_line_for_everything_that_becomes_of_light_and_they_add_up() {
+    let folder = Folder::new("ledger");
+    let (none, done) = warnings(&folder, "scene.xml");
+    assert_eq!(none, [""; 0]);
+    let watts = |done: &Value, name: &str| number(&done["ledger"], name);
+    let lines = ["absorbed", "escaped", "roulette", "truncated", "shading_normals", "lost"];
+    let rest = |done: &Value| {
+        let emitted = watts(done, "emitted");
+        (emitted - lines.iter().map(|line| watts(done, line)).sum::<f64>()) / emitted
+    };
+    assert!(rest(&done).abs() < 1e-6 && watts(&done, "imbalance").abs() < 1e-6, "{}", done["ledger"]);
+    assert!(watts(&done, "absorbed") > 0.0 && watts(&done, "escaped") > 0.0, "{}", done["ledger"]);
+    assert_eq!(done["ledger"]["dropped_photons"], 0);
+    // The glass passes light on as far as the cap allows, and the walls as often.
+    let (said, done) = warnings(&folder, "scene.xml --max-depth 2");
+    let share = 100.0 * watts(&done, "truncated") / watts(&done, "emitted");
+    assert!(rest(&done).abs() < 1e-6 && share > 1.0, "{}", done["ledger"]);
+    assert_eq!(said.len(), 1, "{said:?}");
+    let expected = format!("{share:.1} % of the emitted power was cut off at the longest path, ");
+    assert!(
+        said[0].starts_with(&expected) && said[0].ends_with("at \"white\"; --max-depth sets it"),
+        "{said:?}"
+    );
+}
+
+/// Two lights whose power is a number in single precision, and whose sum is none.
+#[test]
+fn photons_that_are_dropped_are_warned_of_with_their_light() {
+    let folder = Folder::new("dropped");
+    let sun = |id: &str| {
+        format!(
+            r#"<emitter type="point" id="{id}"><point name="position" x="0" y="1.5" z="0"/>
+            <rgb name="intensity" value="7e31"/></emitter>"#
+        )
+    };
+    folder.write("scene.xml", &SCENE.replace("</scene>", &format!("{}{}</scene>", sun("one"), sun("two"))));
+    let (said, done) = warnings(&folder, "scene.xml");
+    let dropped = done["ledger"]["dropped_photons"].as_u64().expect("a count");
+    assert!(dropped > 1000, "{dropped}");
+    let line = said.iter().find(|line| line.contains("dropped")).expect("a warning");
+    let start = format!("{dropped} photons were dropped because their power was not finite: ");
+    let places = line.strip_prefix(&start).unwrap_or_else(|| panic!("{line}"));
+    let [one, two] = ["one", "two"].map(|id| {
+        let before = places.split(", ").find_map(|place| place.strip_suffix(&format!(" at \"{id}\"")));
+        before.and_then(|n| n.parse::<u64>().ok()).unwrap_or_else(|| panic!("{id} is in {line}"))
+    });
+    assert_eq!(one + two, dropped);
+    assert!(folder.exr("x.exr").0.pixels.iter().all(|c| c.is_finite()));
+}
+
+#[test]
+fn what_a_scene_cannot_have_in_single_precision_is_said_by_name() {
+    let folder = Folder::new("extremes");
+    let with = |shapes: &str| {
+        folder.write("odd.xml", &SCENE.replace("</scene>", &format!("{shapes}</scene>")));
+        warnings(&folder, "odd.xml").0
+    };
+    let speck = r#"<shape type="sphere" id="speck"><point name="center" x="1e4" y="0" z="0"/><float name="radius" value="5e-4"/>
+        <ref id="white"/></shape>"#;
+    let said = with(speck);
+    let expected = "\"speck\" is only 2 steps of single precision across, so small is it where it stands: its shape is rounded to those";
+    assert_eq!(said, [expected]);
+    folder.write("line.obj", &format!("{GEM}f 1 2 2\nf 3 3 4\n"));
+    let said =
+        with(r#"<shape type="obj"><string name="filename" value="line.obj"/><ref id="white"/></shape>"#);
+    assert_eq!(said, ["left out 2 triangles without area"]);
+    let said = warnings(&folder, "scene.xml --radius 1e9").0;
+    assert!(
+        said.len() == 1 && said[0].starts_with("--radius is larger than the whole scene and is cut to that")
+    );
+}
+
+#[test]
+fn a_scene_without_light_is_black_with_a_warning() {
+    let folder = Folder::new("dark");
+    folder.write("scene.xml", &SCENE.replace("9, 8, 7", "0, 0, 0"));
+    let (said, done) = warnings(&folder, "scene.xml");
+    assert_eq!(said, ["nothing in the scene emits light: the image will be black"]);
+    assert_eq!(done["ledger"]["emitted"], 0.0);
+    assert!(folder.exr("x.exr").0.pixels.iter().all(|c| c.is_black()));
+}

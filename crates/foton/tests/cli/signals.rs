@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use super::*;
 
-fn interrupt(child: &Child) {
+pub(super) fn interrupt(child: &Child) {
     let status = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(status.expect("kill runs").success());
 }
@@ -31,6 +31,38 @@ fn an_interrupt_ends_a_long_render_after_its_pass_and_writes_the_image() {
     let passes = folder.exr("x.exr").1.get("foton:passes").map(str::to_owned);
     assert_eq!(passes, Some(done["passes"].to_string()));
     assert_eq!(folder.images(), ["x.exr"]);
+}
+
+/// The system's own shutdown sends this one.
+#[test]
+fn a_terminated_render_leaves_its_image_and_a_checkpoint_that_goes_on_with_the_same_bits() {
+    let folder = Folder::new("terminate");
+    let render = "render scene.xml --photons 2000 --json";
+    let arguments = format!("{render} -o x.exr --passes 1000000 --checkpoint x.ck");
+    let mut child = folder.command(&arguments).stdout(Stdio::piped()).spawn().expect("starts");
+    let mut stdout = BufReader::new(child.stdout.take().expect("piped"));
+    stdout.read_line(&mut String::new()).expect("a line");
+    let status = Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
+    assert!(status.expect("kill runs").success());
+    let mut rest = Vec::new();
+    stdout.read_to_end(&mut rest).expect("lines");
+    assert_eq!(child.wait().expect("ends").code(), Some(0));
+    let passes = number(events(&rest).last().expect("the end"), "passes");
+    assert_eq!(folder.images(), ["x.ck", "x.exr"]);
+    // Three more, and as many without a break.
+    let more = passes + 3.0;
+    folder.done(&format!("{render} -o on.exr --resume x.ck --passes {more}"));
+    folder.done(&format!("{render} -o straight.exr --passes {more}"));
+    assert!(folder.exr("on.exr").0 == folder.exr("straight.exr").0);
+    // What does not fit is said, and no image is made of it.
+    let said = folder.fails(1, &format!("{render} -o no.exr --resume x.ck --seed 7"));
+    assert!(said.contains("x.ck: the checkpoint is of another scene or of other settings"), "{said}");
+    let said = folder.fails(1, &format!("{render} -o no.exr --resume nowhere.ck"));
+    assert!(said.contains("nowhere.ck: No such file"), "{said}");
+    folder.write("scene.xml", &SCENE.replace("0.7", "0.6"));
+    let said = folder.fails(1, &format!("{render} -o no.exr --resume x.ck"));
+    assert!(said.contains("of another scene"), "{said}");
+    assert_eq!(folder.images(), ["on.exr", "straight.exr", "x.ck", "x.exr"]);
 }
 
 /// Starts the minute-long render and waits until it says that Ctrl-C stops it.

@@ -3,6 +3,7 @@
 use super::Mutation;
 
 const GEOMETRY: &str = "-p foton-scene --test geometry";
+const SCENE: &str = "-p foton-scene --lib";
 const INTEGRATOR: &str = "-p foton-integrator --lib";
 const ANALYTIC: &str = "-p foton-tests --test analytic";
 const LEDGER: &str = "-p foton-tests --test ledger";
@@ -43,6 +44,55 @@ pub(super) const LIST: &[Mutation] = &[
         test: "coordinates_are_finite",
     },
     Mutation {
+        what: "discs are met in double precision",
+        file: "crates/foton-scene/src/primitive.rs",
+        from: "let t = (centre - self.origin).dot(normal) / self.direction.dot(normal);",
+        to: "let t = f64::from((centre.as_vec3() - self.ray.origin).dot(normal.as_vec3()) \
+             / self.ray.direction.dot(normal.as_vec3()));",
+        target: GEOMETRY,
+        test: "a_disc_is_met_from_a_step_away_by_the_rays_that_come_to_it_and_by_no_others",
+    },
+    Mutation {
+        what: "points of discs seen edge-on are in double precision",
+        file: "crates/foton-scene/src/primitive.rs",
+        from: "let t = (centre - self.origin).dot(normal) / self.direction.dot(normal);",
+        to: "let t = (centre - self.origin).dot(normal) / f64::from(self.ray.direction.dot(normal.as_vec3()));",
+        target: GEOMETRY,
+        test: "a_disc_seen_edge_on_is_met_as_exactly_as_one_seen_from_above",
+    },
+    Mutation {
+        what: "where an edge is met is double precision",
+        file: "crates/foton-scene/src/primitive.rs",
+        from: "f64::from(x0) * f64::from(y0) - f64::from(x1) * f64::from(y1)",
+        to: "f64::from(x0 * y0 - x1 * y1)",
+        target: GEOMETRY,
+        test: "rays_that_start_in_the_edges_of_a_box_stay_inside",
+    },
+    Mutation {
+        what: "normals without direction are none",
+        file: "crates/foton-scene/src/build/gather.rs",
+        from: "(m * n).normalize_or_zero()",
+        to: "(m * n).normalize()",
+        target: GEOMETRY,
+        test: "coordinates_are_finite",
+    },
+    Mutation {
+        what: "texture coordinates are finite",
+        file: "crates/foton-scene/src/build/gather.rs",
+        from: "if !mesh.texture_coordinates.iter().all(|uv| uv.is_finite()) {",
+        to: "if false {",
+        target: GEOMETRY,
+        test: "coordinates_are_finite",
+    },
+    Mutation {
+        what: "texture coordinates beyond all fractions are zero",
+        file: "crates/foton-scene/src/texture.rs",
+        from: "if uv.abs().max_element() < FARTHEST { uv } else { Vec2::ZERO }",
+        to: "uv",
+        target: SCENE,
+        test: "coordinates_beyond_all_fractions_have_a_colour_all_the_same",
+    },
+    Mutation {
         what: "N is double precision",
         file: "crates/foton-integrator/src/refine.rs",
         from: "self.kept = n + alpha * m;",
@@ -81,6 +131,14 @@ pub(super) const LIST: &[Mutation] = &[
         to: "if power.r.is_nan() {",
         target: ANALYTIC,
         test: "photons_too_heavy_for_a_number_are_dropped_and_counted_at_their_light",
+    },
+    Mutation {
+        what: "what emitters and skies emit is finite",
+        file: "crates/foton-scene/src/build.rs",
+        from: "emitters.iter().find(|e| !e.is_finite())",
+        to: "emitters.iter().find(|_| false)",
+        target: ANALYTIC,
+        test: "environments_with_a_pixel_that_is_not_a_number_are_refused_by_name",
     },
     Mutation {
         what: "radii are cut to the scene",
@@ -161,5 +219,61 @@ pub(super) const LIST: &[Mutation] = &[
         to: "2 * cells as u64 * size_of::<u32>() as u64 + 0 * parts",
         target: CLI,
         test: "a_render_beyond_the_memory_limit_is_refused_with_the_numbers",
+    },
+    Mutation {
+        what: "files are written beside",
+        file: "crates/foton-film/src/atomic.rs",
+        from: "let temp = Temp(temp_path(target)?);",
+        to: "let temp = Temp(target.into());",
+        target: CLI,
+        test: "a_full_disk_is_an_error_with_the_path_and_the_old_image_stays",
+    },
+    Mutation {
+        what: "an image that is not written is an error",
+        file: "crates/foton/src/job.rs",
+        from: "if let Some(error) = unwritten {",
+        to: "if let Some(error) = unwritten.filter(|_| false) {",
+        target: CLI,
+        test: "a_full_disk_is_an_error_with_the_path_and_the_old_image_stays",
+    },
+    Mutation {
+        what: "an image on the way that is not written ends nothing",
+        file: "crates/foton/src/job.rs",
+        from: "Err(error) => talk.warning(&format!(\"an image on the way is missing: {error}\")),",
+        to: "Err(_) => interrupt.request(),",
+        target: CLI,
+        test: "an_image_on_the_way_that_cannot_be_written_is_a_warning_and_the_last_one_comes",
+    },
+    Mutation {
+        what: "a checkpoint that is not written is said",
+        file: "crates/foton/src/job.rs",
+        from: "talk.warning(&format!(\"no checkpoint: {error}\"));",
+        to: "let _ = error;",
+        target: CLI,
+        test: "a_full_disk_costs_a_checkpoint_but_not_the_render",
+    },
+    Mutation {
+        what: "dropped photons are warned of",
+        file: "crates/foton/src/talk.rs",
+        from: "if ledger.dropped > 0 {",
+        to: "if ledger.dropped == u64::MAX {",
+        target: CLI,
+        test: "photons_that_are_dropped_are_warned_of_with_their_light",
+    },
+    Mutation {
+        what: "light that is cut off is warned of",
+        file: "crates/foton/src/talk.rs",
+        from: "if share > WORTH_A_WARNING {",
+        to: "if share > 2.0 {",
+        target: CLI,
+        test: "the_ledger_has_a_line_for_everything_that_becomes_of_light_and_they_add_up",
+    },
+    Mutation {
+        what: "small things far away are warned of",
+        file: "crates/foton/src/job.rs",
+        from: "s.steps_across < FEW_STEPS",
+        to: "s.steps_across < 0.0",
+        target: CLI,
+        test: "what_a_scene_cannot_have_in_single_precision_is_said_by_name",
     },
 ];

@@ -3,6 +3,7 @@
 //!
 //! The reference takes the same rounded coordinates, so that what differs is the arithmetic alone. With `--nocapture` the largest differences are printed. What they mean for a person is in docs/robustness.md.
 
+mod discs;
 mod exact;
 mod hits;
 mod optics;

@@ -1,0 +1,193 @@
+//! Files that cannot be written: full disks, folders in which nothing can be made, folders that vanish. The render goes on where
+//! there is something left to do; what could not be written is named; nothing half-written has the name of a whole file.
+//!
+//! The system is asked for its faults as any user may ask: `/dev/full` has no room, a limit on the size of files stops a write
+//! in its middle, `/proc` takes no files from anybody. So they are there on Linux alone, for root too.
+
+use std::io::{BufRead, BufReader, Read};
+use std::os::unix::fs::symlink;
+use std::process::{Child, ChildStdout};
+
+use super::*;
+
+const RENDER: &str = "render scene.xml --photons 500 --threads 2 --json";
+
+/// Runs the program where no file may grow beyond so many halves of a kibibyte.
+fn run_within(folder: &Folder, blocks: u32, arguments: &str) -> Output {
+    let program = env!("CARGO_BIN_EXE_foton");
+    // Ignored, the signal that comes with the limit leaves an error of the write, as a full disk does.
+    let line = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"{program}\" {arguments}");
+    Command::new("sh").args(["-c", &line]).current_dir(&folder.0).output().expect("a shell")
+}
+
+/// The events of a run by their kind.
+fn of_kind(events: &[Value], kind: &str) -> Vec<String> {
+    let chosen = events.iter().filter(|e| e["event"] == kind);
+    chosen.map(|e| e["message"].as_str().unwrap_or_default().to_owned()).collect()
+}
+
+#[test]
+fn a_full_disk_is_an_error_with_the_path_and_the_old_image_stays() {
+    let folder = Folder::new("full");
+    for name in ["x.exr", "x.png"] {
+        folder.write(name, "the image before");
+        let output = run_within(&folder, 1, &format!("{RENDER} --passes 2 -o {name}"));
+        assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+        let events = events(&output.stdout);
+        let said = format!("cannot write {name}: File too large (os error 27)");
+        assert_eq!(of_kind(&events, "error"), [said]);
+        // What the render found is said all the same.
+        let done = events.iter().find(|e| e["event"] == "done").expect("it went to its end");
+        assert_eq!((&done["passes"], &done["outputs"]), (&json!(2), &json!([])));
+        assert_eq!(folder.bytes(name), b"the image before");
+    }
+    symlink("/dev/full", folder.file("device.exr")).expect("a link");
+    let said = folder.fails(1, "render scene.xml --photons 500 --passes 1 -o device.exr");
+    assert!(said.contains("cannot write device.exr: No space left on device"), "{said}");
+    assert_eq!(folder.images(), ["device.exr", "x.exr", "x.png"], "nothing else is left");
+}
+
+#[test]
+fn a_full_disk_costs_a_checkpoint_but_not_the_render() {
+    let folder = Folder::new("full-checkpoint");
+    folder.done(&format!("{RENDER} --passes 3 -o whole.exr"));
+    folder.done(&format!("{RENDER} --passes 1 -o one.exr --checkpoint x.ck"));
+    let before = folder.bytes("x.ck");
+    // The image has room in 64 KiB, hit points have not.
+    let goes_on = "--passes 3 -o x.exr --size 48x32 --spp 64 --checkpoint-every 1ms";
+    let output = run_within(&folder, 128, &format!("{RENDER} {goes_on} --checkpoint x.ck"));
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let warnings = of_kind(&events(&output.stdout), "warning");
+    let said = "no checkpoint: cannot write x.ck: File too large (os error 27)";
+    assert!(warnings.len() >= 3 && warnings.iter().all(|w| w == said), "{warnings:?}");
+    assert!(folder.bytes("x.ck") == before, "the checkpoint before is whole");
+    // It is still one that can be taken up.
+    folder.done(&format!("{RENDER} --passes 3 -o resumed.exr --resume x.ck"));
+    assert!(folder.exr("resumed.exr").0 == folder.exr("whole.exr").0);
+    symlink("/dev/full", folder.file("device.ck")).expect("a link");
+    let output = folder.done(&format!("{RENDER} --passes 3 -o device.exr --checkpoint device.ck"));
+    let warnings = of_kind(&events(&output.stdout), "warning");
+    assert_eq!(warnings, ["no checkpoint: cannot write device.ck: No space left on device (os error 28)"]);
+    assert!(folder.exr("device.exr").0 == folder.exr("whole.exr").0);
+    let expected = ["device.ck", "device.exr", "one.exr", "resumed.exr", "whole.exr", "x.ck", "x.exr"];
+    assert_eq!(folder.images(), expected, "nothing else is left");
+}
+
+#[test]
+fn a_folder_that_takes_no_file_or_is_not_there_is_refused_before_rendering() {
+    let folder = Folder::new("no-place");
+    folder.write("kept.ck", "not ours");
+    let mut permissions = fs::metadata(folder.file("kept.ck")).expect("there").permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(folder.file("kept.ck"), permissions).expect("ours");
+    for (arguments, said) in [
+        ("-o /proc/x.exr", "cannot write /proc/x.exr: "),
+        ("-o x.exr --checkpoint /proc/x.ck", "cannot write /proc/x.ck: "),
+        ("-o no/x.exr", "cannot write no/x.exr: the folder no does not exist"),
+        ("-o x.exr --checkpoint no/x.ck", "cannot write no/x.ck: the folder no does not exist"),
+        ("-o x.exr --checkpoint kept.ck", "cannot write kept.ck: the file is read-only"),
+    ] {
+        let output = folder.run(&format!("{RENDER} --passes 1 {arguments}"));
+        assert_eq!(output.status.code(), Some(1), "{arguments}");
+        let events = events(&output.stdout);
+        assert!(
+            events.len() == 1 && of_kind(&events, "error")[0].starts_with(said),
+            "{arguments}: {events:?}"
+        );
+    }
+    assert_eq!(folder.images(), ["kept.ck"]);
+}
+
+#[test]
+fn an_image_on_the_way_that_cannot_be_written_is_a_warning_and_the_last_one_comes() {
+    let folder = Folder::new("on-the-way");
+    fs::create_dir(folder.file("x-000002.exr")).expect("a folder in the way");
+    let output = folder.done(&format!("{RENDER} --passes 3 --every 1 -o x.exr"));
+    let events = events(&output.stdout);
+    let warnings = of_kind(&events, "warning");
+    assert_eq!(warnings, ["an image on the way is missing: cannot write x-000002.exr: is a directory"]);
+    let outputs = &events.last().expect("an event")["outputs"];
+    assert_eq!(outputs, &json!(["x-000001.exr", "x-000003.exr", "x.exr"]));
+    assert!(folder.exr("x.exr").0 == folder.exr("x-000003.exr").0);
+}
+
+/// A render that only an interrupt ends, with its files in a folder of their own.
+struct Endless {
+    child: Child,
+    stdout: BufReader<ChildStdout>,
+}
+
+impl Endless {
+    fn start(folder: &Folder) -> Self {
+        fs::create_dir(folder.file("sub")).expect("a folder");
+        let files = "-o sub/x.exr --checkpoint sub/x.ck --checkpoint-every 1ms";
+        let mut command = folder.command(&format!("{RENDER} --passes 100000000 {files}"));
+        let mut child =
+            command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("the program starts");
+        let stdout = BufReader::new(child.stdout.take().expect("piped"));
+        Self { child, stdout }
+    }
+
+    /// Reads on to the first event of a kind.
+    #[track_caller]
+    fn until(&mut self, kind: &str) -> Value {
+        loop {
+            let mut line = String::new();
+            assert_ne!(self.stdout.read_line(&mut line).expect("a line"), 0, "it ended before a {kind}");
+            let event = events(line.as_bytes()).remove(0);
+            if event["event"] == kind {
+                return event;
+            }
+        }
+    }
+
+    /// Interrupts it and gives its exit code and the message of its last error.
+    fn end(mut self) -> (Option<i32>, Option<String>) {
+        signals::interrupt(&self.child);
+        let mut rest = Vec::new();
+        self.stdout.read_to_end(&mut rest).expect("lines");
+        let code = self.child.wait().expect("ends").code();
+        (code, of_kind(&events(&rest), "error").pop())
+    }
+}
+
+/// Removes a folder that somebody writes into.
+fn remove(path: &Path) {
+    while path.exists() {
+        let _ = fs::remove_dir_all(path);
+    }
+}
+
+#[test]
+fn a_folder_that_vanishes_costs_its_files_and_nothing_that_was_rendered() {
+    let folder = Folder::new("vanishes");
+    let mut render = Endless::start(&folder);
+    render.until("pass");
+    remove(&folder.file("sub"));
+    let said = render.until("warning")["message"].as_str().expect("a message").to_owned();
+    assert!(said.starts_with("no checkpoint: cannot write sub/x.ck: "), "{said}");
+    // It goes on, in memory.
+    let pass = number(&render.until("pass"), "pass");
+    assert!(number(&render.until("pass"), "pass") > pass);
+    let (code, error) = render.end();
+    assert_eq!(code, Some(1));
+    assert_eq!(error.as_deref(), Some("cannot write sub/x.exr: the folder sub does not exist"));
+    assert_eq!(folder.images(), [""; 0]);
+}
+
+#[test]
+fn a_folder_that_comes_back_has_all_files_again() {
+    let folder = Folder::new("comes-back");
+    let mut render = Endless::start(&folder);
+    render.until("pass");
+    remove(&folder.file("sub"));
+    render.until("warning");
+    let pass = number(&render.until("pass"), "pass");
+    fs::create_dir(folder.file("sub")).expect("a folder");
+    assert_eq!(render.end(), (Some(0), None));
+    let passes = |name: &str| folder.exr(name).1.get("foton:passes").and_then(|p| p.parse::<f64>().ok());
+    assert!(passes("sub/x.exr") > Some(pass));
+    folder.done(&format!("{RENDER} --passes 1 -o y.exr --resume sub/x.ck"));
+    assert_eq!(passes("y.exr"), passes("sub/x.exr"), "the checkpoint has the last pass");
+    assert!(folder.exr("y.exr").0 == folder.exr("sub/x.exr").0);
+}
