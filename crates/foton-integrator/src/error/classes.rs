@@ -96,7 +96,9 @@ impl Classes {
                 (variance * weights.photons * weights.photons - photons).max(0.0);
         }
         let rates = [0, 1, 2].map(|c| (self.bias[c] / self.asked[c]).max(0.0));
-        let (noise, bias) = (shares(noise), shares(rates));
+        // By chance no class's blur may be seen to have anything in common with all of it: then it is split as the noise is.
+        let noise = shares(noise);
+        let bias = if rates == [0.0; CLASSES] { noise } else { shares(rates) };
         Some(
             [0, 1, 2]
                 .map(|c| ClassError { noise: (noise2 * noise[c]).sqrt(), bias: (bias2 * bias[c]).sqrt() }),
