@@ -194,17 +194,18 @@ fn radii_that_adapt_leave_less_error_than_any_fixed_rule() {
     let furnace =
         Sketch::default().camera(DVec3::ZERO, -DVec3::Z, 60.0, 16).room(grey(0.5), Some(Rgb::splat(1.0)));
     let adaptive = |base: Settings| Settings { radius_rule: RadiusRule::Adaptive, error: false, ..base };
-    let base = Settings { radius: Some(0.1), error: false, ..settings(10_000, 3) };
+    let local = |settings: Settings| Settings { radius_rule: RadiusRule::Local, error: false, ..settings };
+    let base = local(Settings { radius: Some(0.1), ..settings(10_000, 3) });
     let [kept, fixed] = [adaptive(base.clone()), base].map(|s| furnace.render(s, 32).radii().median);
     assert!(kept > 1.3 * fixed && fixed < 0.06, "{kept} {fixed}");
 
-    let base = Settings { radius: Some(0.4), samples_per_pixel: NonZeroU32::MIN, ..settings(20_000, 3) };
+    let base = local(Settings { radius: Some(0.4), ..settings(20_000, 3) });
     let truth = by_shadow_rays(&slopes::scene(), &base);
     let after = |settings: Settings| true_error(&slopes::scene().render(settings, 32).image(), &truth, 0.0);
     let error = after(adaptive(base.clone()));
     for alpha in [0.4, 0.5, 0.6, 2.0 / 3.0, 0.8, 1.0] {
         let alpha = Alpha::new(alpha).expect("in range");
-        let fixed = after(Settings { alpha, error: false, ..base.clone() });
+        let fixed = after(Settings { alpha, ..base.clone() });
         assert!(error < 0.9 * fixed, "{error} against {fixed} at {alpha}");
     }
 }

@@ -25,8 +25,10 @@ const CAUTION: f64 = 2.0;
 /// R beyond which radii shrink no faster.
 const MOST: f64 = 30.0;
 
-/// Sums over the photons of a packet's lanes, of luminance Φ.
+/// Sums over the photons of a packet's lanes, of luminance Φ: whether path classes are kept apart changes none of their bits.
 pub(crate) struct Shape {
+    /// Σ Φ.
+    pub(crate) light: [f32; LANES],
     /// Σ Φ².
     pub(crate) squares: [f32; LANES],
     /// Σ Φ d, d from the photon to the hit point.
@@ -34,7 +36,8 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    pub(crate) const NONE: Self = Self { squares: [0.0; LANES], offset: [[0.0; LANES]; 3] };
+    pub(crate) const NONE: Self =
+        Self { light: [0.0; LANES], squares: [0.0; LANES], offset: [[0.0; LANES]; 3] };
 }
 
 /// What a hit point knows of its light after all passes, each with its own radius.
@@ -51,13 +54,18 @@ pub(crate) struct Evidence {
 }
 
 impl Evidence {
-    /// Takes what a lane has found: `flux` is Σ Φ, `moment` Σ Φ d².
-    pub(crate) fn add(&mut self, packet: &Packet, lane: usize, (flux, moment): (f32, f32), shape: &Shape) {
+    /// Takes what a lane has found; `moment` is Σ Φ d². Sums that are no finite numbers are left out.
+    pub(crate) fn add(&mut self, packet: &Packet, lane: usize, moment: f32, shape: &Shape) {
+        let squares = shape.squares[lane];
+        // The squares are the first to be too large.
+        if !(squares + moment).is_finite() {
+            return;
+        }
         let radius2 = f64::from(packet.radius2[lane]);
         let per_area = 1.0 / (PI * radius2);
-        let (flux, moment) = (f64::from(flux), f64::from(moment));
+        let (flux, moment) = (f64::from(shape.light[lane]), f64::from(moment));
         self.light += flux * per_area;
-        self.variance += f64::from(shape.squares[lane]) * per_area * per_area;
+        self.variance += f64::from(squares) * per_area * per_area;
         self.laplacian += (6.0 * moment / radius2 - 3.0 * flux) * per_area;
         let per_length = per_area / radius2.sqrt();
         for (sum, offset) in self.offset.iter_mut().zip(&shape.offset) {
@@ -91,7 +99,7 @@ impl Evidence {
     }
 
     pub(crate) fn read(input: &mut Reader<'_>) -> Result<Self, StateError> {
-        let mut next = || input.f64();
+        let mut next = || input.finite();
         Ok(Self {
             light: next()?,
             variance: next()?,

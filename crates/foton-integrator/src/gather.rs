@@ -254,6 +254,7 @@ fn collect<const LAYERS: usize, const SHADED: bool, const MOMENTS: u8>(
                 let [sx, sy, sz] = &mut found.shape.offset;
                 for l in 0..LANES {
                     let w = f32::from_bits((luminance * factor[l]).to_bits() & counts[l]);
+                    found.shape.light[l] += w;
                     found.shape.squares[l] += w * w;
                     sx[l] += w * x[l];
                     sy[l] += w * y[l];
@@ -305,6 +306,7 @@ fn collect_gloss<const LAYERS: usize, const MOMENTS: u8>(
                     found.answer[l] += asked.answer(luminance, distance2[l], l);
                 }
                 if MOMENTS >= ADAPTIVE {
+                    found.shape.light[l] += luminance;
                     found.shape.squares[l] += luminance * luminance;
                     for (sum, offset) in found.shape.offset.iter_mut().zip(&offset) {
                         sum[l] += luminance * offset[l];

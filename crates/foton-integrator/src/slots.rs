@@ -77,7 +77,7 @@ impl<const LAYERS: usize> Found<LAYERS> {
     pub(crate) fn add_evidence(&self, packet: &Packet, evidence: &mut [Evidence]) {
         for (lane, evidence) in evidence.iter_mut().enumerate().filter(|(l, _)| self.shape.squares[*l] > 0.0)
         {
-            evidence.add(packet, lane, (self.luminance(lane), self.moment[lane]), &self.shape);
+            evidence.add(packet, lane, self.moment[lane], &self.shape);
         }
     }
 
@@ -99,24 +99,24 @@ impl<const LAYERS: usize> Found<LAYERS> {
 pub(crate) struct Kept {
     /// Photons found.
     pub(crate) counts: Vec<u64>,
-    /// Where radii adapt: Σ Φ², Σ Φ d and Σ Φ d² (see [`Shape`]).
-    pub(crate) shapes: Vec<[f32; 5]>,
+    /// Where radii adapt: Σ Φ, Σ Φ², Σ Φ d and Σ Φ d² (see [`Shape`]).
+    pub(crate) shapes: Vec<[f32; 6]>,
 }
 
 impl Kept {
     /// Room for so many slots.
     pub(crate) fn of(slots: usize, adapts: bool) -> Self {
-        Self { counts: vec![0; slots], shapes: vec![[0.0; 5]; if adapts { slots } else { 0 }] }
+        Self { counts: vec![0; slots], shapes: vec![[0.0; 6]; if adapts { slots } else { 0 }] }
     }
 
     /// Bytes held.
     pub(crate) const fn bytes(&self) -> usize {
-        self.counts.capacity() * size_of::<u64>() + self.shapes.capacity() * size_of::<[f32; 5]>()
+        self.counts.capacity() * size_of::<u64>() + self.shapes.capacity() * size_of::<[f32; 6]>()
     }
 
     /// Bytes held a slot.
     pub(crate) const fn bytes_per_slot(adapts: bool) -> usize {
-        size_of::<u64>() + if adapts { size_of::<[f32; 5]>() } else { 0 }
+        size_of::<u64>() + if adapts { size_of::<[f32; 6]>() } else { 0 }
     }
 }
 
@@ -128,7 +128,7 @@ pub(crate) struct Slots<'a, const LAYERS: usize> {
     pub(crate) moments: &'a mut [[f32; 2]],
     /// Of [`Kept`].
     pub(crate) counts: &'a mut [u64],
-    pub(crate) shapes: &'a mut [[f32; 5]],
+    pub(crate) shapes: &'a mut [[f32; 6]],
     /// Empty unless radii adapt.
     pub(crate) evidence: &'a mut [Evidence],
 }
@@ -160,7 +160,8 @@ impl<const LAYERS: usize> Slots<'_, LAYERS> {
             found.moment[l] += moment;
             found.answer[l] += answer;
         }
-        for (l, [squares, x, y, z, moment]) in self.shapes.iter().enumerate() {
+        for (l, [light, squares, x, y, z, moment]) in self.shapes.iter().enumerate() {
+            found.shape.light[l] += light;
             found.shape.squares[l] += squares;
             for (sums, earlier) in found.shape.offset.iter_mut().zip([x, y, z]) {
                 sums[l] += earlier;
@@ -182,7 +183,7 @@ impl<const LAYERS: usize> Slots<'_, LAYERS> {
         }
         for (l, shape) in self.shapes.iter_mut().enumerate() {
             let [x, y, z] = [0, 1, 2].map(|axis| found.shape.offset[axis][l]);
-            *shape = [found.shape.squares[l], x, y, z, found.moment[l]];
+            *shape = [found.shape.light[l], found.shape.squares[l], x, y, z, found.moment[l]];
         }
     }
 }

@@ -246,6 +246,10 @@ pub(crate) fn finish(
         match snapshot::write(path, *format, session.ppm(), layers, identity) {
             Ok(()) => outputs.push(path.display().to_string()),
             Err(error) => {
+                if let Some(spare) = rescue(path, *format, session, layers, identity) {
+                    talk.warning(&format!("{error}; the image is {} instead", spare.display()));
+                    outputs.push(spare.display().to_string());
+                }
                 if let Some(earlier) = unwritten.replace(error) {
                     talk.warning(&earlier.to_string());
                 }
@@ -260,4 +264,22 @@ pub(crate) fn finish(
     }
     let passes = Some(session.ppm().passes());
     fault.map_or(Ok(()), |panic| Err(Failure::Panicked { panic: panic.clone(), passes }))
+}
+
+/// Writes an image that cannot be written where it was asked for into the system's folder for temporary files, under a name that
+/// nobody has: hours of rendering are not lost with a folder. `None` where there is no room either.
+fn rescue(
+    path: &Path,
+    format: Format,
+    session: &Session,
+    layers: &[LayerKind],
+    identity: &SceneIdentity,
+) -> Option<PathBuf> {
+    const NAMES: u32 = 1000;
+    let (stem, extension) = (path.file_stem()?.to_string_lossy(), path.extension()?.to_string_lossy());
+    let spare = (1..NAMES)
+        .map(|n| std::env::temp_dir().join(format!("foton-{stem}-{n:03}.{extension}")))
+        .find(|spare| !spare.exists())?;
+    snapshot::write(&spare, format, session.ppm(), layers, identity).ok()?;
+    Some(spare)
 }

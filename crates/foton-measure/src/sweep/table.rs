@@ -259,7 +259,7 @@ pub(crate) mod tests {
         let text = summary_heading() + &summary(&points);
         assert_eq!(read_summary(&text), Some(points));
         assert_eq!(read_summary(&text[..text.len() - 40]), None, "torn");
-        assert_eq!(read_summary(&text.replace("local", "loco")), None);
+        assert_eq!(read_summary(&text.replace("adaptive", "adapt")), None);
         assert_eq!(read_summary(""), None);
     }
 }

@@ -103,6 +103,8 @@ impl Folder {
     fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_foton"));
         command.args(arguments.split_whitespace()).current_dir(&self.0).stdin(Stdio::null());
+        // What is rescued goes there.
+        command.env("TMPDIR", &self.0);
         command
     }
 

@@ -17,7 +17,12 @@ fn run_within(folder: &Folder, blocks: u32, arguments: &str) -> Output {
     let program = env!("CARGO_BIN_EXE_foton");
     // Ignored, the signal that comes with the limit leaves an error of the write, as a full disk does.
     let line = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"{program}\" {arguments}");
-    Command::new("sh").args(["-c", &line]).current_dir(&folder.0).output().expect("a shell")
+    Command::new("sh")
+        .args(["-c", &line])
+        .current_dir(&folder.0)
+        .env("TMPDIR", &folder.0)
+        .output()
+        .expect("a shell")
 }
 
 /// The events of a run by their kind.
@@ -44,7 +49,10 @@ fn a_full_disk_is_an_error_with_the_path_and_the_old_image_stays() {
     symlink("/dev/full", folder.file("device.exr")).expect("a link");
     let said = folder.fails(1, "render scene.xml --photons 500 --passes 1 -o device.exr");
     assert!(said.contains("cannot write device.exr: No space left on device"), "{said}");
-    assert_eq!(folder.images(), ["device.exr", "x.exr", "x.png"], "nothing else is left");
+    // Where there is room for temporary files, it is there.
+    let expected = ["device.exr", "foton-device-001.exr", "x.exr", "x.png"];
+    assert_eq!(folder.images(), expected, "nothing else is left");
+    assert!(folder.exr("foton-device-001.exr").0.width > 0);
 }
 
 #[test]
@@ -172,7 +180,10 @@ fn a_folder_that_vanishes_costs_its_files_and_nothing_that_was_rendered() {
     let (code, error) = render.end();
     assert_eq!(code, Some(1));
     assert_eq!(error.as_deref(), Some("cannot write sub/x.exr: the folder sub does not exist"));
-    assert_eq!(folder.images(), [""; 0]);
+    // The image is rescued.
+    assert_eq!(folder.images(), ["foton-x-001.exr"]);
+    let passes = folder.exr("foton-x-001.exr").1.get("foton:passes").and_then(|p| p.parse::<f64>().ok());
+    assert!(passes > Some(pass));
 }
 
 #[test]

@@ -299,9 +299,9 @@ fn what_starts_anew_says_so_and_is_sent_once_it_is_let_go() {
     let shadow_rays = Configuration { direct_light: DirectLight::ShadowRays, ..now };
     assert_asked(&mut harness, &Command::Configure(shadow_rays));
     assert!(harness.state().messages.iter().any(|m| m.text.contains("Started anew")));
-    click(&mut harness, Role::Button, "adaptive");
-    let adaptive = Configuration { radius_rule: RadiusRule::Adaptive, ..now };
-    assert_asked(&mut harness, &Command::Configure(adaptive));
+    click(&mut harness, Role::Button, "together");
+    let together = Configuration { radius_rule: RadiusRule::Global, ..now };
+    assert_asked(&mut harness, &Command::Configure(together));
 
     // While a number is typed nothing starts; then once.
     type_into(&mut harness, "Seed", "12");
