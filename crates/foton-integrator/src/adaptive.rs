@@ -12,7 +12,7 @@
 
 use std::f64::consts::PI;
 
-use crate::packet::{LANES, Packet};
+use crate::packet::LANES;
 use crate::settings::Alpha;
 use crate::state::{Reader, StateError, Writer};
 
@@ -54,14 +54,14 @@ pub(crate) struct Evidence {
 }
 
 impl Evidence {
-    /// Takes what a lane has found; `moment` is Σ Φ d². Sums that are no finite numbers are left out.
-    pub(crate) fn add(&mut self, packet: &Packet, lane: usize, moment: f32, shape: &Shape) {
+    /// Takes what a lane has found in a disc of that r²; `moment` is Σ Φ d². Sums that are no finite numbers are left out.
+    pub(crate) fn add(&mut self, radius2: f32, lane: usize, moment: f32, shape: &Shape) {
         let squares = shape.squares[lane];
         // The squares are the first to be too large.
         if !(squares + moment).is_finite() {
             return;
         }
-        let radius2 = f64::from(packet.radius2[lane]);
+        let radius2 = f64::from(radius2);
         let per_area = 1.0 / (PI * radius2);
         let (flux, moment) = (f64::from(shape.light[lane]), f64::from(moment));
         self.light += flux * per_area;
@@ -158,6 +158,17 @@ mod tests {
         let slope = |n: f64| evidence(n, |x, _| 1.0 + 0.1 * x);
         assert!(slope(1e3).balance() < 0.1);
         assert_eq!(slope(1e9).balance(), MOST, "in the end all blur outweighs noise");
+    }
+
+    #[test]
+    fn light_that_is_no_number_says_nothing_of_a_radius() {
+        let mut evidence = Evidence::default();
+        // Too bright for the square of single precision.
+        let bright = Shape { light: [1e30; LANES], squares: [f32::INFINITY; LANES], ..Shape::NONE };
+        evidence.add(1.0, 0, 1e30, &bright);
+        assert_eq!(evidence, Evidence::default());
+        evidence.add(1.0, 0, 0.5, &Shape { light: [1.0; LANES], squares: [1.0; LANES], ..Shape::NONE });
+        assert!(evidence.light > 0.0 && evidence.variance > 0.0);
     }
 
     #[test]

@@ -77,7 +77,7 @@ impl<const LAYERS: usize> Found<LAYERS> {
     pub(crate) fn add_evidence(&self, packet: &Packet, evidence: &mut [Evidence]) {
         for (lane, evidence) in evidence.iter_mut().enumerate().filter(|(l, _)| self.shape.squares[*l] > 0.0)
         {
-            evidence.add(packet, lane, self.moment[lane], &self.shape);
+            evidence.add(packet.radius2[lane], lane, self.moment[lane], &self.shape);
         }
     }
 

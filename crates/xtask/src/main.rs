@@ -25,7 +25,7 @@ cargo xtask ci                      formatting, lints, documentation, then the t
 cargo xtask conformance [--quick]   the whole comparison with Mitsuba 3 (20 minutes and more), or the small one
 cargo xtask versus [--seconds N]    foton, Mitsuba 3 and LuxCore on one scene for N (30) seconds each, as a table and pictures
 cargo xtask calibrate [WHAT]        whether the live error can be believed; stops: where --error does; slopes: how fast noise and bias fall;
-                                    rules: what radii that adapt are worth (many minutes)
+                                    rules: what radii that adapt are worth; kernels: what others than the box would be (many minutes)
 cargo xtask assets                  writes the generated meshes in assets/ again
 cargo xtask pictures [--window]     renders every scene in assets/ to docs/pictures, and the window (some minutes); or it alone
 cargo xtask bench [WHAT]            how fast, on a quiet machine: whole (the benchmark box, stage by stage), parts (by criterion), scaling,

@@ -109,6 +109,22 @@ pub(super) const LIST: &[Mutation] = &[
         test: "radii_still_shrink_after_two_to_the_forty_photons",
     },
     Mutation {
+        what: "what earlier batches say of radii is added",
+        file: "crates/foton-integrator/src/slots.rs",
+        from: "found.shape.squares[l] += squares;",
+        to: "",
+        target: INTEGRATOR,
+        test: "radii_that_adapt_do_so_by_all_batches_of_a_pass",
+    },
+    Mutation {
+        what: "radii go by numbers alone",
+        file: "crates/foton-integrator/src/adaptive.rs",
+        from: "if !(squares + moment).is_finite() {",
+        to: "if squares < 0.0 {",
+        target: INTEGRATOR,
+        test: "light_that_is_no_number_says_nothing_of_a_radius",
+    },
+    Mutation {
         what: "radii stop at 8 steps",
         file: "crates/foton-integrator/src/refine.rs",
         from: "let floored = shrunk < smallest2;",
