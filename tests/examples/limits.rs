@@ -17,7 +17,7 @@ const CASES: &[(&str, &str)] = &[
     ("cornell-diffuse", "--size 1024x1024 --photons 65536 --threads 2"),
     ("cornell-diffuse", "--size 512x512 --direct shadow-rays --threads 2"),
     ("cornell-spheres", "--size 512x512 --spp 4 --layers direct,caustic,indirect --threads 2"),
-    ("cornell-spheres", "--size 512x512 --spp 4 --radius-rule adaptive --threads 2"),
+    ("cornell-spheres", "--size 512x512 --spp 4 --radius-rule local --threads 2"),
     ("cornell-spheres", "--size 512x512 --error off --threads 2"),
     ("cornell-spheres", "--size 1024x768 --spp 4 --photons 1048576 --threads 2"),
     ("cornell-spheres", "--size 1024x768 --spp 4 --photons 4194304 --threads 2"),

@@ -11,7 +11,8 @@ pub enum Preset {
     Preview,
     /// The defaults.
     Balanced,
-    /// Minutes and more: blur across edges is then most of the error, and a smaller α takes it away faster.
+    /// Minutes and more: radii that have adapted for that long are better off with a larger α, which leaves them where they are
+    /// unless blur clearly outweighs noise.
     Final,
 }
 
@@ -25,7 +26,7 @@ impl Preset {
                 ..settings
             },
             Self::Balanced => settings,
-            Self::Final => Settings { alpha: Alpha::new(0.6).unwrap_or(settings.alpha), ..settings },
+            Self::Final => Settings { alpha: Alpha::new(0.8).unwrap_or(settings.alpha), ..settings },
         }
     }
 }

@@ -231,7 +231,7 @@ pub(crate) enum PresetName {
     Preview,
     /// The defaults
     Balanced,
-    /// A smaller α: edges are sharper after minutes
+    /// A larger α: less noise after minutes
     Final,
 }
 

@@ -118,7 +118,7 @@ fn presets_set_photons_and_alpha_and_options_come_before_them() {
     };
     let (preview, balanced) = (settings(&["--preset", "preview"]), settings(&["--preset", "balanced"]));
     assert!(
-        preview.contains(" photons=65536 ") && settings(&["--preset", "final"]).contains(" alpha=0.6 "),
+        preview.contains(" photons=65536 ") && settings(&["--preset", "final"]).contains(" alpha=0.8 "),
         "{preview}"
     );
     assert_eq!(balanced, settings(&[]));
