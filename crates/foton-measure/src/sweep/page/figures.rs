@@ -123,7 +123,7 @@ impl Report<'_> {
         let plot = Plot { title: "Noise and bias of the centre", x: "photons emitted", y: ERROR, series };
         figure(
             plot.svg(),
-            "Noise differs from seed to seed, bias does not. Away from edges both fall with n<sup>−1/3</sup> at α 2/3; blur \
+            "Noise differs from seed to seed, bias does not. Away from edges both fall with n<sup>−1/3</sup> at α 2/3 where radii do not adapt; blur \
             across edges falls more slowly.",
         )
     }
