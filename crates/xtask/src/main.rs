@@ -9,10 +9,10 @@ mod ci;
 mod conformance;
 mod mutations;
 mod pictures;
+mod program;
 mod test;
 mod tools;
 mod versus;
-mod window;
 
 use std::process::ExitCode;
 
@@ -57,11 +57,11 @@ fn main() -> ExitCode {
             .map_err(|cause| Trouble::Failed(cause.to_string())),
         ["pictures"] => pictures::render_all(),
         ["pictures", "--window"] => pictures::of_window(),
-        ["monkey"] => window::monkey("10"),
-        ["monkey", "--minutes", minutes] => window::monkey(minutes),
-        ["kills"] => window::kills("200"),
-        ["kills", count] => window::kills(count),
-        ["limits"] => window::limits(),
+        ["monkey"] => program::monkey("10"),
+        ["monkey", "--minutes", minutes] => program::monkey(minutes),
+        ["kills"] => program::kills("200"),
+        ["kills", count] => program::kills(count),
+        ["limits"] => program::limits(),
         ["mutations"] => mutations::run(""),
         ["mutations", word] => mutations::run(word),
         ["soak", minutes @ ..] if minutes.len() <= 1 => tools::run(

@@ -7,8 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::program;
 use crate::tools::{self, Trouble};
-use crate::window;
 
 /// How one scene is rendered for its picture.
 struct Picture {
@@ -42,7 +42,7 @@ pub(crate) fn render_all() -> Result<(), Trouble> {
     }
     let (foton, folder) = prepare()?;
     PICTURES.iter().try_for_each(|picture| picture.render(&foton))?;
-    window::pictures(&foton, &folder)
+    program::pictures(&foton, &folder)
 }
 
 /// Pictures of the window alone.
@@ -51,7 +51,7 @@ pub(crate) fn render_all() -> Result<(), Trouble> {
 /// What could not be built, opened or written.
 pub(crate) fn of_window() -> Result<(), Trouble> {
     let (foton, folder) = prepare()?;
-    window::pictures(&foton, &folder)
+    program::pictures(&foton, &folder)
 }
 
 /// The program, built, and the folder for its pictures, made.
@@ -59,7 +59,7 @@ fn prepare() -> Result<(PathBuf, PathBuf), Trouble> {
     let folder = tools::root().join("docs/pictures");
     fs::create_dir_all(&folder).map_err(|cause| Trouble::Failed(format!("{}: {cause}", folder.display())))?;
     tools::run(&mut tools::cargo(&["build", "--release", "--package", "foton"]))?;
-    Ok((window::foton("release"), folder))
+    Ok((program::foton("release"), folder))
 }
 
 impl Picture {

@@ -62,17 +62,17 @@ fn rows(name: &str, scene: &Arc<Scene>, seeds: u64, truth_passes: u64) {
             let all = squares.iter().enumerate().map(of);
             all.min_by(|a, b| a.0.total_cmp(&b.0)).expect("some scales")
         };
-        let [r#box, smooth, sharp] = [0, 1, 2].map(best);
+        let [flat, smooth, sharp] = [0, 1, 2].map(best);
         println!(
             "| {name} | {pass} | {:.2} (× {}) | {:.2} (× {}) | {:.2} | {:.2} (× {}) | {:.2} |",
-            r#box.0,
-            r#box.1,
+            flat.0,
+            flat.1,
             smooth.0,
             smooth.1,
-            smooth.0 / r#box.0,
+            smooth.0 / flat.0,
             sharp.0,
             sharp.1,
-            sharp.0 / r#box.0,
+            sharp.0 / flat.0,
         );
     }
 }

@@ -28,12 +28,12 @@ pub(crate) struct Truth {
 
 /// A figure and its standard deviation.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Known {
+pub(crate) struct Figure {
     pub(crate) value: f64,
     pub(crate) deviation: f64,
 }
 
-impl Known {
+impl Figure {
     /// Of a mean square.
     pub(crate) fn root(self) -> Self {
         let value = self.value.max(0.0).sqrt();
@@ -122,13 +122,13 @@ impl Truth {
     }
 
     /// Root mean square difference over what is seen, relative to the mean.
-    pub(crate) fn error(&self, ppm: &Ppm) -> Known {
+    pub(crate) fn error(&self, ppm: &Ppm) -> Figure {
         self.squares(&reflected(ppm))[0].root()
     }
 
     /// Mean square difference of reflected luminance relative to the squared mean: over all that is seen, over what is smooth of
     /// it, and over the rest.
-    pub(crate) fn squares(&self, reflected: &[f64]) -> [Known; 3] {
+    pub(crate) fn squares(&self, reflected: &[f64]) -> [Figure; 3] {
         let (mut squares, mut variances, mut counts) = ([[0.0; 2]; 3], [0.0; 3], [0.0; 3]);
         for (pixel, x) in reflected.iter().enumerate().filter(|(pixel, _)| self.seen()[*pixel]) {
             let [a, b] = [0, 1].map(|half| {
@@ -148,7 +148,7 @@ impl Truth {
             }
         }
         let scale = |part: usize| f64::max(counts[part], 1.0) * self.mean() * self.mean();
-        [0, 1, 2].map(|part| Known {
+        [0, 1, 2].map(|part| Figure {
             value: extrapolated(squares[part][0], squares[part][1]) / scale(part),
             deviation: f64::sqrt(variances[part]) / scale(part),
         })
