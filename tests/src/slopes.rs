@@ -5,7 +5,7 @@
 
 use std::num::NonZeroU32;
 
-use foton_integrator::{Alpha, DirectLight, RadiusRule, Settings};
+use foton_integrator::{Alpha, DirectLight, RadiusFloor, RadiusRule, Settings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{EmitterDescription, EmitterKind};
@@ -73,6 +73,7 @@ fn settings(alpha: f64, photons: u32, seed: u64) -> Settings {
         samples_per_pixel: NonZeroU32::MIN,
         radius: Some(RADIUS),
         // Theory is of radii that shrink by α alone.
+        radius_floor: RadiusFloor::NONE,
         radius_rule: RadiusRule::Local,
         seed,
         ..Settings::default()

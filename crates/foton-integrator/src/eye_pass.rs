@@ -246,6 +246,8 @@ impl Walk<'_, '_> {
         }
         let side = 1f32.copysign(wo.dot(surface.normal));
         let normal = surface.normal * side;
+        let (radius2, smallest2) =
+            self.radius.first_and_smallest2(self.solid_angle, distance, wo.dot(normal), surface.position);
         self.paths.hit_points.push(HitPoint {
             position: surface.position,
             normal,
@@ -253,7 +255,9 @@ impl Walk<'_, '_> {
             origin: surface.ray_origin(normal),
             weight,
             gloss,
-            radius2: self.radius.radius2(self.solid_angle, distance, wo.dot(normal)),
+            radius2,
+            smallest2,
+            patch: surface.patch_towards(side > 0.0),
             slab2: slab2(surface),
             budget: (self.pass.max_depth - branch.edges).min(255) as u8,
         });

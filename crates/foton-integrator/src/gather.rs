@@ -58,8 +58,6 @@ pub(crate) struct Rule {
     pub(crate) alpha: Alpha,
     /// What all r² are multiplied by, where they shrink together.
     pub(crate) common: Option<f64>,
-    /// r² never falls below.
-    pub(crate) smallest2: f64,
     pub(crate) batch: Batch,
     /// What the error asks of one class.
     pub(crate) question: Question,
@@ -101,14 +99,15 @@ pub(crate) fn all<const LAYERS: usize, const MOMENTS: u8>(
         .packets
         .par_chunks_mut(BLOCK)
         .zip(hit_points.statistics_slots.par_chunks_mut(BLOCK * LANES))
+        .zip(hit_points.smallest2_slots.par_chunks(BLOCK * LANES))
         .zip(irradiance_slots.par_chunks_mut(BLOCK * LANES))
         .zip(moments)
         .zip(counts.into_par_iter().zip(shapes))
         .zip(evidence)
         .enumerate()
-        .map(|(block, (((((packets, statistics), irradiance), moments), (counts, shapes)), evidence))| {
+        .map(|(block, ((((((packets, statistics), smallest2), irradiance), moments), (counts, shapes)), evidence))| {
             let first = block * BLOCK;
-            let slots = Slots { statistics, irradiance, moments, counts, shapes, evidence };
+            let slots = Slots { statistics, smallest2, irradiance, moments, counts, shapes, evidence };
             let block = Block { first, first_glossy, packets, slots, shading, gloss_slots };
             rule.arch.dispatch(Gather::<LAYERS, MOMENTS> { block, map, grid, rule })
         })
@@ -324,13 +323,14 @@ fn any(counts: &[u32; LANES]) -> bool {
 }
 
 /// All ones for each lane for which the photon counts: disc, slab, normal and side (the normals of both are those of the
-/// eye's and the photon's side), and length of the joined path.
+/// eye's and the photon's side), patch, and length of the joined path: the marks of equal patches cancel, others are above any
+/// budget.
 #[inline(always)]
 fn counting_lanes(packet: &Packet, photon: &Photon) -> [u32; LANES] {
     let p = photon.position;
     let [n0, n1, n2] = photon.normal;
     let n = [f32::from(n0), f32::from(n1), f32::from(n2)];
-    let edges = i32::from(photon.edges);
+    let edges = photon.edges_on_patch();
     let mut counts = [0; LANES];
     let [x, y, z] = &packet.position;
     let [nx, ny, nz] = &packet.normal;
@@ -343,7 +343,7 @@ fn counting_lanes(packet: &Packet, photon: &Photon) -> [u32; LANES] {
         let counted = (distance2 <= packet.radius2[l])
             & (height * height <= packet.slab2[l] * packet.radius2[l])
             & (cosine > SMALLEST_NORMAL_COSINE)
-            & (edges <= packet.budget[l]);
+            & (edges ^ packet.patch[l] <= packet.budget[l]);
         counts[l] = u32::from(counted).wrapping_neg();
     }
     counts
@@ -403,7 +403,7 @@ fn conclude<const LAYERS: usize>(
     rule: Rule,
     tally: &mut Tally,
 ) {
-    let Slots { statistics, irradiance, counts, evidence, .. } = slots;
+    let Slots { statistics, smallest2, irradiance, counts, evidence, .. } = slots;
     for l in 0..LANES {
         let radius2 = packet.radius2[l];
         if radius2 < 0.0 {
@@ -414,12 +414,13 @@ fn conclude<const LAYERS: usize>(
             *out = Rgb::new(flux[0][l], flux[1][l], flux[2][l]) * per_area;
         }
         let count = u64::from(found.count[l]) + counts.get(l).copied().unwrap_or(0);
+        let smallest2 = f64::from(smallest2[l]);
         let floored = match rule.common {
             None => {
                 let alpha = evidence.get(l).map_or(rule.alpha, |e| e.alpha(rule.alpha));
-                statistics[l].refine(count, alpha, rule.smallest2)
+                statistics[l].refine(count, alpha, smallest2)
             }
-            Some(rho) => statistics[l].shrink(count, rho, rule.smallest2),
+            Some(rho) => statistics[l].shrink(count, rho, smallest2),
         };
         tally.floored += u64::from(floored);
         tally.accepted += count;

@@ -173,6 +173,8 @@ mod tests {
                     radius2: radius * radius,
                     slab2: 1.0,
                     budget: 9,
+                    patch: 0,
+                    smallest2: 0.0,
                 }
             })
             .collect();

@@ -29,8 +29,12 @@ pub(crate) struct HitPoint {
     pub(crate) radius2: f32,
     /// Squared half-thickness of the slab in which photons count, over the squared radius.
     pub(crate) slab2: f32,
+    /// The squared radius below which it does not shrink.
+    pub(crate) smallest2: f32,
     /// The most edges that a photon's path may have here.
     pub(crate) budget: u8,
+    /// See [`Surface::patch_towards`](foton_scene::Surface::patch_towards).
+    pub(crate) patch: u8,
 }
 
 /// How a hit point weighs light from each direction, where that is not the same for all.
@@ -73,6 +77,8 @@ pub(crate) struct HitPoints {
     /// Empty unless direct light comes by shadow rays.
     pub(crate) shadow_slots: Vec<ShadowOrigin>,
     pub(crate) statistics_slots: Vec<Statistics>,
+    /// [`HitPoint::smallest2`].
+    pub(crate) smallest2_slots: Vec<f32>,
     /// Empty unless radii adapt.
     pub(crate) evidence_slots: Vec<Evidence>,
     /// In sample order: where the hit point is.
@@ -103,6 +109,7 @@ impl HitPoints {
         let mut slot_of = vec![0u32; found.len()];
         let slots = groups.len() * LANES;
         let mut statistics_slots = vec![Statistics::EMPTY_SLOT; slots];
+        let mut smallest2_slots = vec![0.0; slots];
         let nowhere = ShadowOrigin { origin: Vec3::ZERO, shading_normal: Vec3::ZERO };
         let mut shadow_slots = vec![nowhere; if shadow_rays { slots } else { 0 }];
         for (p, group) in groups.iter().enumerate() {
@@ -116,6 +123,7 @@ impl HitPoints {
                 let h = &found[i as usize];
                 slot_of[i as usize] = slot as u32;
                 statistics_slots[slot] = Statistics::new(h.radius2);
+                smallest2_slots[slot] = h.smallest2;
                 if let Some(g) = h.gloss {
                     gloss_slots[slot - first_glossy * LANES] = Some(gloss[g as usize]);
                 }
@@ -131,6 +139,7 @@ impl HitPoints {
             shading_normals: normals,
             shadow_slots,
             statistics_slots,
+            smallest2_slots,
             evidence_slots: Vec::new(),
             slot_of,
             weights: found.iter().map(|h| h.weight).collect(),
@@ -170,7 +179,7 @@ impl HitPoints {
             + size_of::<Option<Gloss>>() * self.gloss_slots.len()
             + size_of::<[[f32; LANES]; 3]>() * self.shading_normals.len()
             + size_of::<ShadowOrigin>() * self.shadow_slots.len()
-            + size_of::<Statistics>() * self.statistics_slots.len()
+            + (size_of::<Statistics>() + size_of::<f32>()) * self.statistics_slots.len()
             + size_of::<Evidence>() * self.evidence_slots.len()
             + (size_of::<u32>() + size_of::<Rgb>()) * self.slot_of.len()
             + size_of::<u32>() * self.pixel_start.len()

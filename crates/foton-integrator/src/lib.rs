@@ -48,7 +48,7 @@ pub use memory::MemoryEstimate;
 pub use photon::PathClass;
 pub use ppm::{PassReport, Ppm, Start};
 pub use refine::Statistics;
-pub use settings::{Alpha, Change, DirectLight, RadiusRule, RadiusScale, Settings};
+pub use settings::{Alpha, Change, DirectLight, RadiusFloor, RadiusRule, RadiusScale, Settings};
 pub use stage::Stage;
 pub use state::StateError;
 pub use variants::{Step, Variants};

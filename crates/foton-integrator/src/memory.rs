@@ -110,6 +110,7 @@ impl MemoryEstimate {
         let adapts = settings.radius_rule == RadiusRule::Adaptive;
         let slot = size_of::<Packet>() / LANES
             + size_of::<Statistics>()
+            + size_of::<f32>()
             + if shadow { size_of::<ShadowOrigin>() } else { 0 }
             + if settings.error { ErrorSums::BYTES_PER_HIT_POINT } else { 0 }
             + if adapts { size_of::<Evidence>() } else { 0 }

@@ -4,6 +4,7 @@ use foton_math::Aabb;
 use foton_math::glam::Vec3;
 
 use crate::hit_point::HitPoint;
+use crate::photon::patch_mark;
 
 /// Hit points in a packet.
 pub(crate) const LANES: usize = 16;
@@ -24,6 +25,8 @@ pub(crate) struct Packet {
     pub(crate) slab2: [f32; LANES],
     /// See [`HitPoint::budget`].
     pub(crate) budget: [i32; LANES],
+    /// [`HitPoint::patch`], above the bits of the budget.
+    pub(crate) patch: [i32; LANES],
 }
 
 /// Vectors as three rows of lanes, zero where there are fewer.
@@ -45,11 +48,13 @@ impl Packet {
             radius2: [-1.0; LANES],
             slab2: [0.0; LANES],
             budget: [0; LANES],
+            patch: [0; LANES],
         };
         for (lane, h) in members.enumerate() {
             packet.radius2[lane] = h.radius2;
             packet.slab2[lane] = h.slab2;
             packet.budget[lane] = i32::from(h.budget);
+            packet.patch[lane] = patch_mark(h.patch);
         }
         packet
     }
@@ -159,6 +164,8 @@ mod tests {
                     radius2: 4.0,
                     slab2: 1.0,
                     budget: 9,
+                    patch: 0,
+                    smallest2: 0.0,
                 }
             })
             .collect()

@@ -28,8 +28,12 @@ impl PathClass {
     }
 }
 
-/// Octahedral bits an axis of a stored direction: an error of at most 10⁻⁴ radians.
-const DIRECTION_BITS: u32 = 15;
+/// Octahedral bits an axis of a stored direction: an error of at most 0.0021 radians, a fiftieth of the narrowest lobe that hit
+/// points keep.
+const DIRECTION_BITS: u32 = 11;
+
+/// Where in the code the number of the patch begins.
+const PATCH_SHIFT: u32 = 2 * DIRECTION_BITS;
 
 /// A photon where it met a surface that spreads light.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +46,7 @@ pub(crate) struct Photon {
     pub(crate) edges: u8,
     /// Power per channel, not divided by the number of photons (W).
     pub(crate) power: Rgb,
-    /// Where it came from, and its class in the two highest bits.
+    /// Where it came from, the patch that it lies on in the next 8 bits, and its class in the two highest.
     code: u32,
 }
 
@@ -51,34 +55,48 @@ impl Photon {
     pub(crate) const NONE: Self =
         Self { position: Vec3::ZERO, normal: [0; 3], edges: 0, power: Rgb::BLACK, code: 0 };
 
-    /// A photon of `power` that arrives from the unit direction `from`, where anyone asks, on the side of the unit `normal`.
+    /// A photon of `power` that arrives from the unit direction `from`, where anyone asks, on the side of the unit `normal` and
+    /// on the patch of that number.
     #[inline]
     pub(crate) fn new(
         position: Vec3,
         normal: Vec3,
+        patch: u8,
         from: Option<Vec3>,
         power: Rgb,
         class: PathClass,
         edges: u8,
     ) -> Self {
+        let direction = from.map_or(0, octahedral::encode::<DIRECTION_BITS>);
         Self {
             position,
             normal: [in_127ths(normal.x), in_127ths(normal.y), in_127ths(normal.z)],
             edges,
             power,
-            code: from.map_or(0, octahedral::encode::<DIRECTION_BITS>) | ((class as u32) << 30),
+            code: direction | u32::from(patch) << PATCH_SHIFT | (class as u32) << 30,
         }
     }
 
     /// Unit direction towards where it came from.
     #[inline]
     pub(crate) fn direction(&self) -> Vec3 {
-        octahedral::decode::<DIRECTION_BITS>(self.code & ((1 << 30) - 1))
+        octahedral::decode::<DIRECTION_BITS>(self.code & ((1 << PATCH_SHIFT) - 1))
+    }
+
+    /// The number of edges with the patch above it: what a hit point asks for together.
+    #[inline(always)]
+    pub(crate) fn edges_on_patch(&self) -> i32 {
+        i32::from(self.edges) | patch_mark((self.code >> PATCH_SHIFT) as u8)
     }
 
     pub(crate) const fn class_index(&self) -> usize {
         (self.code >> 30) as usize
     }
+}
+
+/// The number of a patch above those of edges.
+pub(crate) const fn patch_mark(patch: u8) -> i32 {
+    (patch as i32) << 8
 }
 
 /// The nearest multiple of 1/127.
@@ -96,9 +114,10 @@ mod tests {
         assert_eq!(size_of::<Photon>(), 32);
         for class in PathClass::ALL {
             let from = Vec3::new(-0.6, 0.0, -0.8);
-            let p = Photon::new(Vec3::ONE, -Vec3::Z, Some(from), Rgb::WHITE, class, 3);
+            let p = Photon::new(Vec3::ONE, -Vec3::Z, 0xa5, Some(from), Rgb::WHITE, class, 3);
             assert_eq!((p.class_index(), p.normal, p.edges), (class as usize, [0, 0, -127], 3));
-            assert!(p.direction().distance(from) < 1e-4);
+            assert_eq!(p.edges_on_patch(), 3 | patch_mark(0xa5));
+            assert!(p.direction().distance(from) < 2.1e-3);
         }
     }
 

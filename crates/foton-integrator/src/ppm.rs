@@ -20,7 +20,6 @@ use crate::light_use::LightUse;
 use crate::photon::Photon;
 use crate::photon_map::PhotonMap;
 use crate::photon_pass::{Chunk, PhotonPass};
-use crate::radius::FirstRadius;
 use crate::refine::Statistics;
 use crate::settings::{Change, DirectLight, RadiusRule, Settings};
 use crate::slots::Kept;
@@ -210,7 +209,6 @@ impl Ppm {
         let rule = Rule {
             alpha,
             common: self.settings.radius_rule.common(alpha, before, counts.photons),
-            smallest2: FirstRadius::new(&self.scene, &self.settings).smallest2(),
             batch,
             question: Question::after(self.passes),
             arch: self.arch,

@@ -1,11 +1,16 @@
-//! The first radius of a hit point.
+//! The first radius of a hit point, and the smallest.
 //!
 //! r₀ = c √(A/π), where A is the area that the pixel covers on the surface: neighbouring discs overlap as much on a near wall
 //! as on a far floor. Through mirrors and glass the footprint is that of the unfolded path (curved ones focus or spread it;
 //! the clamp bounds what that can do). Radii stay below a share of the scene, so that the first passes do not blur it all.
+//!
+//! Eye samples stand still, so light that is narrower than the gaps between them is seen only by discs that are as wide as the
+//! gaps. A radius that shrank below them would let a narrow beam fall between the samples: it would be lost from the picture. So
+//! no radius falls below a multiple of √(A/n), the spacing of a pixel's n samples.
 
 use std::f32::consts::PI;
 
+use foton_math::glam::Vec3;
 use foton_scene::{Scene, Surface};
 
 use crate::settings::Settings;
@@ -26,12 +31,12 @@ pub(crate) struct FirstRadius {
     /// Factor on what the rule gives.
     scale: f32,
     largest: f32,
-    smallest: f32,
+    /// The floor over the square root of a pixel's footprint.
+    floor: f32,
 }
 
 impl FirstRadius {
     pub(crate) fn new(scene: &Scene, settings: &Settings) -> Self {
-        let largest_coordinate = scene.bounds().min.abs().max(scene.bounds().max.abs()).max_element();
         Self {
             // A disc beyond the whole scene finds what one of its size finds, and its square must stay finite.
             fixed: settings
@@ -39,24 +44,25 @@ impl FirstRadius {
                 .map(|r| scene.normalisation().length(r).min(2.0 * scene.bounds().radius())),
             scale: settings.radius_scale.get() as f32,
             largest: LARGEST_SHARE * scene.bounds().radius(),
-            smallest: smallest_radius(largest_coordinate),
+            floor: settings.radius_floor.get() as f32 / (settings.samples_per_pixel.get() as f32).sqrt(),
         }
     }
 
-    /// The squared first radius at a point that a pixel of `solid_angle` sees after `distance` in all, at `cosine` to the
-    /// surface's normal.
-    pub(crate) fn radius2(&self, solid_angle: f32, distance: f32, cosine: f32) -> f32 {
-        let radius = self.fixed.unwrap_or_else(|| {
-            let area = distance * distance * solid_angle / cosine.max(SMALLEST_COSINE);
-            (FOOTPRINTS * (area / PI).sqrt()).min(self.largest)
-        });
-        let radius = (radius * self.scale).max(self.smallest);
-        radius * radius
-    }
-
-    /// The square below which no radius shrinks.
-    pub(crate) fn smallest2(&self) -> f64 {
-        f64::from(self.smallest) * f64::from(self.smallest)
+    /// Squares of the first radius and of the smallest at `position`, which a pixel of `solid_angle` sees after `distance` in all,
+    /// at `cosine` to the surface's normal.
+    pub(crate) fn first_and_smallest2(
+        &self,
+        solid_angle: f32,
+        distance: f32,
+        cosine: f32,
+        position: Vec3,
+    ) -> (f32, f32) {
+        let area = distance * distance * solid_angle / cosine.max(SMALLEST_COSINE);
+        let radius = self.fixed.unwrap_or_else(|| (FOOTPRINTS * (area / PI).sqrt()).min(self.largest));
+        let resolved = smallest_radius(position.abs().max_element());
+        let first = (radius * self.scale).max(resolved);
+        let smallest = (self.floor * area.sqrt()).clamp(resolved, first);
+        (first * first, smallest * smallest)
     }
 }
 
@@ -80,15 +86,34 @@ mod tests {
 
     #[test]
     fn the_radius_grows_with_the_footprint_and_is_clamped() {
-        let rule = FirstRadius { fixed: None, scale: 1.0, largest: 10.0, smallest: 0.01 };
-        let r = |distance, cosine| rule.radius2(1e-4, distance, cosine).sqrt();
+        let rule = FirstRadius { fixed: None, scale: 1.0, largest: 10.0, floor: 0.5 };
+        let here = Vec3::splat(2000.0);
+        let of = |rule: &FirstRadius, distance, cosine| {
+            let (first2, smallest2) = rule.first_and_smallest2(1e-4, distance, cosine, here);
+            (first2.sqrt(), smallest2.sqrt())
+        };
+        let r = |distance, cosine| of(&rule, distance, cosine).0;
         assert!((r(20.0, 1.0) / r(10.0, 1.0) - 2.0).abs() < 1e-5);
         assert!((r(10.0, 0.25) / r(10.0, 1.0) - 2.0).abs() < 1e-5);
-        assert!((r(1e9, 1.0) - 10.0).abs() < 1e-5 && (r(0.0, 1.0) - 0.01).abs() < 1e-7);
+        assert!((r(1e9, 1.0) - 10.0).abs() < 1e-5 && r(0.0, 1.0) == smallest_radius(2000.0));
         let fixed = FirstRadius { fixed: Some(50.0), ..rule };
-        assert_eq!(fixed.radius2(1e-4, 1.0, 1.0), 2500.0);
+        assert_eq!(of(&fixed, 1.0, 1.0).0, 50.0);
         let half = FirstRadius { scale: 0.5, ..rule };
-        assert!((half.radius2(1e-4, 20.0, 1.0) / rule.radius2(1e-4, 20.0, 1.0) - 0.25).abs() < 1e-5);
+        assert!((r(20.0, 1.0) / of(&half, 20.0, 1.0).0 - 2.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn the_smallest_radius_is_a_multiple_of_the_samples_spacing_and_never_above_the_first() {
+        let rule = FirstRadius { fixed: None, scale: 1.0, largest: 10.0, floor: 0.5 };
+        let smallest = |rule: &FirstRadius, at: f32| {
+            rule.first_and_smallest2(1e-4, 20.0, 1.0, Vec3::new(0.0, at, 0.0)).1.sqrt()
+        };
+        // √(20² · 10⁻⁴) is 0.2.
+        assert!((smallest(&rule, 1.0) - 0.1).abs() < 1e-6);
+        assert!((smallest(&FirstRadius { fixed: Some(0.03), ..rule }, 1.0) - 0.03).abs() < 1e-6);
+        let none = FirstRadius { floor: 0.0, ..rule };
+        assert!((smallest(&none, 1500.0) / smallest_radius(1500.0) - 1.0).abs() < 1e-5);
+        assert!(smallest(&none, 1.0) < 1e-5, "what is near the middle of a large scene has finer coordinates");
     }
 
     #[test]

@@ -76,6 +76,39 @@ impl fmt::Display for RadiusScale {
     }
 }
 
+/// The smallest radius in spacings of the eye samples; 0 for none.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct RadiusFloor(f64);
+
+impl RadiusFloor {
+    /// Radii may shrink as far as coordinates resolve.
+    pub const NONE: Self = Self(0.0);
+
+    /// `None` unless zero or more, and finite.
+    #[must_use]
+    pub fn new(spacings: f64) -> Option<Self> {
+        (spacings >= 0.0 && spacings.is_finite()).then_some(Self(spacings))
+    }
+
+    /// The value.
+    #[must_use]
+    pub const fn get(self) -> f64 {
+        self.0
+    }
+}
+
+impl Default for RadiusFloor {
+    fn default() -> Self {
+        Self(1.0)
+    }
+}
+
+impl fmt::Display for RadiusFloor {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
 /// How radii shrink.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RadiusRule {
@@ -134,6 +167,8 @@ pub struct Settings {
     pub radius: Option<f64>,
     /// Factor on the first radius, whichever it is.
     pub radius_scale: RadiusScale,
+    /// How far radii shrink: eye samples are frozen, and narrower light would fall between discs that are smaller than their spacing.
+    pub radius_floor: RadiusFloor,
     /// How radii shrink.
     pub radius_rule: RadiusRule,
     /// How direct light is estimated.
@@ -162,6 +197,7 @@ impl Default for Settings {
             samples_per_pixel: number(4),
             radius: None,
             radius_scale: RadiusScale::default(),
+            radius_floor: RadiusFloor::default(),
             radius_rule: RadiusRule::default(),
             direct_light: DirectLight::default(),
             max_depth: None,

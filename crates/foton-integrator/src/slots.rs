@@ -123,6 +123,8 @@ impl Kept {
 /// What a gather fills, of some packets.
 pub(crate) struct Slots<'a, const LAYERS: usize> {
     pub(crate) statistics: &'a mut [Statistics],
+    /// Squared radii below which none shrinks.
+    pub(crate) smallest2: &'a [f32],
     pub(crate) irradiance: &'a mut [Irradiance<LAYERS>],
     /// Empty unless the error is asked for.
     pub(crate) moments: &'a mut [[f32; 2]],
@@ -139,6 +141,7 @@ impl<const LAYERS: usize> Slots<'_, LAYERS> {
         let lanes = index * LANES..(index + 1) * LANES;
         Slots {
             statistics: &mut self.statistics[lanes.clone()],
+            smallest2: &self.smallest2[lanes.clone()],
             irradiance: &mut self.irradiance[lanes.clone()],
             moments: self.moments.get_mut(lanes.clone()).unwrap_or_default(),
             counts: self.counts.get_mut(lanes.clone()).unwrap_or_default(),

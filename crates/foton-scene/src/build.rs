@@ -4,6 +4,7 @@ mod checks;
 mod emitters;
 mod gather;
 mod memory;
+mod patches;
 
 use foton_math::Aabb;
 use foton_math::glam::{DAffine3, DMat3, Mat3, Vec3};
@@ -20,6 +21,7 @@ use crate::texture::Sampler;
 use checks::{check_environments, check_material, check_sensors, check_textures, world_bounds};
 use emitters::{area_emitter, emitter_choice, reach, unattached_emitter};
 use gather::Gathered;
+pub(crate) use patches::Patch;
 
 /// Why a description makes no scene. Names are those of the scene file.
 #[derive(Debug, Error, PartialEq, Eq)]
@@ -136,6 +138,9 @@ impl Scene {
         }
         scene.lambertian =
             scene.shapes.iter().map(|s| scene.materials[s.material as usize].lambertian()).collect();
+        let keeps: Vec<bool> =
+            scene.shapes.iter().map(|s| scene.material_of(s).bsdfs().any(Bsdf::keeps)).collect();
+        scene.patches = patches::find(&scene.accel, |i| keeps[scene.shape_of[i] as usize]).into();
         scene.max_depth = description.max_depth;
         scene.picture_bytes = description.picture_bytes();
         scene.sensors = description.sensors.iter().map(|s| Sensor::new(s, &normalisation)).collect();

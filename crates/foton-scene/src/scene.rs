@@ -7,6 +7,7 @@ use foton_math::{Aabb, Frame, Ray, Rgb};
 
 use crate::accel::{Accel, Hit};
 use crate::bsdf::{Coat, Scattering};
+use crate::build::Patch;
 use crate::census::Census;
 use crate::description::{Colour, Material};
 use crate::discrete::Discrete;
@@ -39,6 +40,8 @@ pub struct Scene {
     pub(crate) accel: Arc<Accel>,
     /// Shape of each primitive, in the tree's order.
     pub(crate) shape_of: Arc<[u32]>,
+    /// What each primitive belongs to, in the tree's order.
+    pub(crate) patches: Arc<[Patch]>,
     /// Unit vertex normals of each primitive in the tree's order; zeros where flat. Empty when the scene has none.
     pub(crate) vertex_normals: Arc<[[Vec3; 3]]>,
     /// Texture coordinates of each primitive's vertices in the tree's order. Empty when no material asks for them.
@@ -101,8 +104,10 @@ impl Scene {
             error,
             normal,
             shading_normal: normal,
-            curved: matches!(primitive, Primitive::Sphere { .. } | Primitive::Tube { .. }),
+            curved: self.patches[i].curved
+                || matches!(primitive, Primitive::Sphere { .. } | Primitive::Tube { .. }),
             shape: self.shape_of[i],
+            patch: self.patches[i].key,
             primitive: hit.primitive,
             barycentric: hit.barycentric,
         };
@@ -221,7 +226,11 @@ impl Scene {
     #[must_use]
     #[inline]
     pub fn material(&self, shape: u32) -> &Material {
-        &self.materials[self.shapes[shape as usize].material as usize]
+        self.material_of(&self.shapes[shape as usize])
+    }
+
+    pub(crate) fn material_of(&self, shape: &Shape) -> &Material {
+        &self.materials[shape.material as usize]
     }
 
     /// Radiance that a surface emits towards `direction`.
@@ -330,6 +339,7 @@ impl Scene {
     pub fn bytes(&self) -> usize {
         self.accel.bytes()
             + self.shape_of.len() * size_of::<u32>()
+            + self.patches.len() * size_of::<Patch>()
             + self.vertex_normals.len() * size_of::<[Vec3; 3]>()
             + self.vertex_uvs.len() * size_of::<[Vec2; 3]>()
             + self.picture_bytes

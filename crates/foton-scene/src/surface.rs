@@ -29,6 +29,8 @@ pub struct Surface {
     pub curved: bool,
     /// Index of the shape.
     pub shape: u32,
+    /// Number of the patch: of what continues this surface. Its lowest bit says which side is the outside.
+    pub(crate) patch: u8,
     /// Index of the primitive, in the tree's order.
     pub(crate) primitive: u32,
     /// Weights of a triangle's second and third vertex.
@@ -36,6 +38,14 @@ pub struct Surface {
 }
 
 impl Surface {
+    /// What a photon and a hit point have in common where both are on one side of one surface, or of surfaces that continue each
+    /// other. Other surfaces nearby differ; far away some are alike.
+    #[must_use]
+    #[inline]
+    pub const fn patch_towards(&self, outward: bool) -> u8 {
+        self.patch ^ outward as u8
+    }
+
     /// An origin for a ray towards `direction` that lies certainly on that side of the surface.
     ///
     /// The offset is along the geometric normal and only as long as the error bound asks, so that a small object on a

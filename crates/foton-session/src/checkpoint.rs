@@ -153,7 +153,7 @@ fn identity(ppm: &Ppm, scene: &SceneIdentity) -> u64 {
     // Writing to a string does not fail.
     let _ = write!(
         text,
-        "{:016x} {} {} {} {:?} {} {:?} {} {} {direct} {} {} {} {} {}",
+        "{:016x} {} {} {} {:?} {} {:?} {} {} {} {direct} {} {} {} {} {}",
         scene.hash,
         sensor.name,
         sensor.width,
@@ -161,6 +161,7 @@ fn identity(ppm: &Ppm, scene: &SceneIdentity) -> u64 {
         s.radius.map(f64::to_bits),
         s.radius_scale,
         s.radius_rule,
+        s.radius_floor,
         s.samples_per_pixel,
         s.first_pass,
         Ppm::max_depth(ppm.scene(), s),

@@ -34,7 +34,7 @@ mod threads;
 pub use clock::StageTimes;
 pub use engine::Engine;
 pub use foton_integrator::{
-    Alpha, Change, DirectLight, ErrorEstimate, Ledger, PathClass, Radii, RadiusRule, RadiusScale, Settings,
+    Alpha, Change, DirectLight, ErrorEstimate, Ledger, PathClass, Radii, RadiusFloor, RadiusRule, RadiusScale, Settings,
     Stage,
 };
 pub use interrupt::Interrupt;

@@ -28,11 +28,12 @@ pub(crate) fn of(ppm: &Ppm, scene: &SceneIdentity) -> Metadata {
         DirectLight::ShadowRays => "shadow-rays",
     };
     let settings = format!(
-        "integrator=ppm alpha={} photons={} first_pass={} radius={radius} radius_rule={rule} direct={direct} max_depth={} spp={} \
+        "integrator=ppm alpha={} photons={} first_pass={} radius={radius} radius_rule={rule} radius_floor={} direct={direct} max_depth={} spp={} \
          size={}x{} sensor={} hit_points_per_sample={} layers={}",
         s.alpha,
         s.photons_per_pass,
         s.first_pass,
+        s.radius_floor,
         Ppm::max_depth(ppm.scene(), s),
         s.samples_per_pixel,
         sensor.width,

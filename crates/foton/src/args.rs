@@ -8,7 +8,7 @@ use std::str::FromStr;
 use std::time::Duration;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
-use foton_integrator::{Alpha, DirectLight, LayerKind, RadiusRule, RadiusScale, Settings};
+use foton_integrator::{Alpha, DirectLight, LayerKind, RadiusFloor, RadiusRule, RadiusScale, Settings};
 use foton_session::Preset;
 use foton_session::snapshot::Format;
 
@@ -130,6 +130,10 @@ pub(crate) struct Render {
     /// How radii shrink
     #[arg(long, value_name = "RULE", value_enum, default_value_t = Settings::default().radius_rule.into())]
     pub(crate) radius_rule: Rule,
+    /// Smallest radius in spacings of the eye samples, which stand still: light narrower than what discs cover is lost between
+    /// them. 0 for none
+    #[arg(long, value_name = "N", value_parser = radius_floor, default_value_t = Settings::default().radius_floor)]
+    pub(crate) radius_floor: RadiusFloor,
     /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = Settings::default().seed)]
     pub(crate) seed: u64,
@@ -348,6 +352,10 @@ fn with_default(help: &str, default: impl std::fmt::Display) -> String {
 
 fn alpha(s: &str) -> Result<Alpha, String> {
     s.parse().ok().and_then(Alpha::new).ok_or_else(|| "expected a number above 0 and up to 1".to_owned())
+}
+
+fn radius_floor(s: &str) -> Result<RadiusFloor, String> {
+    s.parse().ok().and_then(RadiusFloor::new).ok_or_else(|| "expected a number of spacings, 0 or more".to_owned())
 }
 
 fn radius(s: &str) -> Result<Radius, String> {

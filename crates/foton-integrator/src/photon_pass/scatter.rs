@@ -167,10 +167,11 @@ impl PhotonPass<'_> {
             return path.stored;
         }
         let Some(cell) = self.grid.number(surface.position) else { return path.stored };
-        let normal = surface.normal * 1f32.copysign(wo.dot(surface.normal));
+        let outward = wo.dot(surface.normal);
+        let (normal, patch) = (surface.normal * 1f32.copysign(outward), surface.patch_towards(outward > 0.0));
         let edges = path.edges.min(255) as u8;
         let from = self.directions.then_some(wo);
-        chunk.photons.push(Photon::new(surface.position, normal, from, path.power, path.class, edges));
+        chunk.photons.push(Photon::new(surface.position, normal, patch, from, path.power, path.class, edges));
         chunk.cells.push(cell);
         true
     }

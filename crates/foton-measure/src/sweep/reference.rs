@@ -18,7 +18,7 @@ use std::time::Duration;
 
 use foton_film::{Image, LayerData};
 use foton_integrator::{
-    Alpha, Cancel, Cancelled, DirectLight, LayerKind, Ppm, RadiusScale, Settings, Variants,
+    Alpha, Cancel, Cancelled, DirectLight, LayerKind, Ppm, RadiusFloor, RadiusScale, Settings, Variants,
 };
 use foton_scene::Scene;
 
@@ -158,6 +158,7 @@ impl OwnRun {
         let of_radius = |scale: f64, layers| Settings {
             alpha: Alpha::new(1.0).unwrap_or_default(),
             radius_scale: RadiusScale::new(scale * base.radius_scale.get()).unwrap_or_default(),
+            radius_floor: RadiusFloor::NONE,
             // Equal passes, whose scatter is that of equals; many, since each has one shadow ray a hit point.
             photons_per_pass,
             first_pass: photons_per_pass,

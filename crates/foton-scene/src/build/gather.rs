@@ -151,6 +151,7 @@ impl Gathered {
             shape_of: ordered.clone().map(|i| self.shape_of[i]).collect(),
             vertex_uvs: ordered.clone().filter_map(|i| self.vertex_uvs.get(i).copied()).collect(),
             textures: Arc::default(),
+            patches: Arc::default(),
             vertex_normals: if smooth {
                 ordered.map(|i| self.vertex_normals[i]).collect()
             } else {

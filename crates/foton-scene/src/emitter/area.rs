@@ -48,6 +48,7 @@ impl Area {
             shading_normal: normal,
             curved: false,
             shape: self.shape,
+            patch: 0,
             primitive: 0,
             barycentric: Vec2::ZERO,
         }
