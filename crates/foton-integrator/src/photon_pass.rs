@@ -8,7 +8,7 @@ pub(crate) use scatter::SMALLEST_COSINE;
 use std::ops::Range;
 
 use foton_math::{Purpose, Ray, Rgb, Stream};
-use foton_scene::{Hit, Scene};
+use foton_scene::{Hit, Scene, Sources};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
@@ -30,6 +30,7 @@ const WAVE: usize = 256;
 /// Everything a photon pass needs to know.
 pub(crate) struct PhotonPass<'a> {
     pub(crate) scene: &'a Scene,
+    pub(crate) sources: &'a Sources,
     pub(crate) grid: &'a Grid,
     pub(crate) direct_light: DirectLight,
     /// Whether any hit point asks where a photon came from.
@@ -145,9 +146,9 @@ impl PhotonPass<'_> {
         let mut numbers = stream.clone();
         // Stratified over the pass: each emitter gets its share of photons up to one.
         let u = (index as f64 + f64::from(numbers.next_1d())) / self.photons as f64;
-        let Some((emitter, probability)) = self.scene.choose_emitter(u) else { return };
+        let Some((emitter, probability)) = self.sources.choose(u) else { return };
         let start =
-            self.scene.emitters()[emitter].emit(numbers.next_1d(), numbers.next_2d(), numbers.next_2d());
+            self.sources.emitters()[emitter].emit(numbers.next_1d(), numbers.next_2d(), numbers.next_2d());
         let power = start.power / probability as f32;
         if !power.is_finite() {
             chunk.ledger.dropped += 1;
@@ -156,6 +157,11 @@ impl PhotonPass<'_> {
             return;
         }
         chunk.ledger.emitted += energy(power);
+        if power.is_black() {
+            // Aimed where its emitter does not shine.
+            chunk.lights[emitter].count(false);
+            return;
+        }
         paths.push(Path {
             ray: Ray::new(start.origin, start.direction),
             power,

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use foton_film::Image;
 use foton_math::{Purpose, Rgb};
-use foton_scene::Scene;
+use foton_math::glam::Vec3;
+use foton_scene::{Scene, Sources};
 use pulp::Arch;
 
 use crate::batch::{self, Batch, Counts};
@@ -29,6 +30,9 @@ mod parts;
 
 /// Longest path that is followed, whatever is asked for. What that cuts off stands in the ledger.
 const LONGEST_PATH: u32 = 250;
+
+/// About so many hit points tell what is seen.
+const LOOKED_AT: usize = 4096;
 
 /// Cells are marked anew when the mean r² has shrunk by this factor since the last time.
 const MARK_AGAIN: f64 = 0.7;
@@ -70,6 +74,7 @@ pub struct PassReport {
 /// A render under way.
 pub struct Ppm {
     scene: Arc<Scene>,
+    sources: Sources,
     settings: Settings,
     hit_points: HitPoints,
     shapes: Vec<u32>,
@@ -116,6 +121,9 @@ impl Ppm {
         let adapts = settings.radius_rule == RadiusRule::Adaptive;
         let hit_points = if adapts { hit_points.with_evidence() } else { hit_points };
         let start = Start { hit_points: hit_points.len() as u64, eye_rays: eye.rays, dropped: eye.dropped };
+        let step = (eye.hit_points.len() / LOOKED_AT).max(1);
+        let seen: Vec<Vec3> = eye.hit_points.iter().step_by(step).map(|h| h.position).collect();
+        let sources = scene.sources(&seen);
         drop((eye.hit_points, eye.gloss));
         let grid = Grid::new(&hit_points.packets);
         let light = Light::new(eye.emission, &hit_points, &settings);
@@ -126,6 +134,7 @@ impl Ppm {
         cancel.check()?;
         Ok(Self {
             scene,
+            sources,
             settings,
             hit_points,
             shapes: eye.shapes,
@@ -258,6 +267,7 @@ impl Ppm {
     pub(crate) fn photon_pass(&self, photons: u64, batch: Batch) -> PhotonPass<'_> {
         PhotonPass {
             scene: &self.scene,
+            sources: &self.sources,
             grid: &self.grid,
             direct_light: self.settings.direct_light,
             directions: self.hit_points.ask_for_directions(),

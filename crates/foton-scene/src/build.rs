@@ -13,13 +13,13 @@ use thiserror::Error;
 use crate::bsdf::Coat;
 use crate::census::Census;
 use crate::description::{Bsdf, Colour, Material, SceneDescription, SensorDescription};
-use crate::emitter::{Emitter, Kind};
+use crate::emitter::{Aim, Emitter, Kind};
 use crate::normalise::Normalisation;
 use crate::scene::{Scene, Shape};
 use crate::sensor::Sensor;
 use crate::texture::Sampler;
 use checks::{check_environments, check_material, check_sensors, check_textures, world_bounds};
-use emitters::{area_emitter, emitter_choice, reach, unattached_emitter};
+use emitters::{area_emitter, ball, emitter_choice, unattached_emitter};
 use gather::Gathered;
 pub(crate) use patches::Patch;
 
@@ -110,7 +110,7 @@ impl Scene {
             }
             let emitter = shape.radiance.filter(|r| !r.is_black()).map(|radiance| {
                 let area = area_emitter(i as u32, radiance, &gathered.primitives[first..]);
-                emitters.push(Emitter { name: shape.name.clone(), kind: Kind::Area(area) });
+                emitters.push(Emitter { name: shape.name.clone(), kind: Kind::Area(area), aim: Aim::default() });
                 emitters.len() as u32 - 1
             });
             let extent = gathered.primitives[first..].iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
@@ -124,8 +124,11 @@ impl Scene {
         }
         let bounds = gathered.primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
         let bounds = if bounds.is_empty() { Aabb::around(Vec3::ZERO, 1.0) } else { bounds };
-        let reach = reach(&bounds, &casters);
-        emitters.extend(description.emitters.iter().map(|e| unattached_emitter(e, &normalisation, reach)));
+        let scene_ball = ball(&bounds);
+        let casters =
+            (!casters.is_empty()).then(|| ball(&casters)).filter(|c| c.radius < 0.5 * scene_ball.radius);
+        let at = (scene_ball, casters);
+        emitters.extend(description.emitters.iter().map(|e| unattached_emitter(e, &normalisation, at)));
         if let Some(bad) = emitters.iter().find(|e| !e.is_finite()) {
             return Err(BuildError::NotFinite(bad.name.clone()));
         }
@@ -154,6 +157,7 @@ impl Scene {
         scene.census.environment |= !scene.environments.is_empty();
         scene.emitter_choice = emitter_choice(&emitters);
         scene.census.emitters = emitters.iter().filter(|e| !e.power().is_black()).count() as u64;
+        scene.casters = casters;
         scene.emitters = emitters.into();
         Ok(scene)
     }

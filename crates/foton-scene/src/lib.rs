@@ -17,6 +17,7 @@ mod normalise;
 mod primitive;
 mod scene;
 mod sensor;
+mod sources;
 mod surface;
 mod texture;
 
@@ -30,4 +31,5 @@ pub use filter::FilterSampler;
 pub use normalise::Normalisation;
 pub use scene::{Scene, Shape};
 pub use sensor::Sensor;
+pub use sources::Sources;
 pub use surface::Surface;

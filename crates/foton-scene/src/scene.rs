@@ -11,7 +11,7 @@ use crate::build::Patch;
 use crate::census::Census;
 use crate::description::{Colour, Material};
 use crate::discrete::Discrete;
-use crate::emitter::{Emitter, Kind};
+use crate::emitter::{Ball, Emitter, Kind};
 use crate::normalise::Normalisation;
 use crate::primitive::Primitive;
 use crate::sensor::Sensor;
@@ -59,6 +59,8 @@ pub struct Scene {
     /// Indices of the emitters that no path meets by chance.
     pub(crate) without_extent: Arc<[u32]>,
     pub(crate) emitter_choice: Discrete,
+    /// Around what reflects or refracts into single directions, if that takes up clearly less than the scene.
+    pub(crate) casters: Option<Ball>,
     pub(crate) sensors: Vec<Sensor>,
     pub(crate) normalisation: Normalisation,
     pub(crate) bounds: Aabb,
@@ -96,7 +98,7 @@ impl Scene {
         let i = hit.primitive as usize;
         let primitive = &self.accel.primitives()[i];
         let (position, error, normal) = match *primitive {
-            Primitive::Triangle(corners) => self.accel.plane(i).locate(corners, hit.barycentric),
+            Primitive::Triangle(corners) => self.accel.plane(i).locate_on(ray, corners, hit.barycentric),
             _ => locate(primitive, hit.barycentric, ray.at(hit.t)),
         };
         let mut surface = Surface {

@@ -1,5 +1,6 @@
 //! A point on a surface, with the bound on its rounding error that robust ray origins need.
 
+use foton_math::Ray;
 use foton_math::glam::{DVec3, Vec2, Vec3};
 
 use crate::primitive::{Primitive, triangle_normal};
@@ -10,6 +11,9 @@ const TRIANGLE_ERROR: f32 = 2.0 * 2.0 * 0.5 * f32::EPSILON;
 
 /// Length over height beyond which a triangle's points may lie closer to its edges than others'.
 const SLENDER: f64 = 16.0;
+
+/// A triangle whose corners are this many times as far out as a point in it places the point too coarsely by its weights.
+const COARSE: f32 = 64.0;
 
 /// The same for a point projected onto a sphere or a disc in single precision: γ₅ of `[PBR16]` section 3.9, doubled.
 const QUADRIC_ERROR: f32 = 2.0 * 5.0 * 0.5 * f32::EPSILON;
@@ -122,12 +126,36 @@ impl Plane {
         self.area.dot(corner.as_dvec3() - origin) / self.area.dot(direction)
     }
 
+    /// As [`Plane::locate`], for a point that `ray` hits. Weights are single precision: in a triangle that is very much larger than
+    /// its point's coordinates they place it too coarsely, and the ray itself says better.
+    #[inline(always)]
+    pub(crate) fn locate_on(&self, ray: &Ray, corners: [Vec3; 3], barycentric: Vec2) -> (Vec3, Vec3, Vec3) {
+        let largest = corners.into_iter().fold(Vec3::ZERO, |l, p| l.max(p.abs())).max_element();
+        let (v, w) = (f64::from(barycentric.x), f64::from(barycentric.y));
+        let found = self.point(corners, v, w, f64::from(self.least));
+        if found.0.abs().max_element() * COARSE > largest {
+            return found;
+        }
+        let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
+        let [a, b, c] = corners.map(Vec3::as_dvec3);
+        let on_ray = origin + direction * self.distance(corners[0], origin, direction) - a;
+        let weights = self.area / self.area.length_squared();
+        let (v, w) = (on_ray.cross(c - a).dot(weights), (b - a).cross(on_ray).dot(weights));
+        // Rounding moves a point that lies this near the middle by less.
+        let share = f64::from((on_ray + a).abs().max_element() as f32 / largest).max(f64::EPSILON);
+        self.point(corners, v, w, f64::from(self.least) * share)
+    }
+
     /// Position, error bound and geometric normal of a point in the triangle.
     #[inline(always)]
     pub(crate) fn locate(&self, corners: [Vec3; 3], barycentric: Vec2) -> (Vec3, Vec3, Vec3) {
-        let (v, w) = (f64::from(barycentric.x), f64::from(barycentric.y));
+        self.point(corners, barycentric.x.into(), barycentric.y.into(), self.least.into())
+    }
+
+    /// The same by weights of the second and third corner, none of the three less than `least`.
+    #[inline(always)]
+    fn point(&self, corners: [Vec3; 3], v: f64, w: f64, least: f64) -> (Vec3, Vec3, Vec3) {
         let (mut u, mut v, mut w) = (1.0 - v - w, v, w);
-        let least = f64::from(self.least);
         if u.min(v).min(w) < least {
             (u, v, w) = (u.max(least), v.max(least), w.max(least));
             let sum = u + v + w;

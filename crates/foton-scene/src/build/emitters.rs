@@ -6,7 +6,7 @@ use foton_math::{Aabb, Frame, Rgb};
 use super::orientation;
 use crate::description::{EmitterDescription, EmitterKind};
 use crate::discrete::Discrete;
-use crate::emitter::{Area, Ball, Emitter, Kind, Reach, Spot};
+use crate::emitter::{Aim, Area, Ball, Emitter, Kind, Spot, Target};
 use crate::environment::Environment;
 use crate::normalise::Normalisation;
 use crate::primitive::Primitive;
@@ -14,13 +14,14 @@ use crate::primitive::Primitive;
 /// Share of photons spread evenly over emitters, whatever their power (δ of theory's many lights).
 const DEFENSIVE_SHARE: f64 = 0.1;
 
-/// Balls for light from infinity; casters apart only where that saves most of the photons.
-pub(super) fn reach(scene: &Aabb, casters: &Aabb) -> Reach {
-    // A margin keeps the start of every path off the outermost surface.
-    let ball = |b: &Aabb| Ball { centre: b.centre(), radius: b.radius() * 1.01 };
-    let scene_ball = ball(scene);
-    let casters = (!casters.is_empty()).then(|| ball(casters)).filter(|c| c.radius < 0.5 * scene_ball.radius);
-    Reach { scene: scene_ball, casters }
+/// A ball around a box. A margin keeps the start of every path off the outermost surface.
+pub(super) fn ball(b: &Aabb) -> Ball {
+    Ball { centre: b.centre(), radius: b.radius() * 1.01 }
+}
+
+/// Half of the light from infinity is aimed at what focuses it, where that saves most of the photons.
+pub(super) fn aim_at_casters(casters: Option<Ball>) -> Aim {
+    Aim::new(casters.map(|ball| Target { ball, share: 0.5 }).into_iter().collect())
 }
 
 pub(super) fn area_emitter(shape: u32, radiance: Rgb, primitives: &[Primitive]) -> Area {
@@ -37,7 +38,7 @@ pub(super) fn area_emitter(shape: u32, radiance: Rgb, primitives: &[Primitive]) 
 pub(super) fn unattached_emitter(
     description: &EmitterDescription,
     to_scene: &Normalisation,
-    reach: Reach,
+    (scene, casters): (Ball, Option<Ball>),
 ) -> Emitter {
     // Irradiance is intensity over squared distance, so intensity grows with the square of the scale.
     let scale2 = (to_scene.scale() * to_scene.scale()) as f32;
@@ -55,18 +56,19 @@ pub(super) fn unattached_emitter(
                 beam: beam_degrees.min(*cutoff_degrees).to_radians() as f32,
             })
         }
-        EmitterKind::Constant { radiance } => Kind::Constant { radiance: *radiance, reach },
+        EmitterKind::Constant { radiance } => Kind::Constant { radiance: *radiance, scene },
         EmitterKind::Directional { direction, irradiance } => Kind::Directional {
             direction: direction.normalize_or(DVec3::NEG_Z).as_vec3(),
             irradiance: *irradiance,
-            reach,
+            scene,
         },
         EmitterKind::Environment { to_world, bitmap, scale } => {
             let to_world = orientation(to_world).transpose();
-            Kind::Environment { map: Box::new(Environment::new(bitmap.clone(), *scale, to_world)), reach }
+            Kind::Environment { map: Box::new(Environment::new(bitmap.clone(), *scale, to_world)), scene }
         }
     };
-    Emitter { name: description.name.clone(), kind }
+    let emitter = Emitter { name: description.name.clone(), kind, aim: Aim::default() };
+    if emitter.is_at_infinity() { Emitter { aim: aim_at_casters(casters), ..emitter } } else { emitter }
 }
 
 /// p = (1 − δ) Φ/ΣΦ + δ/n over those that emit at all.

@@ -166,6 +166,7 @@ impl Gathered {
             environments: Arc::default(),
             without_extent: Arc::default(),
             emitter_choice: Discrete::default(),
+            casters: None,
             sensors: Vec::new(),
             normalisation,
             bounds,

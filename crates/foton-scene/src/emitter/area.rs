@@ -3,7 +3,7 @@
 use std::f32::consts::PI;
 
 use foton_math::glam::{Vec2, Vec3};
-use foton_math::{Frame, Rgb, warp};
+use foton_math::{Aabb, Frame, Rgb, warp};
 
 use super::Illumination;
 use crate::discrete::Discrete;
@@ -52,6 +52,11 @@ impl Area {
             primitive: 0,
             barycentric: Vec2::ZERO,
         }
+    }
+
+    /// The middle of the box around it.
+    pub(crate) fn middle(&self) -> Vec3 {
+        self.primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds())).centre()
     }
 
     pub(super) fn illuminate(&self, position: Vec3, u_part: f32, u: Vec2) -> Option<Illumination> {
@@ -112,7 +117,7 @@ impl Area {
 
 /// 1 − cos of the cone under which a sphere is seen from a distance to its centre, by a form that does not cancel; `None` from
 /// inside.
-fn one_minus_cos_of_cone(radius: f32, distance: f32) -> Option<f32> {
+pub(super) fn one_minus_cos_of_cone(radius: f32, distance: f32) -> Option<f32> {
     let sine = radius / distance;
     (sine < 1.0).then(|| sine * sine / (1.0 + (1.0 - sine * sine).sqrt()))
 }

@@ -9,13 +9,13 @@ use foton_math::{Frame, Rgb, warp};
 
 use crate::environment::Environment;
 
+mod aim;
 mod area;
-mod reach;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use aim::{Aim, Ball, Target};
 pub(crate) use area::Area;
-pub(crate) use reach::{Ball, Reach};
 
 /// An emitter in scene units.
 #[derive(Clone, Debug)]
@@ -24,6 +24,8 @@ pub struct Emitter {
     pub name: String,
     /// What it emits.
     pub(crate) kind: Kind,
+    /// What its photons are aimed at.
+    pub(crate) aim: Aim,
 }
 
 #[derive(Clone, Debug)]
@@ -31,9 +33,9 @@ pub(crate) enum Kind {
     Area(Area),
     Point { position: Vec3, intensity: Rgb },
     Spot(Spot),
-    Constant { radiance: Rgb, reach: Reach },
-    Directional { direction: Vec3, irradiance: Rgb, reach: Reach },
-    Environment { map: Box<Environment>, reach: Reach },
+    Constant { radiance: Rgb, scene: Ball },
+    Directional { direction: Vec3, irradiance: Rgb, scene: Ball },
+    Environment { map: Box<Environment>, scene: Ball },
 }
 
 /// A point emitter with a cone.
@@ -80,9 +82,9 @@ impl Emitter {
             Kind::Area(a) => a.radiance * (PI * a.area),
             Kind::Point { intensity, .. } => *intensity * (4.0 * PI),
             Kind::Spot(s) => s.power(),
-            Kind::Constant { radiance, reach } => *radiance * (4.0 * PI * reach.scene.cross_section()),
-            Kind::Directional { irradiance, reach, .. } => *irradiance * reach.scene.cross_section(),
-            Kind::Environment { map, reach } => map.total() * reach.scene.cross_section(),
+            Kind::Constant { radiance, scene } => *radiance * (4.0 * PI * scene.cross_section()),
+            Kind::Directional { irradiance, scene, .. } => *irradiance * scene.cross_section(),
+            Kind::Environment { map, scene } => map.total() * scene.cross_section(),
         }
     }
 
@@ -108,15 +110,15 @@ impl Emitter {
         matches!(self.kind, Kind::Constant { .. } | Kind::Environment { .. })
     }
 
+    /// Whether its light comes from infinity in parallel lines.
+    pub(crate) const fn is_at_infinity(&self) -> bool {
+        self.is_environment() || matches!(self.kind, Kind::Directional { .. })
+    }
+
     /// Whether half of its photons are aimed at what focuses light.
     #[must_use]
-    pub const fn aims_at_casters(&self) -> bool {
-        match &self.kind {
-            Kind::Constant { reach, .. }
-            | Kind::Directional { reach, .. }
-            | Kind::Environment { reach, .. } => reach.casters.is_some(),
-            _ => false,
-        }
+    pub fn aims_at_casters(&self) -> bool {
+        !self.aim.is_empty()
     }
 
     /// What kind it is, in a word.
@@ -149,35 +151,43 @@ impl Emitter {
         match &self.kind {
             Kind::Area(a) => {
                 let surface = a.sample(u_part, u_position);
-                let local = warp::square_to_cosine_hemisphere(u_direction);
-                let direction = Frame::from_normal(surface.normal).to_outer(local);
-                Emission {
-                    origin: surface.ray_origin(surface.normal),
-                    direction,
-                    power: a.radiance * (PI * a.area),
+                let frame = Frame::from_normal(surface.normal);
+                let own = |u| frame.to_outer(warp::square_to_cosine_hemisphere(u));
+                let origin = surface.ray_origin(surface.normal);
+                if self.aim.is_empty() {
+                    return Emission { origin, direction: own(u_direction), power: a.radiance * (PI * a.area) };
                 }
+                let cosine = |direction: Vec3| direction.dot(surface.normal).max(0.0);
+                let (direction, pdf) =
+                    self.aim.from_point(origin, u_direction, own, |direction| cosine(direction) / PI);
+                Emission { origin, direction, power: a.radiance * (a.area * cosine(direction) / pdf) }
             }
-            Kind::Point { position, intensity } => Emission {
-                origin: *position,
-                direction: warp::square_to_sphere(u_direction),
-                power: *intensity * (4.0 * PI),
-            },
-            Kind::Spot(s) => s.emit(u_direction),
-            Kind::Constant { radiance, reach } => {
+            Kind::Point { position, intensity } => {
+                if self.aim.is_empty() {
+                    let direction = warp::square_to_sphere(u_direction);
+                    return Emission { origin: *position, direction, power: *intensity * (4.0 * PI) };
+                }
+                let uniform = |_| warp::square_to_sphere_pdf();
+                let (direction, pdf) =
+                    self.aim.from_point(*position, u_direction, warp::square_to_sphere, uniform);
+                Emission { origin: *position, direction, power: *intensity / pdf }
+            }
+            Kind::Spot(s) => s.emit(&self.aim, u_direction),
+            Kind::Constant { radiance, scene } => {
                 let direction = warp::square_to_sphere(u_direction);
-                let (origin, pdf) = reach.aim(direction, u_part, u_position);
+                let (origin, pdf) = self.aim.parallel(scene, direction, u_part, u_position);
                 Emission { origin, direction, power: *radiance / (pdf * warp::square_to_sphere_pdf()) }
             }
-            Kind::Directional { direction, irradiance, reach } => {
-                let (origin, pdf) = reach.aim(*direction, u_part, u_position);
+            Kind::Directional { direction, irradiance, scene } => {
+                let (origin, pdf) = self.aim.parallel(scene, *direction, u_part, u_position);
                 Emission { origin, direction: *direction, power: *irradiance / pdf }
             }
-            Kind::Environment { map, reach } => {
+            Kind::Environment { map, scene } => {
                 let Some(sample) = map.sample(u_direction) else {
-                    return Emission { origin: reach.scene.centre, direction: Vec3::Z, power: Rgb::BLACK };
+                    return Emission { origin: scene.centre, direction: Vec3::Z, power: Rgb::BLACK };
                 };
                 let direction = -sample.direction;
-                let (origin, pdf) = reach.aim(direction, u_part, u_position);
+                let (origin, pdf) = self.aim.parallel(scene, direction, u_part, u_position);
                 Emission { origin, direction, power: sample.radiance / (pdf * sample.pdf) }
             }
         }
@@ -256,9 +266,14 @@ impl Spot {
         2.0 * (self.cutoff * 0.5).sin().powi(2)
     }
 
-    fn emit(&self, u: Vec2) -> Emission {
-        let direction = self.frame.to_outer(warp::square_to_cone(u, self.one_minus_cos()));
-        let pdf = warp::square_to_cone_pdf(self.one_minus_cos());
+    fn emit(&self, aim: &Aim, u: Vec2) -> Emission {
+        let own = |u| self.frame.to_outer(warp::square_to_cone(u, self.one_minus_cos()));
+        let uniform = warp::square_to_cone_pdf(self.one_minus_cos());
+        let (direction, pdf) = if aim.is_empty() {
+            (own(u), uniform)
+        } else {
+            aim.from_point(self.position, u, own, |d| if self.falloff(d) > 0.0 { uniform } else { 0.0 })
+        };
         Emission { origin: self.position, direction, power: self.intensity * (self.falloff(direction) / pdf) }
     }
 

@@ -8,7 +8,7 @@ use foton_math::glam::Mat3;
 use foton_math::{Purpose, Stream};
 
 fn emitter(kind: Kind) -> Emitter {
-    Emitter { name: "test".into(), kind }
+    Emitter { name: "test".into(), kind, aim: Aim::default() }
 }
 
 fn area(primitives: Vec<Primitive>) -> Emitter {
@@ -18,11 +18,22 @@ fn area(primitives: Vec<Primitive>) -> Emitter {
     emitter(Kind::Area(Area { radiance: Rgb::splat(2.0), primitives, by_area, area, shape: 0 }))
 }
 
+/// Each kind as it shines, aimed at one ball, and at three of which some are near and some far.
 fn all() -> Vec<Emitter> {
-    let reach = Reach {
-        scene: Ball { centre: Vec3::ZERO, radius: 10.0 },
-        casters: Some(Ball { centre: Vec3::new(0.5, 0.2, 0.1), radius: 1.1 }),
-    };
+    let target = |centre: Vec3, radius, share| Target { ball: Ball { centre, radius }, share };
+    let casters = vec![target(Vec3::new(0.5, 0.2, 0.1), 1.1, 0.5)];
+    let nested = vec![
+        target(Vec3::new(0.1, 0.0, -0.1), 0.6, 0.3),
+        target(Vec3::new(0.5, 0.2, 0.1), 1.1, 0.2),
+        target(Vec3::ZERO, 4.0, 0.3),
+    ];
+    let aims = [Aim::default(), Aim::new(casters), Aim::new(nested)];
+    let aimed = |e: Emitter| aims.clone().map(|aim| Emitter { aim, ..e.clone() });
+    as_they_shine().into_iter().flat_map(aimed).collect()
+}
+
+fn as_they_shine() -> Vec<Emitter> {
+    let scene = Ball { centre: Vec3::ZERO, radius: 10.0 };
     let pixels = (0..32).map(|i| Rgb::splat(0.2 + 0.3 * (i % 5) as f32)).collect();
     let bitmap = Bitmap { width: 8, height: 4, pixels };
     let map = Environment::new(bitmap.into(), 1.5, Mat3::from_rotation_x(0.4));
@@ -42,13 +53,13 @@ fn all() -> Vec<Emitter> {
             cutoff: 0.5,
             beam: 0.3,
         })),
-        emitter(Kind::Constant { radiance: Rgb::splat(0.7), reach }),
+        emitter(Kind::Constant { radiance: Rgb::splat(0.7), scene }),
         emitter(Kind::Directional {
             direction: Vec3::new(0.3, 0.2, -0.9).normalize(),
             irradiance: Rgb::splat(2.0),
-            reach,
+            scene,
         }),
-        emitter(Kind::Environment { map: Box::new(map), reach }),
+        emitter(Kind::Environment { map: Box::new(map), scene }),
         area(vec![Primitive::Tube { from: Vec3::new(-1.0, 0.0, 3.0), axis: Vec3::X * 2.0, radius: 0.4 }]),
     ]
 }
@@ -118,7 +129,7 @@ fn a_rectangle_and_a_sphere_give_the_irradiance_of_their_closed_forms() {
     let p = Vec3::new(2.0, 0.0, 0.0);
     let d2 = 29.0f64;
     let expected = std::f64::consts::PI * 2.0 * 2.25 / d2 * (5.0 / d2.sqrt());
-    assert!((irradiance(&all()[0], p) / expected - 1.0).abs() < 2e-3);
+    assert!((irradiance(&as_they_shine()[0], p) / expected - 1.0).abs() < 2e-3);
     // Disc on its axis: π L a² / (a² + h²).
     let disc = Primitive::Disc { centre: Vec3::new(0.0, 0.0, 4.0), normal: -Vec3::Z, radius: 2.0 };
     let expected = std::f64::consts::PI * 2.0 * 4.0 / 20.0;

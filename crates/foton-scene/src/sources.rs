@@ -1,0 +1,159 @@
+//! Where photons start: how often at each emitter, and what they are aimed at.
+//!
+//! In most scenes that is as the emitters shine. In a *wide* one, where what is seen is a small part of all (a ring on a ground
+//! of kilometres, a room under a far lamp), nearly all photons would land where nobody looks. There they are aimed at nested
+//! balls that hold growing shares of what is seen, so that near and far parts of a ground each have theirs.
+
+use std::sync::Arc;
+
+use foton_math::glam::Vec3;
+
+use crate::discrete::Discrete;
+use crate::emitter::{Aim, Ball, Emitter, Kind, Target};
+use crate::scene::Scene;
+
+/// A scene is wide if its radius is this many times that of what is seen for the most part.
+const WIDE: f32 = 16.0;
+
+/// Shares of the points seen that each ball holds.
+const SEEN: [f32; 5] = [0.75, 1.0 - 1.0 / 16.0, 1.0 - 1.0 / 64.0, 1.0 - 1.0 / 256.0, 1.0];
+
+/// Which of them tells whether a scene is wide, and what arrives of an emitter.
+const FOR_THE_MOST_PART: usize = 1;
+
+/// A ball less than this many times as large as the last adds nothing.
+const LARGER: f32 = 1.5;
+
+/// Share of the photons that are aimed at all balls together, each ball at half as many as the one before; the others go as
+/// their emitter shines.
+const AIMED: f32 = 0.8;
+
+/// Balls are this much larger than what they must hold.
+const MARGIN: f32 = 1.1;
+
+/// In a wide scene an emitter is chosen by what of its power arrives; this share goes by its power, and as much is spread evenly.
+const DEFENSIVE_SHARE: f64 = 0.1;
+
+/// Emitters as photons leave them.
+#[derive(Clone, Debug)]
+pub struct Sources {
+    emitters: Arc<[Emitter]>,
+    choice: Discrete,
+    is_aimed: bool,
+}
+
+impl Scene {
+    /// Where photons start, for an eye that sees `points` (scene units).
+    #[must_use]
+    pub fn sources(&self, points: &[Vec3]) -> Sources {
+        let as_they_shine =
+            Sources { emitters: Arc::clone(&self.emitters), choice: self.emitter_choice.clone(), is_aimed: false };
+        let Some(balls) = balls_around(points) else { return as_they_shine };
+        let most = balls[FOR_THE_MOST_PART];
+        if self.emitter_choice.is_empty() || most.radius * WIDE > self.bounds.radius() {
+            return as_they_shine;
+        }
+        let mut kept: Vec<Ball> = Vec::new();
+        for ball in balls[..1].iter().copied().chain(self.casters).chain(balls[1..].iter().copied()) {
+            let is_larger = kept.iter().all(|other| {
+                let apart = ball.centre.distance(other.centre);
+                ball.radius > LARGER * other.radius || apart > other.radius
+            });
+            if is_larger && ball.radius < 0.5 * self.bounds.radius() {
+                kept.push(ball);
+            }
+        }
+        let halved = |i: usize| 0.5f32.powi(i as i32);
+        let whole: f32 = (0..kept.len()).map(halved).sum();
+        let target = |(i, ball)| Target { ball, share: AIMED * halved(i) / whole };
+        let aim = Aim::new(kept.into_iter().enumerate().map(target).collect());
+        let arriving = self.emitters.iter().map(|e| f64::from(e.power().mean()) * f64::from(arrives(e, &most)));
+        let arriving = Discrete::new(arriving);
+        let count = self.emitters.iter().filter(|e| !e.power().is_black()).count() as f64;
+        let choice = Discrete::new(self.emitters.iter().enumerate().map(|(i, e)| {
+            let even = if e.power().is_black() { 0.0 } else { 1.0 / count };
+            let arriving = if arriving.is_empty() { even } else { arriving.probability(i) };
+            (1.0 - 2.0 * DEFENSIVE_SHARE) * arriving
+                + DEFENSIVE_SHARE * self.emitter_choice.probability(i)
+                + DEFENSIVE_SHARE * even
+        }));
+        let emitters = self.emitters.iter().map(|e| Emitter { aim: aim.clone(), ..e.clone() }).collect();
+        Sources { emitters, choice, is_aimed: true }
+    }
+}
+
+impl Sources {
+    /// All emitters, in the order of the scene's.
+    #[must_use]
+    pub fn emitters(&self) -> &[Emitter] {
+        &self.emitters
+    }
+
+    /// Chooses an emitter by `u` in [0, 1); returns its index and the chance of it. `None` when nothing emits.
+    #[must_use]
+    pub fn choose(&self, u: f64) -> Option<(usize, f64)> {
+        if self.choice.is_empty() {
+            return None;
+        }
+        let i = self.choice.choose(u);
+        Some((i, self.choice.probability(i)))
+    }
+
+    /// Whether photons are aimed at what is seen.
+    #[must_use]
+    pub const fn is_aimed(&self) -> bool {
+        self.is_aimed
+    }
+}
+
+/// Balls around the middle of the points that hold the shares [`SEEN`] of them; `None` without points.
+fn balls_around(points: &[Vec3]) -> Option<[Ball; SEEN.len()]> {
+    let median = |axis: usize| {
+        let mut of_axis: Vec<f32> = points.iter().map(|p| p[axis]).collect();
+        let middle = of_axis.len() / 2;
+        *of_axis.select_nth_unstable_by(middle, f32::total_cmp).1
+    };
+    if points.is_empty() {
+        return None;
+    }
+    let centre = Vec3::new(median(0), median(1), median(2));
+    let mut distances: Vec<f32> = points.iter().map(|p| p.distance(centre)).collect();
+    distances.sort_unstable_by(f32::total_cmp);
+    let radius = |share: f32| {
+        let last = (share * distances.len() as f32).ceil() as usize;
+        (distances[last.clamp(1, distances.len()) - 1] * MARGIN).max(f32::MIN_POSITIVE)
+    };
+    Some(SEEN.map(|share| Ball { centre, radius: radius(share) }))
+}
+
+/// About what share of an emitter's power goes to a ball.
+fn arrives(emitter: &Emitter, ball: &Ball) -> f32 {
+    let from = |position: Vec3| (ball.radius / position.distance(ball.centre)).powi(2).min(1.0);
+    match &emitter.kind {
+        Kind::Area(area) => from(area.middle()),
+        Kind::Point { position, .. } => from(*position),
+        Kind::Spot(spot) => (from(spot.position) / spot.cutoff.sin().powi(2).max(f32::MIN_POSITIVE)).min(1.0),
+        Kind::Constant { scene, .. } | Kind::Directional { scene, .. } | Kind::Environment { scene, .. } => {
+            (ball.radius / scene.radius).powi(2)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn balls_hold_their_shares_of_the_points_around_most_of_them() {
+        // A ground seen to the horizon: a thousand points near, a few far off.
+        let points: Vec<Vec3> =
+            (0..1024u32).map(|i| Vec3::X * 2f32.powf((i.leading_zeros() as f32 - 21.0) * 3.0)).collect();
+        let balls = balls_around(&points).expect("points");
+        for (ball, share) in balls.iter().zip(SEEN) {
+            let within = points.iter().filter(|p| p.distance(ball.centre) <= ball.radius).count();
+            assert!(within as f32 >= share * 1024.0, "{share}: {within}");
+        }
+        assert!(balls[0].radius < 1e-3 * balls[4].radius, "{balls:?}");
+        assert_eq!(balls_around(&[]), None);
+    }
+}
