@@ -105,12 +105,17 @@ pub(crate) fn all<const LAYERS: usize, const MOMENTS: u8>(
         .zip(counts.into_par_iter().zip(shapes))
         .zip(evidence)
         .enumerate()
-        .map(|(block, ((((((packets, statistics), smallest2), irradiance), moments), (counts, shapes)), evidence))| {
-            let first = block * BLOCK;
-            let slots = Slots { statistics, smallest2, irradiance, moments, counts, shapes, evidence };
-            let block = Block { first, first_glossy, packets, slots, shading, gloss_slots };
-            rule.arch.dispatch(Gather::<LAYERS, MOMENTS> { block, map, grid, rule })
-        })
+        .map(
+            |(
+                block,
+                ((((((packets, statistics), smallest2), irradiance), moments), (counts, shapes)), evidence),
+            )| {
+                let first = block * BLOCK;
+                let slots = Slots { statistics, smallest2, irradiance, moments, counts, shapes, evidence };
+                let block = Block { first, first_glossy, packets, slots, shading, gloss_slots };
+                rule.arch.dispatch(Gather::<LAYERS, MOMENTS> { block, map, grid, rule })
+            },
+        )
         .collect();
     let mut tally = Tally::default();
     tallies.into_iter().for_each(|t| tally += t);

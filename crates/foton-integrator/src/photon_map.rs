@@ -111,7 +111,15 @@ mod tests {
                 let mut chunk = Chunk::default();
                 for i in 0..c * 50 {
                     let power = Rgb::splat((c * 1000 + i) as f32);
-                    chunk.photons.push(Photon::new(Vec3::ZERO, Vec3::Z, 0, None, power, PathClass::Direct, 1));
+                    chunk.photons.push(Photon::new(
+                        Vec3::ZERO,
+                        Vec3::Z,
+                        0,
+                        None,
+                        power,
+                        PathClass::Direct,
+                        1,
+                    ));
                     // Every third cell stays empty.
                     let cell = (stream.next_1d() * cells as f32) as u32;
                     chunk.cells.push(cell - u32::from(cell % 3 == 1));

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use foton_film::Image;
-use foton_math::{Purpose, Rgb};
 use foton_math::glam::Vec3;
+use foton_math::{Purpose, Rgb};
 use foton_scene::{Scene, Sources};
 use pulp::Arch;
 
@@ -243,8 +243,8 @@ impl Ppm {
         self.light.add_pass(&self.hit_points);
         self.mark_cells(&tally);
         self.photons_emitted += photons;
+        let power = self.mean_power();
         if let Some(error) = &mut self.error {
-            let power = self.ledger.emitted / self.photons_emitted.max(1) as f64;
             let by_shadow_rays = self.settings.direct_light == DirectLight::ShadowRays;
             let asked = (Question::after(self.passes), by_shadow_rays);
             self.light.add_error(error, &self.hit_points, (photons, power), asked);
@@ -262,6 +262,21 @@ impl Ppm {
             no_photon_share: tally.unknown as f64 / (self.start.hit_points as f64).max(1.0),
             floored: tally.floored,
         }
+    }
+
+    /// Mean power of a photon as it leaves its emitter. Photons that are aimed differ much: there it is that of some of those which
+    /// came near hit points in the last batch, if any did.
+    fn mean_power(&self) -> f64 {
+        let stored = self.map.photons();
+        if self.sources.is_aimed() && !stored.is_empty() {
+            let step = stored.len().div_ceil(LOOKED_AT);
+            let (sum, count) = stored
+                .iter()
+                .step_by(step)
+                .fold((0.0, 0.0), |(sum, count), p| (sum + f64::from(p.power.luminance()), count + 1.0));
+            return sum / count;
+        }
+        self.ledger.emitted / self.photons_emitted.max(1) as f64
     }
 
     pub(crate) fn photon_pass(&self, photons: u64, batch: Batch) -> PhotonPass<'_> {

@@ -113,7 +113,10 @@ mod tests {
         assert!((smallest(&FirstRadius { fixed: Some(0.03), ..rule }, 1.0) - 0.03).abs() < 1e-6);
         let none = FirstRadius { floor: 0.0, ..rule };
         assert!((smallest(&none, 1500.0) / smallest_radius(1500.0) - 1.0).abs() < 1e-5);
-        assert!(smallest(&none, 1.0) < 1e-5, "what is near the middle of a large scene has finer coordinates");
+        assert!(
+            smallest(&none, 1.0) < 1e-5,
+            "what is near the middle of a large scene has finer coordinates"
+        );
     }
 
     #[test]

@@ -110,7 +110,11 @@ impl Scene {
             }
             let emitter = shape.radiance.filter(|r| !r.is_black()).map(|radiance| {
                 let area = area_emitter(i as u32, radiance, &gathered.primitives[first..]);
-                emitters.push(Emitter { name: shape.name.clone(), kind: Kind::Area(area), aim: Aim::default() });
+                emitters.push(Emitter {
+                    name: shape.name.clone(),
+                    kind: Kind::Area(area),
+                    aim: Aim::default(),
+                });
                 emitters.len() as u32 - 1
             });
             let extent = gathered.primitives[first..].iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));

@@ -2,7 +2,8 @@
 //!
 //! In most scenes that is as the emitters shine. In a *wide* one, where what is seen is a small part of all (a ring on a ground
 //! of kilometres, a room under a far lamp), nearly all photons would land where nobody looks. There they are aimed at nested
-//! balls that hold growing shares of what is seen, so that near and far parts of a ground each have theirs.
+//! balls that hold growing shares of what is seen, and beyond that grow until they are as large as the scene: near and far parts
+//! of a ground each have their photons, and what is not seen but sends light to what is has some that are not too heavy.
 
 use std::sync::Arc;
 
@@ -26,7 +27,10 @@ const LARGER: f32 = 1.5;
 
 /// Share of the photons that are aimed at all balls together, each ball at half as many as the one before; the others go as
 /// their emitter shines.
-const AIMED: f32 = 0.8;
+const AIMED: f32 = 0.9;
+
+/// Beyond what is seen each ball is this many times as large as the last.
+const GROWTH: f32 = 4.0;
 
 /// Balls are this much larger than what they must hold.
 const MARGIN: f32 = 1.1;
@@ -46,15 +50,23 @@ impl Scene {
     /// Where photons start, for an eye that sees `points` (scene units).
     #[must_use]
     pub fn sources(&self, points: &[Vec3]) -> Sources {
-        let as_they_shine =
-            Sources { emitters: Arc::clone(&self.emitters), choice: self.emitter_choice.clone(), is_aimed: false };
+        let as_they_shine = Sources {
+            emitters: Arc::clone(&self.emitters),
+            choice: self.emitter_choice.clone(),
+            is_aimed: false,
+        };
         let Some(balls) = balls_around(points) else { return as_they_shine };
         let most = balls[FOR_THE_MOST_PART];
         if self.emitter_choice.is_empty() || most.radius * WIDE > self.bounds.radius() {
             return as_they_shine;
         }
+        let all = balls[SEEN.len() - 1];
+        let beyond = std::iter::successors(Some(all), |b| Some(Ball { radius: GROWTH * b.radius, ..*b }))
+            .take_while(|ball| ball.radius < self.bounds.radius());
         let mut kept: Vec<Ball> = Vec::new();
-        for ball in balls[..1].iter().copied().chain(self.casters).chain(balls[1..].iter().copied()) {
+        for ball in
+            balls[..1].iter().copied().chain(self.casters).chain(balls[1..].iter().copied()).chain(beyond)
+        {
             let is_larger = kept.iter().all(|other| {
                 let apart = ball.centre.distance(other.centre);
                 ball.radius > LARGER * other.radius || apart > other.radius
@@ -67,7 +79,8 @@ impl Scene {
         let whole: f32 = (0..kept.len()).map(halved).sum();
         let target = |(i, ball)| Target { ball, share: AIMED * halved(i) / whole };
         let aim = Aim::new(kept.into_iter().enumerate().map(target).collect());
-        let arriving = self.emitters.iter().map(|e| f64::from(e.power().mean()) * f64::from(arrives(e, &most)));
+        let arriving =
+            self.emitters.iter().map(|e| f64::from(e.power().mean()) * f64::from(arrives(e, &most)));
         let arriving = Discrete::new(arriving);
         let count = self.emitters.iter().filter(|e| !e.power().is_black()).count() as f64;
         let choice = Discrete::new(self.emitters.iter().enumerate().map(|(i, e)| {

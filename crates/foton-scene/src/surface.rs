@@ -141,6 +141,12 @@ impl Plane {
         let on_ray = origin + direction * self.distance(corners[0], origin, direction) - a;
         let weights = self.area / self.area.length_squared();
         let (v, w) = (on_ray.cross(c - a).dot(weights), (b - a).cross(on_ray).dot(weights));
+        if (1.0 - v - w).min(v).min(w) < 0.0 {
+            // By the rounding of its corners the triangle was met beyond its edge, mostly the diagonal of a large ground. Moved
+            // into the triangle, all such points would lie on the edge.
+            let position = (on_ray + a).as_vec3();
+            return (position, position.abs() * TRIANGLE_ERROR, self.normal);
+        }
         // Rounding moves a point that lies this near the middle by less.
         let share = f64::from((on_ray + a).abs().max_element() as f32 / largest).max(f64::EPSILON);
         self.point(corners, v, w, f64::from(self.least) * share)

@@ -34,8 +34,8 @@ mod threads;
 pub use clock::StageTimes;
 pub use engine::Engine;
 pub use foton_integrator::{
-    Alpha, Change, DirectLight, ErrorEstimate, Ledger, PathClass, Radii, RadiusFloor, RadiusRule, RadiusScale, Settings,
-    Stage,
+    Alpha, Change, DirectLight, ErrorEstimate, Ledger, PathClass, Radii, RadiusFloor, RadiusRule,
+    RadiusScale, Settings, Stage,
 };
 pub use interrupt::Interrupt;
 pub use metadata::SceneIdentity;

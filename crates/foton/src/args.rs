@@ -355,7 +355,10 @@ fn alpha(s: &str) -> Result<Alpha, String> {
 }
 
 fn radius_floor(s: &str) -> Result<RadiusFloor, String> {
-    s.parse().ok().and_then(RadiusFloor::new).ok_or_else(|| "expected a number of spacings, 0 or more".to_owned())
+    s.parse()
+        .ok()
+        .and_then(RadiusFloor::new)
+        .ok_or_else(|| "expected a number of spacings, 0 or more".to_owned())
 }
 
 fn radius(s: &str) -> Result<Radius, String> {

@@ -29,7 +29,8 @@ pub struct ErrorEstimate {
     /// The error is below this nineteen times in twenty, even if all the blur is that of straight edges, of which the estimate
     /// sees 0.55 alone.
     pub high: f64,
-    /// Share of pixels that see something reflect and have found no light at all: unknown, not dark.
+    /// Share of pixels that see something reflect and have found no light at all, or behind shadow rays so few photons that one more
+    /// would bring more light than is known: unknown, not dark.
     pub unknown_share: f64,
     /// Number of equal passes that those so far are worth: passes grow at first.
     pub effective_passes: f64,

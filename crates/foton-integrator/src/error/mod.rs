@@ -78,7 +78,7 @@ pub(crate) struct Pass<'a, const LAYERS: usize> {
     pub(crate) radiance: &'a Radiance<LAYERS>,
     /// Photons that it emitted.
     pub(crate) photons: u64,
-    /// Mean power of a photon where it leaves its emitter.
+    /// Mean power of a photon where it leaves its emitter, or, where photons are aimed and differ much, of those near hit points.
     pub(crate) power: f64,
     /// What was asked of each of them.
     pub(crate) question: Question,
@@ -191,9 +191,15 @@ impl ErrorSums {
                     let mean = pass.radiance.luminance_sum(index) * shares.per_photon;
                     pixel.sum_up(mean, &shares, &mut sums);
                     sums.deviation += (addend.light * per_photon - mean).powi(2);
-                    if mean <= 0.0 {
+                    let one_photon = || f64::max(0.0, pass.one_photon(index, samples) / weights.photons);
+                    if pass.shadow_rays {
+                        // Shadow rays know nothing of indirect light.
+                        let one_photon = one_photon();
+                        sums.unknown += f64::from(u8::from(mean <= 0.0 || one_photon > mean));
+                        sums.unknown2 += one_photon.powi(2);
+                    } else if mean <= 0.0 {
                         sums.unknown += 1.0;
-                        sums.unknown2 += (pass.one_photon(index, samples) / weights.photons).powi(2);
+                        sums.unknown2 += one_photon().powi(2);
                     }
                     let (light, bias) = &mut addends[i % width / TILE];
                     *light += addend.light;

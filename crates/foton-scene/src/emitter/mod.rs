@@ -155,7 +155,11 @@ impl Emitter {
                 let own = |u| frame.to_outer(warp::square_to_cosine_hemisphere(u));
                 let origin = surface.ray_origin(surface.normal);
                 if self.aim.is_empty() {
-                    return Emission { origin, direction: own(u_direction), power: a.radiance * (PI * a.area) };
+                    return Emission {
+                        origin,
+                        direction: own(u_direction),
+                        power: a.radiance * (PI * a.area),
+                    };
                 }
                 let cosine = |direction: Vec3| direction.dot(surface.normal).max(0.0);
                 let (direction, pdf) =

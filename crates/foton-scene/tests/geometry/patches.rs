@@ -119,7 +119,10 @@ fn rectangles_that_abut_continue_each_other_with_and_without_equal_corners() {
 fn planks_that_are_boxes_have_one_top() {
     let plank = |i: i32| {
         let at = DVec3::new(f64::from(i) * 0.4, 0.0, 0.0);
-        mesh(Mesh::cube(), DAffine3::from_scale_rotation_translation(DVec3::new(0.2, 0.05, 2.0), DQuat::IDENTITY, at))
+        mesh(
+            Mesh::cube(),
+            DAffine3::from_scale_rotation_translation(DVec3::new(0.2, 0.05, 2.0), DQuat::IDENTITY, at),
+        )
     };
     let scene = build((0..5).map(plank).collect());
     let tops: Vec<u8> = (0..5).map(|i| from_above(&scene, f64::from(i) * 0.4, 0.3)).collect();
@@ -130,7 +133,8 @@ fn planks_that_are_boxes_have_one_top() {
 /// A leaf of two halves that meet in the line x = z = 0… at an angle, each of `n` strips; vertices are shared or not.
 fn folded(angle: f64, n: u32, shared: bool) -> Mesh {
     let mut leaf = Mesh::default();
-    let half = |side: f64| move |s: f64| DVec3::new(s * (0.5 * angle).cos(), side * s * (0.5 * angle).sin(), 0.0);
+    let half =
+        |side: f64| move |s: f64| DVec3::new(s * (0.5 * angle).cos(), side * s * (0.5 * angle).sin(), 0.0);
     for strip in 0..2 * n {
         let at = |k: u32| {
             let s = f64::from(k) / f64::from(n) - 1.0;
@@ -160,7 +164,9 @@ fn folded(angle: f64, n: u32, shared: bool) -> Mesh {
 fn the_halves_of_a_folded_leaf_are_two_surfaces_and_those_of_an_open_one_are_one() {
     for shared in [false, true] {
         for n in [1, 6] {
-            let at = |angle: f64| build(vec![mesh(folded(angle, n, shared), DAffine3::from_quat(DQuat::IDENTITY))]);
+            let at = |angle: f64| {
+                build(vec![mesh(folded(angle, n, shared), DAffine3::from_quat(DQuat::IDENTITY))])
+            };
             for angle in [0.1, 0.5, 1.2] {
                 let scene = at(angle);
                 // The outside of the upper half, and the inside of the lower half: both face up.
@@ -217,11 +223,8 @@ fn a_leaf_that_touches_a_floor_does_not_continue_it() {
 #[test]
 fn a_sphere_and_one_of_triangles_are_one_curved_patch_each_wherever_they_stand() {
     let place = DAffine3::from_rotation_translation(turn(), DVec3::new(0.3, -0.2, 0.9));
-    let shapes = [
-        ball(DVec3::new(0.3, -0.2, 0.9), 1.0),
-        mesh(geodesic(12), place),
-        mesh(smooth_geodesic(12), place),
-    ];
+    let shapes =
+        [ball(DVec3::new(0.3, -0.2, 0.9), 1.0), mesh(geodesic(12), place), mesh(smooth_geodesic(12), place)];
     for (i, ball) in shapes.into_iter().enumerate() {
         let scene = build(vec![ball]);
         let centre = DVec3::new(0.3, -0.2, 0.9);
@@ -272,7 +275,11 @@ fn many_patches_share_numbers_but_neighbours_do_not() {
         let layers: Vec<u8> = (0..5)
             .map(|layer| {
                 let y = 0.01 * f64::from(layer);
-                patch(&scene, DVec3::new(x + 0.04, y + 0.005, z + 0.04), DVec3::new(x + 0.04, y - 1.0, z + 0.04))
+                patch(
+                    &scene,
+                    DVec3::new(x + 0.04, y + 0.005, z + 0.04),
+                    DVec3::new(x + 0.04, y - 1.0, z + 0.04),
+                )
             })
             .collect();
         assert_eq!(layers[0], ground);
