@@ -3,7 +3,7 @@
 use std::num::NonZeroU32;
 
 use foton_film::Image;
-use foton_integrator::{Alpha, DirectLight, Ppm, RadiusRule, Settings};
+use foton_integrator::{Alpha, DirectLight, Ppm, RadiusFloor, RadiusRule, Settings};
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
 use foton_tests::{Sketch, grey, slopes};
@@ -14,6 +14,8 @@ fn settings(photons: u32, seed: u64) -> Settings {
         photons_per_pass,
         first_pass: NonZeroU32::new(photons / 8).expect("above 0"),
         samples_per_pixel: NonZeroU32::MIN,
+        // Theory is of radii that shrink for ever.
+        radius_floor: RadiusFloor::NONE,
         error: true,
         seed,
         ..Settings::default()

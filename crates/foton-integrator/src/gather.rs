@@ -27,10 +27,9 @@ use crate::slots::{Asked, Found, Kept, Slots};
 /// A photon counts only where its surface faces about the same way: the cosine between the normals must exceed this.
 const SMALLEST_NORMAL_COSINE: f32 = 0.1;
 
-/// What is gathered beside light: nothing; what the error is estimated from; and what radii that adapt go by.
-pub(crate) const NO_MOMENTS: u8 = 0;
-pub(crate) const ERROR: u8 = 1;
-pub(crate) const ADAPTIVE: u8 = 2;
+/// What is gathered beside light: nothing, or what the error is estimated from and radii that adapt go by.
+pub(crate) const NO_MOMENTS: bool = false;
+pub(crate) const MOMENTS: bool = true;
 
 /// Packets that one task looks after.
 const BLOCK: usize = 256;
@@ -56,6 +55,8 @@ pub(crate) struct Tally {
 #[derive(Clone, Copy)]
 pub(crate) struct Rule {
     pub(crate) alpha: Alpha,
+    /// Whether it goes by what is known of bias.
+    pub(crate) adapts: bool,
     /// What all r² are multiplied by, where they shrink together.
     pub(crate) common: Option<f64>,
     pub(crate) batch: Batch,
@@ -80,7 +81,7 @@ impl AddAssign for Tally {
 ///
 /// `LAYERS` is 3 to keep path classes apart, or 1. With `MOMENTS`, `moment_slots` get what the bias is estimated from, where
 /// there are any. `kept` has room where a pass has more than one batch.
-pub(crate) fn all<const LAYERS: usize, const MOMENTS: u8>(
+pub(crate) fn all<const LAYERS: usize, const MOMENTS: bool>(
     hit_points: &mut HitPoints,
     map: &PhotonMap,
     grid: &Grid,
@@ -141,14 +142,14 @@ struct Block<'a, const LAYERS: usize> {
 
 /// The work on a block, compiled for each instruction set; the best that the machine has is taken. Everything that this calls
 /// for each photon is inlined into it. No instruction set changes a result.
-struct Gather<'a, const LAYERS: usize, const MOMENTS: u8> {
+struct Gather<'a, const LAYERS: usize, const MOMENTS: bool> {
     block: Block<'a, LAYERS>,
     map: &'a PhotonMap,
     grid: &'a Grid,
     rule: Rule,
 }
 
-impl<const LAYERS: usize, const MOMENTS: u8> WithSimd for Gather<'_, LAYERS, MOMENTS> {
+impl<const LAYERS: usize, const MOMENTS: bool> WithSimd for Gather<'_, LAYERS, MOMENTS> {
     type Output = Tally;
 
     #[inline(always)]
@@ -195,7 +196,7 @@ impl<const LAYERS: usize, const MOMENTS: u8> WithSimd for Gather<'_, LAYERS, MOM
                 slots.keep(&found);
                 continue;
             }
-            if MOMENTS >= ADAPTIVE {
+            if MOMENTS {
                 found.add_evidence(packet, slots.evidence);
             }
             found.write_moments(packet, rule.question, slots.moments);
@@ -207,7 +208,7 @@ impl<const LAYERS: usize, const MOMENTS: u8> WithSimd for Gather<'_, LAYERS, MOM
 
 /// Sums the photons that count for Lambertian hit points. `SHADED` corrects for interpolated normals.
 #[inline(always)]
-fn collect<const LAYERS: usize, const SHADED: bool, const MOMENTS: u8>(
+fn collect<const LAYERS: usize, const SHADED: bool, const MOMENTS: bool>(
     packet: &Packet,
     shading_normals: &[[f32; LANES]; 3],
     photons: &[Photon],
@@ -240,7 +241,7 @@ fn collect<const LAYERS: usize, const SHADED: bool, const MOMENTS: u8>(
         for l in 0..LANES {
             found.count[l] += counts[l] & 1;
         }
-        if MOMENTS >= ERROR {
+        if MOMENTS {
             let distance2 = distances2(packet, photon);
             let luminance = photon.power.luminance();
             for l in 0..LANES {
@@ -253,17 +254,15 @@ fn collect<const LAYERS: usize, const SHADED: bool, const MOMENTS: u8>(
                     found.answer[l] += f32::from_bits(answer.to_bits() & counts[l]);
                 }
             }
-            if MOMENTS >= ADAPTIVE {
-                let [x, y, z] = offsets(packet, photon);
-                let [sx, sy, sz] = &mut found.shape.offset;
-                for l in 0..LANES {
-                    let w = f32::from_bits((luminance * factor[l]).to_bits() & counts[l]);
-                    found.shape.light[l] += w;
-                    found.shape.squares[l] += w * w;
-                    sx[l] += w * x[l];
-                    sy[l] += w * y[l];
-                    sz[l] += w * z[l];
-                }
+            let [x, y, z] = offsets(packet, photon);
+            let [sx, sy, sz] = &mut found.shape.offset;
+            for l in 0..LANES {
+                let w = f32::from_bits((luminance * factor[l]).to_bits() & counts[l]);
+                found.shape.light[l] += w;
+                found.shape.squares[l] += w * w;
+                sx[l] += w * x[l];
+                sy[l] += w * y[l];
+                sz[l] += w * z[l];
             }
         }
     }
@@ -271,7 +270,7 @@ fn collect<const LAYERS: usize, const SHADED: bool, const MOMENTS: u8>(
 
 /// Sums the photons that count for hit points with a BSDF of their own, weighed by it one by one.
 #[inline(always)]
-fn collect_gloss<const LAYERS: usize, const MOMENTS: u8>(
+fn collect_gloss<const LAYERS: usize, const MOMENTS: bool>(
     packet: &Packet,
     gloss: &[Option<Gloss>],
     photons: &[Photon],
@@ -286,8 +285,8 @@ fn collect_gloss<const LAYERS: usize, const MOMENTS: u8>(
             continue;
         }
         let wi = photon.direction();
-        let distance2 = if MOMENTS >= ERROR { distances2(packet, photon) } else { [0.0; LANES] };
-        let offset = if MOMENTS >= ADAPTIVE { offsets(packet, photon) } else { [[0.0; LANES]; 3] };
+        let distance2 = if MOMENTS { distances2(packet, photon) } else { [0.0; LANES] };
+        let offset = if MOMENTS { offsets(packet, photon) } else { [[0.0; LANES]; 3] };
         let layer = &mut found.flux[Found::<LAYERS>::layer(photon)];
         for l in (0..LANES).filter(|&l| counts[l] != 0) {
             found.count[l] += 1;
@@ -303,18 +302,16 @@ fn collect_gloss<const LAYERS: usize, const MOMENTS: u8>(
             layer[0][l] += weighed.r;
             layer[1][l] += weighed.g;
             layer[2][l] += weighed.b;
-            if MOMENTS >= ERROR {
+            if MOMENTS {
                 let luminance = weighed.luminance();
                 found.moment[l] += luminance * distance2[l];
                 if asked.is_of(photon) {
                     found.answer[l] += asked.answer(luminance, distance2[l], l);
                 }
-                if MOMENTS >= ADAPTIVE {
-                    found.shape.light[l] += luminance;
-                    found.shape.squares[l] += luminance * luminance;
-                    for (sum, offset) in found.shape.offset.iter_mut().zip(&offset) {
-                        sum[l] += luminance * offset[l];
-                    }
+                found.shape.light[l] += luminance;
+                found.shape.squares[l] += luminance * luminance;
+                for (sum, offset) in found.shape.offset.iter_mut().zip(&offset) {
+                    sum[l] += luminance * offset[l];
                 }
             }
         }
@@ -422,7 +419,8 @@ fn conclude<const LAYERS: usize>(
         let smallest2 = f64::from(smallest2[l]);
         let floored = match rule.common {
             None => {
-                let alpha = evidence.get(l).map_or(rule.alpha, |e| e.alpha(rule.alpha));
+                let known = evidence.get(l).filter(|_| rule.adapts);
+                let alpha = known.map_or(rule.alpha, |e| e.alpha(rule.alpha));
                 statistics[l].refine(count, alpha, smallest2)
             }
             Some(rho) => statistics[l].shrink(count, rho, smallest2),

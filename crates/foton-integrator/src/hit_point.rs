@@ -79,7 +79,7 @@ pub(crate) struct HitPoints {
     pub(crate) statistics_slots: Vec<Statistics>,
     /// [`HitPoint::smallest2`].
     pub(crate) smallest2_slots: Vec<f32>,
-    /// Empty unless radii adapt.
+    /// Empty unless radii adapt or the error is asked for.
     pub(crate) evidence_slots: Vec<Evidence>,
     /// In sample order: where the hit point is.
     pub(crate) slot_of: Vec<u32>,
@@ -147,7 +147,7 @@ impl HitPoints {
         }
     }
 
-    /// Makes room for what radii that adapt go by.
+    /// Makes room for what radii that adapt go by, and the error's upper end.
     #[must_use]
     pub(crate) fn with_evidence(self) -> Self {
         Self { evidence_slots: vec![Evidence::default(); self.statistics_slots.len()], ..self }

@@ -4,7 +4,7 @@ use foton_math::Rgb;
 use foton_scene::Scene;
 
 use crate::error::{self, ErrorSums, Question};
-use crate::gather::{self, ADAPTIVE, ERROR, NO_MOMENTS, Rule, Tally};
+use crate::gather::{self, MOMENTS, NO_MOMENTS, Rule, Tally};
 use crate::grid::Grid;
 use crate::hit_point::{HitPoints, Irradiance};
 use crate::packet::LANES;
@@ -82,13 +82,11 @@ impl Light {
     ) -> Tally {
         each!(self, s => {
             let irradiance = &mut s.irradiance_slots;
-            let adapts = !hit_points.evidence_slots.is_empty();
-            let is_asked = error.is_some();
             let moments = error.map_or_else(Default::default, ErrorSums::moment_slots);
-            match (adapts, is_asked) {
-                (true, _) => gather::all::<_, ADAPTIVE>(hit_points, map, grid, rule, irradiance, moments, kept),
-                (false, true) => gather::all::<_, ERROR>(hit_points, map, grid, rule, irradiance, moments, kept),
-                (false, false) => gather::all::<_, NO_MOMENTS>(hit_points, map, grid, rule, irradiance, moments, kept),
+            if hit_points.evidence_slots.is_empty() {
+                gather::all::<_, NO_MOMENTS>(hit_points, map, grid, rule, irradiance, moments, kept)
+            } else {
+                gather::all::<_, MOMENTS>(hit_points, map, grid, rule, irradiance, moments, kept)
             }
         })
     }

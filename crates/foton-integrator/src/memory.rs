@@ -107,7 +107,7 @@ impl MemoryEstimate {
         let layers = if settings.layers { 3.0 } else { 1.0 };
         let shadow = settings.direct_light == DirectLight::ShadowRays;
         let shaded = scene.census().shading_normals;
-        let adapts = settings.radius_rule == RadiusRule::Adaptive;
+        let adapts = settings.error || settings.radius_rule == RadiusRule::Adaptive;
         let slot = size_of::<Packet>() / LANES
             + size_of::<Statistics>()
             + size_of::<f32>()

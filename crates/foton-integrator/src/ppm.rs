@@ -118,8 +118,8 @@ impl Ppm {
         let shadow_rays = settings.direct_light == DirectLight::ShadowRays;
         let normals = scene.census().shading_normals;
         let hit_points = HitPoints::new(&eye.hit_points, &eye.gloss, eye.pixel_start(), normals, shadow_rays);
-        let adapts = settings.radius_rule == RadiusRule::Adaptive;
-        let hit_points = if adapts { hit_points.with_evidence() } else { hit_points };
+        let asks = settings.error || settings.radius_rule == RadiusRule::Adaptive;
+        let hit_points = if asks { hit_points.with_evidence() } else { hit_points };
         let start = Start { hit_points: hit_points.len() as u64, eye_rays: eye.rays, dropped: eye.dropped };
         let step = (eye.hit_points.len() / LOOKED_AT).max(1);
         let seen: Vec<Vec3> = eye.hit_points.iter().step_by(step).map(|h| h.position).collect();
@@ -217,6 +217,7 @@ impl Ppm {
         let (alpha, before) = (self.settings.alpha, self.photons_emitted);
         let rule = Rule {
             alpha,
+            adapts: self.settings.radius_rule == RadiusRule::Adaptive,
             common: self.settings.radius_rule.common(alpha, before, counts.photons),
             batch,
             question: Question::after(self.passes),

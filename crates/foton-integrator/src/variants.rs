@@ -112,6 +112,7 @@ fn shares_photons(a: &Settings, b: &Settings) -> bool {
         alpha: a.alpha,
         radius: a.radius,
         radius_scale: a.radius_scale,
+        radius_floor: a.radius_floor,
         radius_rule: a.radius_rule,
         direct_light: a.direct_light,
         layers: a.layers,

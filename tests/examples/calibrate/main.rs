@@ -2,10 +2,11 @@
 //! how fast noise and bias fall, and what radii that adapt are worth.
 //!
 //! `cargo run --release -p foton-tests --example calibrate` prints the tables of docs/error.md and writes its plot; `stops`,
-//! `slopes`, `rules` and `kernels` print the others. Names of assets, `seeds=4`, `truth=1024` (its passes) and `rule=local` may be given. The
+//! `slopes`, `rules`, `floors` and `kernels` print the others. Names of assets, `seeds=4`, `truth=1024` (its passes) and `rule=local` may be given. The
 //! truth has the same eye samples and photons of its own, small discs of two radii, and direct light by shadow rays.
 #![allow(clippy::print_stdout, reason = "a program that prints a table")]
 
+mod floors;
 mod kernels;
 mod rules;
 mod stops;
@@ -63,6 +64,7 @@ fn main() {
     match named.first() {
         Some(&"stops") => stops::print(&named.split_off(1), 1, passes),
         Some(&"kernels") => kernels::print(&named.split_off(1), seeds, passes),
+        Some(&"floors") => floors::print(&named.split_off(1), number("spp=", 1), passes),
         Some(&"rules") => rules::print(&named.split_off(1), number("seeds=", 2), passes),
         Some(&"slopes") => print_slopes(seeds.max(8)),
         _ => {

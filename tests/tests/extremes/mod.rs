@@ -2,19 +2,22 @@
 //! lights inside it, and values that are no numbers. What each line expects stands in docs/robustness.md.
 
 mod light;
+mod narrow;
 mod numbers;
 mod optics;
+mod surfaces;
+mod wide;
 
 use std::num::NonZeroU32;
 
 use foton_film::Image;
-use foton_integrator::{Cancel, Ppm, Settings};
+use foton_integrator::{Cancel, Ppm, RadiusFloor, Settings};
 
 use crate::settings;
 
-/// One sample a pixel, a fixed radius in world units.
+/// One sample a pixel, a first radius in world units that shrinks for ever.
 fn with_radius(radius: f64, photons: u32) -> Settings {
-    Settings { radius: Some(radius), ..settings(photons, 3) }
+    Settings { radius: Some(radius), radius_floor: RadiusFloor::NONE, ..settings(photons, 3) }
 }
 
 /// Everything below a bit of an image.

@@ -26,8 +26,8 @@ pub struct ErrorEstimate {
     pub bias: f64,
     /// The error is above this nineteen times in twenty, as far as the figure goes.
     pub low: f64,
-    /// The error is below this nineteen times in twenty, even if all the blur is that of straight edges, of which the estimate
-    /// sees 0.55 alone.
+    /// The error is below this nineteen times in twenty, even if all the bias is that of straight edges, of which the estimate
+    /// sees 0.55 alone, and if light is as concentrated within discs as their photons are.
     pub high: f64,
     /// Share of pixels that see something reflect and have found no light at all, or behind shadow rays so few photons that one more
     /// would bring more light than is known: unknown, not dark.
@@ -77,6 +77,8 @@ pub(super) struct Sums {
     pub(super) bias2: f64,
     /// Var B.
     pub(super) bias_variance: f64,
+    /// Squares of what discs may hide.
+    pub(super) focus2: f64,
     /// Squared deviations of the last pass from the mean.
     pub(super) deviation: f64,
     /// Pixels without light.
@@ -95,6 +97,7 @@ impl Sums {
             variance: self.variance + o.variance,
             bias2: self.bias2 + o.bias2,
             bias_variance: self.bias_variance + o.bias_variance,
+            focus2: self.focus2 + o.focus2,
             deviation: self.deviation + o.deviation,
             unknown: self.unknown + o.unknown,
             unknown2: self.unknown2 + o.unknown2,
@@ -124,12 +127,14 @@ impl Sums {
         // Student's t in place of the normal's quantile, to first order.
         let t = Z_90 * (1.0 + (Z_90 * Z_90 + 1.0) / (4.0 * (effective_passes - 1.0).max(1.0)));
         let total2 = noise2 + unknown2 + bias2;
+        // The most that bias may be: that of edges, or that of light which is concentrated as the photons in the discs are.
+        let most_bias2 = (SEEN_AT_EDGES.powi(-2) * bias2).max(relative(self.focus2));
         Some(ErrorEstimate {
             total: total2.sqrt(),
             noise: (noise2 + unknown2).sqrt(),
             bias: bias2.sqrt(),
             low: (total2 - t * sigma).max(0.0).sqrt(),
-            high: (total2 + (SEEN_AT_EDGES.powi(-2) - 1.0) * bias2 + t * sigma).sqrt(),
+            high: (total2 - bias2 + most_bias2 + t * sigma).sqrt(),
             unknown_share: self.unknown / self.seen,
             effective_passes,
             mean_luminance: mean,

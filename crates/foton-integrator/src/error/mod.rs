@@ -90,6 +90,8 @@ pub(crate) struct Pass<'a, const LAYERS: usize> {
 struct Addend {
     light: f64,
     bias: f64,
+    /// How far squared light of all passes may be above what discs see (see [`Evidence::focus`](crate::adaptive::Evidence::focus)).
+    focus: f64,
     /// Of one class: its blur, or a sum of squares.
     answer: f64,
 }
@@ -98,8 +100,13 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
     fn addend(&self, pixel: usize, moment_slots: &[[f32; 2]], per_sample: f64) -> Addend {
         let hit_points = self.hit_points;
         let range = hit_points.pixel_start[pixel] as usize..hit_points.pixel_start[pixel + 1] as usize;
-        let (mut bias, mut answer) = (0.0, 0.0);
+        let (mut bias, mut answer, mut focus) = (0.0, 0.0, 0.0);
         for (&slot, &weight) in hit_points.slot_of[range.clone()].iter().zip(&hit_points.weights[range]) {
+            let evidence = &hit_points.evidence_slots[slot as usize];
+            let excess = evidence.focus();
+            if excess > 0.0 {
+                focus += (f64::from(weight.luminance()) * evidence.light()).powi(2) * excess;
+            }
             let irradiance: Rgb = self.irradiance_slots[slot as usize].iter().copied().sum();
             let luminance = irradiance.luminance();
             if luminance > 0.0 {
@@ -115,7 +122,8 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
         if self.question.noise {
             answer *= answer;
         }
-        Addend { light: f64::from(light.luminance()), bias: bias * per_sample, answer }
+        let focus = focus * per_sample * per_sample;
+        Addend { light: f64::from(light.luminance()), bias: bias * per_sample, focus, answer }
     }
 
     /// Luminance per emitted photon that a pixel would gain if each of its hit points that know nothing found one.
@@ -190,6 +198,7 @@ impl ErrorSums {
                     pixel.add(&addend, photons);
                     let mean = pass.radiance.luminance_sum(index) * shares.per_photon;
                     pixel.sum_up(mean, &shares, &mut sums);
+                    sums.focus2 += addend.focus * shares.per_photon * shares.per_photon;
                     sums.deviation += (addend.light * per_photon - mean).powi(2);
                     let one_photon = || f64::max(0.0, pass.one_photon(index, samples) / weights.photons);
                     if pass.shadow_rays {
