@@ -10,6 +10,9 @@ const Z_90: f64 = 1.645;
 /// Laplacian; right on the edge both sides cancel.
 const SEEN_AT_EDGES: f64 = 0.55;
 
+/// On the square of what concentrated light may add: which samples lie within a focus is chance.
+const FOCUS_MARGIN: f64 = 2.0;
+
 /// How far an image is from the one that endless passes over the same eye samples would make.
 ///
 /// All shares are relative to the mean reflected luminance of those pixels that see anything reflect; the error is the root
@@ -128,7 +131,7 @@ impl Sums {
         let t = Z_90 * (1.0 + (Z_90 * Z_90 + 1.0) / (4.0 * (effective_passes - 1.0).max(1.0)));
         let total2 = noise2 + unknown2 + bias2;
         // The most that bias may be: that of edges, or that of light which is concentrated as the photons in the discs are.
-        let most_bias2 = (SEEN_AT_EDGES.powi(-2) * bias2).max(relative(self.focus2));
+        let most_bias2 = (SEEN_AT_EDGES.powi(-2) * bias2).max(FOCUS_MARGIN * relative(self.focus2));
         Some(ErrorEstimate {
             total: total2.sqrt(),
             noise: (noise2 + unknown2).sqrt(),
