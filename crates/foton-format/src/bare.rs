@@ -208,8 +208,12 @@ impl Model {
             .iter()
             .filter_map(|s| if let Geometry::Mesh(mesh) = &s.geometry { Some(&**mesh) } else { None })
             .collect();
-        let points =
-            || meshes.iter().flat_map(|m| m.triangles.iter().flatten().map(|&i| m.positions[i as usize]));
+        let points = || {
+            let corners = |m: &Mesh, t: &[u32; 3]| t.map(|i| m.positions[i as usize]);
+            meshes.iter().flat_map(move |m| {
+                m.triangles.iter().filter(|t| m.has_area(**t)).flat_map(move |t| corners(m, t))
+            })
+        };
         let low = points().reduce(DVec3::min)?;
         let high = points().reduce(DVec3::max)?;
         let emits = scene.shapes.iter().any(|s| s.radiance.is_some());

@@ -15,7 +15,6 @@ use crate::words::{Problem, Word, Words, direction, shown, texture_coordinate, v
 
 /// How warnings that readers of meshes share go on.
 pub(crate) const LEFT_OUT: &str = "fewer than three corners and are left out";
-pub(crate) const CROSSED: &str = "edges that cross: what is filled may not be what was meant";
 pub(crate) const NORMALS_MENDED: &str = "zero or not finite: the faces around say where they point";
 pub(crate) const TEXTURES_MENDED: &str = "not finite and taken as zero";
 
@@ -225,17 +224,16 @@ impl Parser {
         let mended = polygons.mend(&mut obj.triangles, |corner| positions[corner.position as usize]);
         obj.positions = positions;
         obj.renumber_materials(&mended.gone);
-        let (mut bad_normals, mut crossed) = (Tally::default(), Tally::default());
+        let mut bad_normals = Tally::default();
         bad_normals.add_many(obj.drop_zero_normals(), || (bad_normal.unwrap_or_default(), String::new()));
-        crossed.add_many(mended.crossed.len(), Problem::default);
         obj.warnings = [
             short_faces.warning("face has", "faces have", LEFT_OUT),
-            crossed.warning("face has", "faces have", CROSSED),
             bad_normals.warning("normal is", "normals are", NORMALS_MENDED),
             bad_textures.warning("texture coordinate is", "texture coordinates are", TEXTURES_MENDED),
         ]
         .into_iter()
         .flatten()
+        .chain(mended.warnings())
         .collect();
         obj
     }
@@ -350,9 +348,9 @@ mod tests {
             said,
             [
                 format!("12: 2 faces have {LEFT_OUT}"),
-                format!("0: 1 face has {CROSSED}"),
                 format!("6: 3 normals are {NORMALS_MENDED}"),
                 format!("11: 1 texture coordinate is {TEXTURES_MENDED}"),
+                "0: 1 face has edges that cross: what is filled may not be what was meant".to_owned(),
             ]
         );
     }

@@ -7,8 +7,14 @@
 use earcut::Earcut;
 use foton_math::glam::{DVec2, DVec3};
 
+use crate::tally::Tally;
+use crate::words::Problem;
+
 /// How much of a polygon's area a triangle may lie on the wrong side, or the triangles may be off together: rounding.
 const ROUNDING: f64 = 1e-6;
+
+/// Concave faces of more corners stay fans: cutting ears takes the square of their number.
+const MOST_CORNERS: usize = 1 << 15;
 
 /// The faces of a mesh with more than three corners.
 #[derive(Default)]
@@ -28,9 +34,26 @@ struct Run {
 pub(crate) struct Mended {
     /// Triangles that are gone, since corners on an edge need none: their numbers before that.
     pub(crate) gone: Vec<usize>,
-    /// The first triangles of polygons whose edges cross, or that go around twice: triangles do not cover them once.
-    pub(crate) crossed: Vec<usize>,
+    /// How many polygons have edges that cross: triangles do not cover them once.
+    pub(crate) crossed: usize,
+    /// How many polygons have too many corners to be mended.
+    pub(crate) large: usize,
 }
+
+impl Mended {
+    /// What is to be warned of.
+    pub(crate) fn warnings(&self) -> impl Iterator<Item = Problem> {
+        let (mut crossed, mut large) = (Tally::default(), Tally::default());
+        crossed.add_many(self.crossed, Problem::default);
+        large.add_many(self.large, Problem::default);
+        let crossed = crossed.warning("face has", "faces have", CROSSED);
+        let large = large.warning("concave face has", "concave faces have", LARGE);
+        crossed.into_iter().chain(large)
+    }
+}
+
+const CROSSED: &str = "edges that cross: what is filled may not be what was meant";
+const LARGE: &str = "more than 32,768 corners: triangles overlap there";
 
 impl Polygons {
     /// Notes a face whose fan begins with that triangle.
@@ -55,10 +78,12 @@ impl Polygons {
             for first in (0..run.faces).map(|face| run.first + face * size) {
                 let fan = &mut triangles[first..first + size];
                 let Some(area) = wrong_area(fan, &position) else { continue };
-                let (ears, is_crossed) = ears(&mut cutter, fan, area, &position);
-                if is_crossed {
-                    mended.crossed.push(first);
+                if run.corners > MOST_CORNERS {
+                    mended.large += 1;
+                    continue;
                 }
+                let (ears, is_crossed) = ears(&mut cutter, fan, area, &position);
+                mended.crossed += usize::from(is_crossed);
                 if !ears.is_empty() {
                     fan[..ears.len()].copy_from_slice(&ears);
                     mended.gone.extend(first + ears.len()..first + size);
@@ -237,11 +262,20 @@ mod tests {
         for crossed in
             [&[[0., 0.], [1., 1.], [1., 0.], [0., 1.]][..], &[[0., 0.], [3., 3.], [3., 0.], [0., 1.]]]
         {
-            assert_eq!(triangles(&polygon(crossed)).1.crossed, [0], "{crossed:?}");
+            assert_eq!(triangles(&polygon(crossed)).1.crossed, 1, "{crossed:?}");
         }
         // Without any area there is nothing to cross.
         let (found, mended) = triangles(&polygon(&[[0., 0.], [1., 0.], [2., 0.], [1., 0.]]));
         assert_eq!((found.len(), mended), (2, Mended::default()));
+    }
+
+    #[test]
+    fn concave_polygons_of_too_many_corners_are_told() {
+        let comb: Vec<_> = (0..MOST_CORNERS).map(|i| [i as f64, (i % 2) as f64]).collect();
+        let closed = [&[[MOST_CORNERS as f64, -1.0], [-1.0, -1.0]], &comb[..]].concat();
+        let (found, mended) = triangles(&polygon(&closed));
+        assert_eq!((found.len(), mended.large), (closed.len() - 2, 1));
+        assert_eq!(mended.warnings().count(), 1);
     }
 
     #[test]
@@ -261,6 +295,6 @@ mod tests {
         let (found, mended) = triangles(&ring);
         let (all, together) = areas(&ring, &found);
         assert!((all - 12.0).abs() < 1e-12 && (together - 12.0).abs() < 1e-12, "{all} {together}");
-        assert_eq!(mended.crossed, []);
+        assert_eq!(mended.crossed, 0);
     }
 }

@@ -8,7 +8,7 @@ use super::numbers::Numbers;
 use super::{length, skip_value, whole};
 use crate::diagnostic::Place;
 use crate::meshes::Vertices;
-use crate::obj::{CROSSED, LEFT_OUT};
+use crate::obj::LEFT_OUT;
 use crate::polygons::Polygons;
 use crate::tally::Tally;
 use crate::words::Problem;
@@ -183,14 +183,11 @@ impl Faces {
         }
         let mended = polygons.mend(&mut triangles, |i| mesh.positions[i as usize]);
         mesh.triangles = triangles;
-        let mut crossed = Tally::default();
-        crossed.add_many(mended.crossed.len(), Problem::default);
         let warnings = [
             short.warning("face has", "faces have", LEFT_OUT),
-            crossed.warning("face has", "faces have", CROSSED),
             unfit.warning("face has", "faces have", UNFIT),
         ];
-        Ok(warnings.into_iter().flatten().collect())
+        Ok(warnings.into_iter().flatten().chain(mended.warnings()).collect())
     }
 }
 
