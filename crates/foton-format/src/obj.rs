@@ -316,9 +316,9 @@ mod tests {
 
     #[test]
     fn a_concave_polygon_becomes_ears_and_materials_keep_their_faces() {
-        // An arrow with a corner on its edge before its notch, and a square of another material; the arrow's points come later.
+        // An arrow with corners on its edges, one of them named twice, and a square of another material. The points come later.
         let text = format!(
-            "f 5 6 7 8 9\nusemtl m\nf 1 2 3 4\n{SQUARE}v 0 0 0\nv 4 2 0\nv 0 4 0\nv 0.5 3 0\nv 1 2 0\n"
+            "f 5 6 7 7 8 9\nusemtl m\nf 1 2 3 4\n{SQUARE}v 0 0 0\nv 4 2 0\nv 0 4 0\nv 0.5 3 0\nv 1 2 0\n"
         );
         let obj = read(&text);
         let area = |t: &[Corner; 3]| {

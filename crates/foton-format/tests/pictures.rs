@@ -111,3 +111,34 @@ fn other_pictures_that_end_early_are_errors() {
         assert!(error.contains("16384 × 16384 pixels cannot be in"), "{name}: {error}");
     }
 }
+
+#[test]
+fn damaged_pictures_are_read_or_refused_without_panic() {
+    let formats = [
+        ("t.bmp", ImageFormat::Bmp),
+        ("t.tga", ImageFormat::Tga),
+        ("t.ppm", ImageFormat::Pnm),
+        ("t.jpg", ImageFormat::Jpeg),
+    ];
+    let wholes = formats.map(|(name, format)| (name, written(format)));
+    let mut state = 1_u64;
+    let mut random = |below: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (state >> 33) as usize % below
+    };
+    for round in 0..4000 {
+        let (name, whole) = &wholes[round % wholes.len()];
+        let mut bytes = whole.clone();
+        for _ in 0..=random(4) {
+            let at = random(bytes.len());
+            match random(4) {
+                0 => bytes.truncate(at + 1),
+                // Headers say what may be believed.
+                1 => bytes[at.min(30)] = random(256) as u8,
+                2 => bytes[at] = random(256) as u8,
+                _ => bytes.push(0),
+            }
+        }
+        let _ = read(name, &bytes);
+    }
+}

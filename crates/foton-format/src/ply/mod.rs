@@ -41,13 +41,19 @@ const WRAPPED: &str = "on with the one before";
 fn read(header: &Header, mut numbers: impl Numbers) -> Parsed {
     let mut mesh = Mesh::default();
     let mut faces = Faces::new(header);
-    for element in header.elements.iter().filter(|e| !e.properties.is_empty()) {
-        let least = element.properties.iter().map(|p| numbers.least_bytes(p.kind)).sum::<u64>();
+    let fits = |element: &Element, numbers: &_| {
+        let least = element.properties.iter().map(|p| Numbers::least_bytes(numbers, p.kind)).sum::<u64>();
         // The last line of a text file may lack its end.
-        if element.count.saturating_mul(least) > numbers.bytes_left() as u64 + 1 {
+        if element.count.saturating_mul(least) > Numbers::bytes_left(numbers) as u64 + 1 {
             let message = format!("the file is too short for {} × {}", element.count, element.name);
-            return Err(numbers.problem(message));
+            return Err(Numbers::problem(numbers, message));
         }
+        Ok(())
+    };
+    // Faces that come before the vertices go by their number.
+    header.elements.iter().try_for_each(|element| fits(element, &numbers))?;
+    for element in header.elements.iter().filter(|e| !e.properties.is_empty()) {
+        fits(element, &numbers)?;
         match element.name.as_str() {
             "vertex" => vertices(element, &mut numbers, &mut mesh)?,
             "face" => faces.read(element, &mut numbers)?,

@@ -206,6 +206,14 @@ fn texture_coordinates_of_corners_are_those_of_vertices_that_are_split_where_the
 }
 
 #[test]
+fn a_number_of_vertices_that_lies_is_refused_before_faces_go_by_it() {
+    let text = "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n\
+                element vertex 4294967295\nproperty float x\nproperty float y\nproperty float z\nend_header\n\
+                3 0 1 2 6 0 0 1 0 1 1\n0 0 0\n1 0 0\n0 1 0\n";
+    assert_eq!(problem("ply", text.as_bytes()), "m:11: the file is too short for 4294967295 × vertex");
+}
+
+#[test]
 fn strips_of_triangles_keep_their_sides() {
     let text = "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n\
                 element tristrips 1\nproperty list int int vertex_indices\nend_header\n\
