@@ -92,6 +92,34 @@ fn hdr() -> Vec<u8> {
     bytes
 }
 
+/// A portable pixmap of two pixels as text.
+const PPM: &str = "P3 2 1 255 0 100 200 50 60 70\n";
+
+/// A bitmap of a pixel.
+fn bmp() -> Vec<u8> {
+    let mut bytes = b"BM".to_vec();
+    [58u32, 0, 54, 40, 1, 1].iter().for_each(|n| bytes.extend(n.to_le_bytes()));
+    [1u16, 24].iter().for_each(|n| bytes.extend(n.to_le_bytes()));
+    [0u32, 4, 0, 0, 0, 0].iter().for_each(|n| bytes.extend(n.to_le_bytes()));
+    bytes.extend([50, 100, 200, 0]);
+    bytes
+}
+
+/// A Targa picture of two packed pixels.
+fn tga() -> Vec<u8> {
+    let mut bytes = vec![0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 24, 0];
+    bytes.extend([0x81, 50, 100, 200]);
+    bytes.extend([0; 8]);
+    bytes.extend(b"TRUEVISION-XFILE.\0");
+    bytes
+}
+
+/// Faces with texture coordinates for each corner, a concave one, and a strip.
+const CORNERS: &str = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n\
+    element face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n\
+    element tristrips 1\nproperty list int int vertex_indices\nend_header\n\
+    0 0 0\n2 1 0\n0 2 0\n0.5 1 0\n5 5 1\n4 0 1 2 3 8 0 0 1 0 1 1 0 1\n3 0 1 2 0\n7 0 1 2 -1 2 1 0\n";
+
 fn binary_ply() -> Vec<u8> {
     let mut bytes = b"ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
         element face 1\nproperty list uchar int vertex_indices\nend_header\n"
@@ -119,8 +147,8 @@ pub fn of(target: &str) -> Vec<Vec<u8>> {
     match target {
         "xml" => vec![ROOM.into(), WHOLE.into()],
         "obj" => vec![OBJ.into()],
-        "ply" => vec![PLY.into(), STL.into(), binary_ply(), binary_stl()],
-        "image" => vec![png(), exr(), hdr()],
+        "ply" => vec![PLY.into(), CORNERS.into(), STL.into(), binary_ply(), binary_stl()],
+        "image" => vec![png(), exr(), hdr(), bmp(), tga(), PPM.into()],
         "checkpoint" => {
             let (file, state) = crate::genuine_checkpoint();
             vec![[&[0], &file[..]].concat(), [&[1], &state[..]].concat()]

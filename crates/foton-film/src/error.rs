@@ -130,7 +130,7 @@ pub enum ReadError {
         /// What is wrong with it.
         reason: String,
     },
-    /// No layer has the channels R, G and B.
+    /// No layer has the channels R, G and B, nor Y alone.
     #[error("cannot read {}: it has no channels R, G and B, only {channels}", path.display())]
     NoRgb {
         /// The file asked for.

@@ -1,11 +1,12 @@
-//! Reading an EXR image back: R, G, B of its first layer and the text attributes. Further channels are not kept.
+//! Reading an EXR image back: R, G, B of its first layer, or Y alone as grey, and the text attributes. Further channels are
+//! not kept.
 
 use std::fs;
 use std::io::Cursor;
 use std::path::Path;
 
 use exr::meta::MetaData;
-use exr::prelude::{ReadChannels, ReadLayers, Vec2, read};
+use exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, Vec2, read};
 use foton_math::Rgb;
 
 use crate::image::area;
@@ -14,46 +15,81 @@ use crate::{Image, Metadata, ReadError, exr_header};
 /// More pixels than this per byte of the file no compression reaches; a header that claims more is broken.
 const PIXELS_PER_BYTE: usize = 4096;
 
-/// Reads the channels `R`, `G`, `B` of the first layer that has them, and the file's text attributes in their order.
+/// Reads the channels `R`, `G`, `B` of the first layer that has them, and the file's text attributes in their order. Where no
+/// layer has them, a luminance `Y` without chroma is all three.
 ///
 /// Half floats and integers become 32-bit floats; 32-bit floats keep every bit. The image is the data window: where
 /// it stands in the display window is not told.
 ///
 /// # Errors
-/// [`ReadError`] with the path: it cannot be opened, is no EXR file or a broken one, or has no R, G, B.
+/// [`ReadError`] with the path: it cannot be opened, is no EXR file or a broken one, or has neither R, G, B nor Y alone.
 pub fn read_exr(path: &Path) -> Result<(Image, Metadata), ReadError> {
     let malformed = |reason: String| ReadError::Malformed { path: path.into(), format: "EXR", reason };
     let bytes = fs::read(path).map_err(|cause| ReadError::Io { path: path.into(), cause })?;
     let meta = MetaData::read_from_buffered(Cursor::new(&bytes), false)
         .map_err(|cause| malformed(cause.to_string()))?;
-    check(&meta, bytes.len(), path)?;
+    let channels = check(&meta, bytes.len(), path)?;
     let metadata = exr_header::text_attributes(&bytes).ok_or_else(|| malformed("broken header".into()))?;
-    let image = read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .rgb_channels(
-            |size, _| Image::black(size.x() as u32, size.y() as u32),
-            |image: &mut Image, Vec2(x, y), (r, g, b): (f32, f32, f32)| {
-                image.pixels[y * image.width as usize + x] = Rgb::new(r, g, b);
-            },
-        )
-        .first_valid_layer()
-        .all_attributes()
-        .from_buffered(Cursor::new(&bytes))
-        .map_err(|cause| malformed(cause.to_string()))?;
-    Ok((image.layer_data.channel_data.pixels, metadata))
+    let levels = read().no_deep_data().largest_resolution_level();
+    let pixels = match channels {
+        Channels::Rgb => levels
+            .rgb_channels(
+                |size, _| black(size),
+                |image: &mut Image, at, (r, g, b): (f32, f32, f32)| set(image, at, Rgb::new(r, g, b)),
+            )
+            .first_valid_layer()
+            .all_attributes()
+            .from_buffered(Cursor::new(&bytes))
+            .map(|image| image.layer_data.channel_data.pixels),
+        Channels::Grey => levels
+            .specific_channels()
+            .required("Y")
+            .collect_pixels(
+                |size, _| black(size),
+                |image: &mut Image, at, (y,): (f32,)| set(image, at, Rgb::splat(y)),
+            )
+            .first_valid_layer()
+            .all_attributes()
+            .from_buffered(Cursor::new(&bytes))
+            .map(|image| image.layer_data.channel_data.pixels),
+    };
+    Ok((pixels.map_err(|cause| malformed(cause.to_string()))?, metadata))
 }
 
-/// Refuses files without R, G, B and files whose size cannot be true.
-fn check(meta: &MetaData, file_bytes: usize, path: &Path) -> Result<(), ReadError> {
+fn black(size: Vec2<usize>) -> Image {
+    Image::black(size.x() as u32, size.y() as u32)
+}
+
+fn set(image: &mut Image, Vec2(x, y): Vec2<usize>, pixel: Rgb) {
+    image.pixels[y * image.width as usize + x] = pixel;
+}
+
+/// What a file's colours are in.
+#[derive(Clone, Copy)]
+enum Channels {
+    Rgb,
+    Grey,
+}
+
+/// Refuses files without colours that are read, and files whose size cannot be true.
+fn check(meta: &MetaData, file_bytes: usize, path: &Path) -> Result<Channels, ReadError> {
     let names = |header: &exr::meta::header::Header| -> Vec<String> {
         header.channels.list.iter().map(|channel| channel.name.to_string()).collect()
     };
-    let has_rgb = |names: Vec<String>| ["R", "G", "B"].iter().all(|c| names.iter().any(|name| name == c));
-    if !meta.headers.iter().any(|header| has_rgb(names(header))) {
+    let any_has = |all: &[&str], none: &[&str]| {
+        meta.headers.iter().map(names).any(|names| {
+            let has = |wanted: &&str| names.iter().any(|name| name == wanted);
+            all.iter().all(has) && !none.iter().any(has)
+        })
+    };
+    let channels = if any_has(&["R", "G", "B"], &[]) {
+        Channels::Rgb
+    } else if any_has(&["Y"], &["RY", "BY"]) {
+        Channels::Grey
+    } else {
         let channels = meta.headers.first().map(names).unwrap_or_default().join(", ");
         return Err(ReadError::NoRgb { path: path.into(), channels });
-    }
+    };
     for header in &meta.headers {
         let Vec2(width, height) = header.layer_size;
         let fits = |side: usize| u32::try_from(side).ok();
@@ -63,5 +99,5 @@ fn check(meta: &MetaData, file_bytes: usize, path: &Path) -> Result<(), ReadErro
             return Err(ReadError::Malformed { path: path.into(), format: "EXR", reason });
         }
     }
-    Ok(())
+    Ok(channels)
 }

@@ -184,17 +184,34 @@ fn keys_that_a_format_cannot_carry_are_refused() {
     assert_eq!(refusal(&folder, &image(0), &[], &nul), MetadataError::Nul { key: "foton:a".into() }.into());
 }
 
+/// Writes two by two pixels of 0, 1, 2, 3 in each channel.
+fn write_channels(path: &std::path::Path, names: &[&str]) {
+    use exr::prelude::{AnyChannel, AnyChannels, WritableImage};
+    let channel = |name: &&str| AnyChannel::new(*name, FlatSamples::F32(vec![0.0, 1.0, 2.0, 3.0]));
+    let channels = AnyChannels::sort(names.iter().map(channel).collect());
+    exr::prelude::Image::from_channels((2, 2), channels).write().to_file(path).unwrap();
+}
+
 #[test]
 fn files_without_rgb_say_what_they_have() {
     let folder = Folder::new("depth");
     let path = folder.file("depth.exr");
-    let samples = FlatSamples::F32(vec![0.0; 4]);
-    let channel = exr::prelude::AnyChannel::new("Z", samples);
-    let channels = exr::prelude::AnyChannels::sort([channel].into_iter().collect());
-    use exr::prelude::WritableImage;
-    exr::prelude::Image::from_channels((2, 2), channels).write().to_file(&path).unwrap();
-    let error = read_exr(&path).unwrap_err();
-    assert!(matches!(&error, ReadError::NoRgb { channels, .. } if channels == "Z"), "{error}");
+    for (names, wanted) in [(&["Z"][..], "Z"), (&["Y", "RY", "BY"], "BY, RY, Y"), (&["R", "G"], "G, R")] {
+        write_channels(&path, names);
+        let error = read_exr(&path).unwrap_err();
+        assert!(matches!(&error, ReadError::NoRgb { channels, .. } if channels == wanted), "{error}");
+    }
+}
+
+#[test]
+fn a_luminance_alone_is_grey() {
+    let folder = Folder::new("luminance");
+    let path = folder.file("y.exr");
+    for names in [&["Y"][..], &["A", "Y", "Z"]] {
+        write_channels(&path, names);
+        let (image, _) = read_exr(&path).unwrap();
+        assert_eq!(image.pixels, [0.0, 1.0, 2.0, 3.0].map(Rgb::splat), "{names:?}");
+    }
 }
 
 #[test]

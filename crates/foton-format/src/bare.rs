@@ -10,7 +10,8 @@
 //! OBJ and PLY models stand on the xz plane with +z towards the viewer; STL models on the xy plane with −y there, as
 //! printers and the programs that make these files have it.
 
-use std::collections::HashMap;
+mod parts;
+
 use std::path::Path;
 use std::sync::Arc;
 
@@ -26,7 +27,8 @@ use crate::document::Document;
 use crate::hash::Fnv1a;
 use crate::integrator::Suggested;
 use crate::meshes::{self, Format, Wanted};
-use crate::obj::{Obj, Problem};
+use crate::obj::Obj;
+use crate::words::Problem;
 use crate::{Opened, Options, ReadFile, SceneNodes, mtl, ply, stl};
 
 /// Field of view along the shorter side of the image.
@@ -138,14 +140,21 @@ fn read(
 ) -> Result<SceneDescription, Vec<Problem>> {
     let mut scene = SceneDescription::default();
     match kind {
-        Kind::Obj => add_obj(&Obj::parse(bytes)?, library, report, &mut scene),
+        Kind::Obj => {
+            let mut obj = Obj::parse(bytes)?;
+            warn(std::mem::take(&mut obj.warnings), report);
+            parts::add_obj(&obj, library, report, &mut scene);
+        }
         Kind::Ply => {
             let wanted = Wanted { format: Format::Ply, face_normals: false, flip_v: false };
-            let mesh = ply::parse(bytes).map_err(|problem| vec![problem])?;
+            let (mesh, warnings) = ply::parse(bytes).map_err(|problem| vec![problem])?;
+            warn(warnings, report);
             add_shape("mesh", meshes::finished(&mesh, wanted, &DAffine3::IDENTITY), None, &mut scene);
         }
         Kind::Stl => {
-            add_shape("mesh", stl::parse(bytes).map_err(|problem| vec![problem])?, None, &mut scene);
+            let (mesh, warnings) = stl::parse(bytes).map_err(|problem| vec![problem])?;
+            warn(warnings, report);
+            add_shape("mesh", mesh, None, &mut scene);
         }
     }
     let Some(model) = Model::of(&scene, kind.axes()) else {
@@ -156,6 +165,10 @@ fn read(
         model.add_light(&mut scene, report);
     }
     Ok(scene)
+}
+
+fn warn(warnings: Vec<Problem>, report: &mut Report) {
+    warnings.into_iter().for_each(|(place, message)| report.warning(place, message));
 }
 
 /// Grey, from both sides.
@@ -177,81 +190,6 @@ fn add_shape(name: &str, mesh: Mesh, known: Option<&mtl::Entry>, scene: &mut Sce
     });
 }
 
-/// Adds a shape for each material of an OBJ file, in the order in which they are first used.
-fn add_obj(obj: &Obj, library: &mut Library<'_>, report: &mut Report, scene: &mut SceneDescription) {
-    let mut known: HashMap<String, mtl::Entry> = HashMap::new();
-    for (place, filename) in &obj.libraries {
-        let Some((path, bytes)) = library(filename) else {
-            report.warning(*place, format!("{filename} is not there: its materials are grey"));
-            continue;
-        };
-        let (entries, problems) = mtl::parse(&bytes);
-        for (place, message) in problems {
-            report.warning_in(&path, place, message);
-        }
-        for entry in entries {
-            known.entry(entry.material.name.clone()).or_insert(entry);
-        }
-    }
-    let wanted = Wanted { format: Format::Obj, face_normals: false, flip_v: true };
-    let mesh = meshes::build(obj, wanted, &DAffine3::IDENTITY);
-    let mut remap = vec![u32::MAX; mesh.positions.len()];
-    for (name, triangles) in by_material(obj, &mesh) {
-        let entry = known.get(name);
-        if entry.is_none() && !name.is_empty() && !obj.libraries.is_empty() {
-            report.warning(Place::default(), format!("there is no material \"{name}\": it is grey"));
-        }
-        let name = if name.is_empty() { "mesh" } else { name };
-        add_shape(name, part(&mesh, &triangles, &mut remap), entry, scene);
-    }
-}
-
-/// The triangles of each material that has any.
-fn by_material<'a>(obj: &'a Obj, mesh: &Mesh) -> Vec<(&'a str, Vec<[u32; 3]>)> {
-    let mut parts: Vec<(&str, Vec<[u32; 3]>)> = Vec::new();
-    let mut indices: HashMap<&str, usize> = HashMap::new();
-    let mut runs = vec![(0, "")];
-    runs.extend(obj.materials.iter().map(|(before, name)| (*before, name.as_str())));
-    for (i, (from, name)) in runs.iter().enumerate() {
-        let to = runs.get(i + 1).map_or(mesh.triangles.len(), |next| next.0);
-        if to > *from {
-            let index = *indices.entry(name).or_insert_with(|| {
-                parts.push((name, Vec::new()));
-                parts.len() - 1
-            });
-            parts[index].1.extend_from_slice(&mesh.triangles[*from..to]);
-        }
-    }
-    parts
-}
-
-/// Some triangles of a mesh with the vertices that they need. `remap` is all `u32::MAX`, before and after.
-fn part(mesh: &Mesh, triangles: &[[u32; 3]], remap: &mut [u32]) -> Mesh {
-    let mut used: Vec<usize> = Vec::new();
-    let triangles = triangles
-        .iter()
-        .map(|corners| {
-            corners.map(|i| {
-                let slot = &mut remap[i as usize];
-                if *slot == u32::MAX {
-                    *slot = used.len() as u32;
-                    used.push(i as usize);
-                }
-                *slot
-            })
-        })
-        .collect();
-    used.iter().for_each(|&i| remap[i] = u32::MAX);
-    let normals = if mesh.normals.is_empty() { Vec::new() } else { pick(&mesh.normals, &used) };
-    let has_uv = !mesh.texture_coordinates.is_empty();
-    let texture_coordinates = if has_uv { pick(&mesh.texture_coordinates, &used) } else { Vec::new() };
-    Mesh { positions: pick(&mesh.positions, &used), normals, texture_coordinates, triangles }
-}
-
-fn pick<T: Copy>(values: &[T], indices: &[usize]) -> Vec<T> {
-    indices.iter().map(|&i| values[i]).collect()
-}
-
 /// What is to be looked at and lit.
 struct Model {
     axes: Axes,
@@ -270,8 +208,12 @@ impl Model {
             .iter()
             .filter_map(|s| if let Geometry::Mesh(mesh) = &s.geometry { Some(&**mesh) } else { None })
             .collect();
-        let points =
-            || meshes.iter().flat_map(|m| m.triangles.iter().flatten().map(|&i| m.positions[i as usize]));
+        let points = || {
+            let corners = |m: &Mesh, t: &[u32; 3]| t.map(|i| m.positions[i as usize]);
+            meshes.iter().flat_map(move |m| {
+                m.triangles.iter().filter(|t| m.has_area(**t)).flat_map(move |t| corners(m, t))
+            })
+        };
         let low = points().reduce(DVec3::min)?;
         let high = points().reduce(DVec3::max)?;
         let emits = scene.shapes.iter().any(|s| s.radiance.is_some());

@@ -70,7 +70,12 @@ impl Reader<'_> {
 
     fn spot(&mut self, p: &mut Properties<'_>) -> Option<EmitterKind> {
         let intensity = self.emission(p, "intensity");
-        let to_world = p.transform("to_world", &mut self.report).map_or(DAffine3::IDENTITY, |t| t.value);
+        let transform = p.transform("to_world", &mut self.report);
+        if let Some(t) = transform.filter(|t| even_scale(t.value.matrix3, 1e-3).is_none()) {
+            let message = "a spot can be turned, moved and scaled evenly, but not stretched or sheared: its cone must stay round";
+            self.report.error(t.place, message);
+        }
+        let to_world = transform.map_or(DAffine3::IDENTITY, |t| t.value);
         let cutoff = p.number("cutoff_angle", &mut self.report);
         let beam = p.number("beam_width", &mut self.report);
         p.refuse(&["texture"], &mut self.report);

@@ -1,6 +1,6 @@
-//! Image files to linear pixels: PNG and JPEG from 8 or 16 bits of sRGB, Radiance HDR and OpenEXR as they are.
+//! Image files to linear pixels: PNG, JPEG, BMP, TGA and PNM from 8 or 16 bits of sRGB, Radiance HDR and OpenEXR as they are.
 //!
-//! Alpha is not read. Every image is decoded once for each way to read it.
+//! Alpha is not read. A JPEG that ends too early is read as far as it goes, with a warning; the others are errors then. Every image is decoded once for each way to read it.
 
 use std::collections::HashMap;
 use std::io::Cursor;
@@ -63,6 +63,11 @@ fn read(
             return None;
         }
     };
+    if bytes.starts_with(&JPEG_START) && is_cut_jpeg(&bytes) {
+        let message =
+            format!("{} ends before its picture does: what is missing has no detail", path.display());
+        report.warning(place, message);
+    }
     let outside = |c: &f32| !(0.0..=1.0).contains(c);
     if bitmap.pixels.iter().any(|p| !p.is_finite()) {
         report.error(place, format!("{} has pixels that are not finite numbers", path.display()));
@@ -83,9 +88,8 @@ fn decode(path: &Path, bytes: &[u8], raw: bool) -> Result<Bitmap, String> {
     if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
         return decode_exr(path, bytes);
     }
-    let format = image::guess_format(bytes).ok();
-    let Some(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::Hdr)) = format else {
-        return Err("it is no PNG, JPEG, Radiance HDR or EXR image".to_owned());
+    let Some(format) = format(path, bytes) else {
+        return Err("it is no PNG, JPEG, BMP, TGA, PNM, Radiance HDR or EXR image".to_owned());
     };
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.no_limits();
@@ -114,6 +118,41 @@ fn decode(path: &Path, bytes: &[u8], raw: bool) -> Result<Bitmap, String> {
     Ok(Bitmap { width, height, pixels })
 }
 
+/// The format of an image that is no EXR image. TGA files have no mark at their beginning, and older ones none at all.
+fn format(path: &Path, bytes: &[u8]) -> Option<ImageFormat> {
+    use ImageFormat::{Bmp, Hdr, Jpeg, Png, Pnm, Tga};
+    let guessed = image::guess_format(bytes).ok().filter(|f| matches!(f, Bmp | Hdr | Jpeg | Png | Pnm));
+    let is_tga = || {
+        path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("tga"))
+            || bytes.ends_with(b"TRUEVISION-XFILE.\0")
+    };
+    guessed.or_else(|| is_tga().then_some(Tga))
+}
+
+const JPEG_START: [u8; 2] = [0xff, 0xd8];
+
+/// Whether a JPEG file lacks the mark of its end: going from segment to segment, since pictures within, as cameras write
+/// them, have marks of their own.
+fn is_cut_jpeg(bytes: &[u8]) -> bool {
+    let mut at = JPEG_START.len();
+    // A byte of 255 is a mark's beginning; behind it more of them may fill up, or there is the kind of mark.
+    while let Some(offset) = bytes.get(at..).and_then(|rest| rest.iter().position(|&b| b == 0xff)) {
+        at += offset;
+        let Some(kind) = bytes[at..].iter().position(|&b| b != 0xff) else { return true };
+        at += kind;
+        match bytes[at] {
+            0xd9 => return false,
+            // A byte of 255 in the picture, and marks without anything behind.
+            0 | 1 | 0xd0..=0xd8 => at += 1,
+            _ => match bytes.get(at + 1..at + 3) {
+                Some(&[high, low]) => at += 1 + usize::from(u16::from_be_bytes([high, low])),
+                _ => return true,
+            },
+        }
+    }
+    true
+}
+
 fn decode_exr(path: &Path, bytes: &[u8]) -> Result<Bitmap, String> {
     // EXR files are read by path; what the caller gave must be what lies there.
     if std::fs::read(path).ok().as_deref() != Some(bytes) {
@@ -123,7 +162,7 @@ fn decode_exr(path: &Path, bytes: &[u8]) -> Result<Bitmap, String> {
         Ok((image, _)) => image,
         Err(foton_film::ReadError::Malformed { reason, .. }) => return Err(reason),
         Err(foton_film::ReadError::NoRgb { channels, .. }) => {
-            return Err(format!("it has no channels R, G and B, only {channels}"));
+            return Err(format!("it has no channels R, G and B, nor Y alone, only {channels}"));
         }
         Err(other) => return Err(other.to_string()),
     };
@@ -137,4 +176,26 @@ fn check_size(width: u32, height: u32) -> Result<(), String> {
         return Err(format!("{width} × {height} pixels are none or too many"));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_jpeg_is_cut_wherever_it_ends_before_its_mark() {
+        let mut bytes = Vec::new();
+        let shades =
+            image::RgbImage::from_fn(40, 30, |x, y| image::Rgb([x as u8 * 6, y as u8 * 8, (x * y) as u8]));
+        shades.write_to(&mut Cursor::new(&mut bytes), ImageFormat::Jpeg).unwrap();
+        assert!(!is_cut_jpeg(&bytes));
+        assert!(!is_cut_jpeg(&[&bytes[..], b"and more"].concat()));
+        for length in 2..bytes.len() {
+            assert!(is_cut_jpeg(&bytes[..length]), "{length} of {}", bytes.len());
+        }
+        // A picture in a segment has an end of its own.
+        let inner = [&[0xff, 0xe1][..], &(bytes.len() as u16 + 2).to_be_bytes(), &bytes].concat();
+        let outer = [&bytes[..2], &inner, &bytes[2..]].concat();
+        assert!(!is_cut_jpeg(&outer) && is_cut_jpeg(&outer[..outer.len() - 2]));
+    }
 }

@@ -20,8 +20,10 @@ use foton_scene::description::Mesh;
 
 use crate::diagnostic::Report;
 use crate::files::Files;
-use crate::obj::{Corner, Obj, Problem};
+use crate::obj::{Corner, NORMALS_MENDED, Obj, TEXTURES_MENDED};
 use crate::properties::Located;
+use crate::tally::Tally;
+use crate::words::Problem;
 use crate::{ply, serialized, stl};
 
 /// How a mesh file is read.
@@ -53,6 +55,9 @@ enum Contents {
     Obj(Obj),
     Mesh(Mesh),
 }
+
+/// A mesh and what was mended in it, or the first problem of a file.
+pub(crate) type Parsed = Result<(Mesh, Vec<Problem>), Problem>;
 
 /// The mesh files read so far.
 #[derive(Default)]
@@ -108,20 +113,30 @@ fn read(
     report: &mut Report,
 ) -> Option<Contents> {
     let (path, bytes) = files.read(&filename.value, filename.place, report)?;
-    let one = |mesh: Result<Mesh, Problem>| mesh.map(Contents::Mesh).map_err(|problem| vec![problem]);
+    let one = |parsed: Parsed| match parsed {
+        Ok((mesh, warnings)) => Ok((Contents::Mesh(mesh), warnings)),
+        Err(problem) => Err(vec![problem]),
+    };
     let contents = match format {
-        Format::Obj => Obj::parse(&bytes).map(Contents::Obj),
+        Format::Obj => Obj::parse(&bytes).map(|mut obj| {
+            let warnings = std::mem::take(&mut obj.warnings);
+            (Contents::Obj(obj), warnings)
+        }),
         Format::Ply => one(ply::parse(&bytes)),
         Format::Stl => one(stl::parse(&bytes)),
         Format::Serialized(number) => one(serialized::parse(&bytes, number)),
     };
     let file = path.to_string_lossy();
-    let report_all = |problems: Vec<Problem>| {
-        for (place, message) in problems {
-            report.error_in(&file, place, message);
+    match contents {
+        Ok((contents, warnings)) => {
+            warnings.into_iter().for_each(|(place, message)| report.warning_in(&file, place, message));
+            Some(contents)
         }
-    };
-    contents.map_err(report_all).ok()
+        Err(problems) => {
+            problems.into_iter().for_each(|(place, message)| report.error_in(&file, place, message));
+            None
+        }
+    }
 }
 
 /// A mesh as a shape wants it.
@@ -138,22 +153,49 @@ pub(crate) fn finished(mesh: &Mesh, wanted: Wanted, to_world: &DAffine3) -> Mesh
     mesh
 }
 
+/// Computes normals that a file states as zero or not as numbers, and takes texture coordinates that are none as zero. What
+/// is said of those; normals of vertices without triangles are often zero, and nothing is said of them.
+pub(crate) fn mend(mesh: &mut Mesh) -> Vec<Problem> {
+    let (mut normals, mut textures) = (Tally::default(), Tally::default());
+    let is_bad = |n: &DVec3| n.try_normalize().is_none();
+    if mesh.normals.iter().any(is_bad) {
+        let mut is_used = vec![false; mesh.positions.len()];
+        mesh.triangles.iter().flatten().for_each(|&i| is_used[i as usize] = true);
+        let smooth = smooth_normals(&mesh.positions, &mesh.triangles, &DAffine3::IDENTITY);
+        for ((normal, smooth), is_used) in mesh.normals.iter_mut().zip(smooth).zip(is_used) {
+            if is_bad(normal) {
+                *normal = smooth;
+                normals.add_many(usize::from(is_used), Problem::default);
+            }
+        }
+    }
+    for uv in mesh.texture_coordinates.iter_mut().filter(|uv| !uv.is_finite()) {
+        *uv = DVec2::ZERO;
+        textures.add(Problem::default);
+    }
+    let normals = normals.warning("normal is", "normals are", NORMALS_MENDED);
+    let textures = textures.warning("texture coordinate is", "texture coordinates are", TEXTURES_MENDED);
+    normals.into_iter().chain(textures).collect()
+}
+
 /// Vertices that corners share, found by chains of those with the same position.
-struct Vertices {
+pub(crate) struct Vertices<K> {
     first: Vec<u32>,
     next: Vec<u32>,
-    keys: Vec<Corner>,
+    /// What tells each vertex from others.
+    pub(crate) keys: Vec<K>,
 }
 
 const NONE: u32 = u32::MAX;
 
-impl Vertices {
-    fn new(positions: usize) -> Self {
+impl<K: Copy + PartialEq> Vertices<K> {
+    pub(crate) fn new(positions: usize) -> Self {
         Self { first: vec![NONE; positions], next: Vec::new(), keys: Vec::with_capacity(positions) }
     }
 
-    fn index(&mut self, key: Corner) -> u32 {
-        let slot = &mut self.first[key.position as usize];
+    /// The vertex with that key, which has that position.
+    pub(crate) fn index(&mut self, position: u32, key: K) -> u32 {
+        let slot = &mut self.first[position as usize];
         let mut at = *slot;
         while at != NONE {
             if self.keys[at as usize] == key {
@@ -174,7 +216,7 @@ pub(crate) fn build(obj: &Obj, wanted: Wanted, to_world: &DAffine3) -> Mesh {
     let mut vertices = Vertices::new(obj.positions.len());
     let key = |c: Corner| if wanted.face_normals { Corner { normal: 0, ..c } } else { c };
     let triangles: Vec<[u32; 3]> =
-        obj.triangles.iter().map(|corners| corners.map(|c| vertices.index(key(c)))).collect();
+        obj.triangles.iter().map(|corners| corners.map(|c| vertices.index(c.position, key(c)))).collect();
     let positions: Vec<DVec3> = vertices.keys.iter().map(|k| obj.positions[k.position as usize]).collect();
     let mut normals = Vec::new();
     if !wanted.face_normals {

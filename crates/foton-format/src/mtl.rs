@@ -3,7 +3,7 @@
 //! | statements | material |
 //! |---|---|
 //! | `illum` 3 or 5, `Ks` above zero | a mirror of `Ks` |
-//! | `illum` 4, 6, 7 or 9; or `d` below 1 (`Tr` above 0) and `Ni` above 1 | clear glass of `Ni`; 1.5 where `Ni` is absent |
+//! | `illum` 4, 6, 7 or 9 unless `Ni` is 1; or `d` below 1 and `Ni` above 1 | clear glass of `Ni`; 1.5 where `Ni` is absent |
 //! | `illum` 2, `Ks` above zero | a rough coat of `Ni` (1.5 unless above 1) times `Ks` over a diffuse `Kd`, α = √(2 / (Ns + 2)) |
 //! | anything else | diffuse `Kd` |
 //! | `d` below 1 otherwise | that share of the light meets the surface |
@@ -11,11 +11,19 @@
 //!
 //! All but glass look the same from both sides. `Tf` is not used: files disagree on whether 0 is clear or black.
 //! Textures are not read. Nothing here is an error: what is not understood is a warning, and the rest holds.
+//!
+//! Exporters write statements that would make a model vanish, and mean that it is opaque. What is assumed of them is a warning:
+//! - Maya writes `illum 4` for every material, with `Ni 1`: glass that refracts nothing is taken as opaque.
+//! - `Tr` is the share that passes, by most exporters, or the share that does not. Where `d` stands beside it, `d` holds. Where it
+//!   stands alone, the file's other materials say which it is: those with both, or else one with `Tr 1` while none has `Tr 0`.
+//!   What then would be invisible by `Tr` is opaque all the same.
+//! - `d 0` in all materials of a file.
 
 use foton_math::Rgb;
 use foton_scene::description::{Bsdf, Colour, Material, MicrofacetDistribution, Microfacets};
 
-use crate::obj::{Problem, Word, Words, shown};
+use crate::diagnostic::Place;
+use crate::words::{Problem, Word, Words, shown};
 
 /// A material of a file.
 #[derive(Clone, Debug)]
@@ -26,7 +34,7 @@ pub(crate) struct Entry {
     pub(crate) radiance: Option<Rgb>,
 }
 
-/// The materials of a file in its order, and what is wrong with it.
+/// The materials of a file in its order, and what is wrong with it or had to be assumed.
 pub(crate) fn parse(bytes: &[u8]) -> (Vec<Entry>, Vec<Problem>) {
     let mut statements: Vec<Statements> = Vec::new();
     let mut warnings = Vec::new();
@@ -34,12 +42,90 @@ pub(crate) fn parse(bytes: &[u8]) -> (Vec<Entry>, Vec<Problem>) {
     while words.next_line() {
         let Some(keyword) = words.next() else { continue };
         if keyword.text == b"newmtl" {
-            statements.push(Statements::named(&words.rest_of_line()));
+            statements.push(Statements::named(unquoted(&words.rest_of_line())));
         } else if let Some(current) = statements.last_mut() {
             warnings.extend(current.read(keyword, &mut words).err());
         }
     }
-    (statements.iter().map(Statements::entry).collect(), warnings)
+    let reading = Reading::of(&statements);
+    let mut assumed: Vec<(Assumed, Place, String, usize)> = Vec::new();
+    let entries = statements.iter().map(|s| {
+        s.entry(&reading, &mut |what, place| match assumed.iter_mut().find(|a| a.0 == what) {
+            Some(known) => known.3 += 1,
+            None => assumed.push((what, place, s.name.clone(), 0)),
+        })
+    });
+    let entries = entries.collect();
+    warnings.extend(assumed.into_iter().map(|(what, place, name, more)| {
+        let more = if more == 0 { String::new() } else { format!(" and of {more} more") };
+        (place, what.message(&format!("\"{}\"{more}", shown(name.as_bytes()))))
+    }));
+    (entries, warnings)
+}
+
+/// A name without the quotes around it that some exporters write.
+pub(crate) fn unquoted(name: &str) -> &str {
+    name.strip_prefix('"').and_then(|n| n.strip_suffix('"')).unwrap_or(name)
+}
+
+/// What was assumed of a material.
+#[derive(Clone, Copy, PartialEq)]
+enum Assumed {
+    /// Glass that refracts nothing is opaque.
+    NoGlass,
+    /// `Tr` does not go with `d`.
+    TrBesideD,
+    /// `Tr` is an opacity.
+    TrIsOpacity,
+    /// `Tr` would make it invisible either way.
+    TrIsNothing,
+    /// `d` would make everything invisible.
+    DIsNothing,
+}
+
+impl Assumed {
+    /// A warning about the material of that name, which may go on with others.
+    fn message(self, of: &str) -> String {
+        match self {
+            Self::NoGlass => format!(
+                "\"illum\" of {of} asks for glass, but \"Ni\" says that it refracts nothing: taken as opaque; \"Ni 1.5\" makes it glass"
+            ),
+            Self::TrBesideD => format!("\"Tr\" of {of} contradicts \"d\" beside it: \"d\" is taken"),
+            Self::TrIsOpacity => format!(
+                "\"Tr\" of {of} is taken as opacity, 1 for opaque, going by the other materials and so that none vanishes; \
+                 \"d\" leaves no doubt"
+            ),
+            Self::TrIsNothing => {
+                format!("\"Tr\" of {of} would make it invisible: taken as opaque; \"d 0\" makes it invisible")
+            }
+            Self::DIsNothing => {
+                format!("\"d\" of {of} would make the whole file invisible: taken as opaque")
+            }
+        }
+    }
+}
+
+/// How the statements of a file are meant, going by all of its materials.
+struct Reading {
+    /// Whether `Tr` is a share that does not pass.
+    tr_is_opacity: bool,
+    /// Whether `d` makes every material invisible.
+    d_is_nothing: bool,
+}
+
+impl Reading {
+    fn of(materials: &[Statements]) -> Self {
+        let beside = |is: fn(f32, f32) -> bool| {
+            materials.iter().any(|m| matches!((m.d, m.tr), (Some((_, d)), Some((_, tr))) if is(d, tr)))
+        };
+        let (opacity, transparency) =
+            (beside(|d, tr| d == tr && tr != 0.5), beside(|d, tr| (d + tr - 1.0).abs() < 0.01));
+        let alone =
+            |value: f32| materials.iter().any(|m| m.d.is_none() && m.tr.is_some_and(|tr| tr.1 == value));
+        let tr_is_opacity = if opacity == transparency { alone(1.0) && !alone(0.0) } else { opacity };
+        let is_nothing = |m: &Statements| m.d.is_some_and(|d| d.1 == 0.0) && m.ior().is_none_or(|n| n <= 1.0);
+        Self { tr_is_opacity, d_is_nothing: !materials.is_empty() && materials.iter().all(is_nothing) }
+    }
 }
 
 /// What a file says about one material.
@@ -50,8 +136,9 @@ struct Statements {
     ke: Rgb,
     ns: f32,
     ni: Option<f32>,
-    d: f32,
-    illum: u32,
+    d: Option<(Place, f32)>,
+    tr: Option<(Place, f32)>,
+    illum: (Place, u32),
 }
 
 impl Statements {
@@ -63,21 +150,23 @@ impl Statements {
             ke: Rgb::BLACK,
             ns: 0.0,
             ni: None,
-            d: 1.0,
-            illum: 2,
+            d: None,
+            tr: None,
+            illum: (Place::default(), 2),
         }
     }
 
     fn read(&mut self, keyword: Word<'_>, words: &mut Words<'_>) -> Result<(), Problem> {
+        let share = |words: &mut Words<'_>| Ok((keyword.place, number(keyword, words)?.clamp(0.0, 1.0)));
         match keyword.text {
             b"Kd" => self.kd = clamped(colour(keyword, words)?),
             b"Ks" => self.ks = clamped(colour(keyword, words)?),
             b"Ke" => self.ke = colour(keyword, words)?.map(|c| c.max(0.0)),
             b"Ns" => self.ns = number(keyword, words)?.clamp(0.0, 1e6),
-            b"Ni" => self.ni = Some(number(keyword, words)?).filter(|n| (0.1..=10.0).contains(n)),
-            b"d" => self.d = number(keyword, words)?.clamp(0.0, 1.0),
-            b"Tr" => self.d = 1.0 - number(keyword, words)?.clamp(0.0, 1.0),
-            b"illum" => self.illum = number(keyword, words)? as u32,
+            b"Ni" => self.ni = Some(number(keyword, words)?),
+            b"d" => self.d = Some(share(words)?),
+            b"Tr" => self.tr = Some(share(words)?),
+            b"illum" => self.illum = (keyword.place, number(keyword, words)? as u32),
             map if map.starts_with(b"map_") || matches!(map, b"bump" | b"disp" | b"decal" | b"norm") => {
                 let message = format!("\"{}\" of \"{}\" is not read", shown(map), self.name);
                 return Err((keyword.place, message));
@@ -87,15 +176,56 @@ impl Statements {
         Ok(())
     }
 
-    fn entry(&self) -> Entry {
-        let ni = self.ni.filter(|&n| n > 1.0);
-        let is_glass = matches!(self.illum, 4 | 6 | 7 | 9) || (self.d < 1.0 && ni.is_some());
+    /// The index of refraction that is stated; 1 for one that nothing has.
+    fn ior(&self) -> Option<f32> {
+        self.ni.map(|n| if (0.1..=10.0).contains(&n) { n } else { 1.0 })
+    }
+
+    /// The share of light that meets the surface.
+    fn opacity(&self, reading: &Reading, assume: &mut impl FnMut(Assumed, Place)) -> f32 {
+        match (self.d, self.tr) {
+            (None, None) => 1.0,
+            (Some((place, _)), _) if reading.d_is_nothing => {
+                assume(Assumed::DIsNothing, place);
+                1.0
+            }
+            (Some((_, d)), None) => d,
+            (Some((_, d)), Some((place, tr))) => {
+                if (d + tr - 1.0).abs() > 0.01 {
+                    assume(Assumed::TrBesideD, place);
+                }
+                d
+            }
+            (None, Some((place, tr))) => {
+                let opacity = if reading.tr_is_opacity { tr } else { 1.0 - tr };
+                if opacity == 0.0 {
+                    assume(Assumed::TrIsNothing, place);
+                    return 1.0;
+                }
+                if reading.tr_is_opacity {
+                    assume(Assumed::TrIsOpacity, place);
+                }
+                opacity
+            }
+        }
+    }
+
+    fn entry(&self, reading: &Reading, assume: &mut impl FnMut(Assumed, Place)) -> Entry {
+        let opacity = self.opacity(reading, assume);
+        let (place, illum) = self.illum;
+        let ni = self.ior().filter(|&n| n > 1.0);
+        let asks_for_glass = matches!(illum, 4 | 6 | 7 | 9);
+        let refracts = self.ior().is_none_or(|n| (n - 1.0).abs() > 1e-3);
+        let is_glass = (asks_for_glass && refracts) || (opacity < 1.0 && ni.is_some());
         let is_shiny = self.ks.max_component() > 0.0;
+        if asks_for_glass && !refracts {
+            assume(Assumed::NoGlass, place);
+        }
         let white = Colour::Constant(Rgb::WHITE);
-        let front = match self.illum {
+        let front = match illum {
             3 | 5 if is_shiny => Bsdf::Mirror { reflectance: self.ks.into() },
             _ if is_glass => Bsdf::Dielectric {
-                int_ior: self.ni.unwrap_or(1.5),
+                int_ior: self.ior().unwrap_or(1.5),
                 ext_ior: 1.0,
                 specular_reflectance: white,
                 specular_transmittance: white,
@@ -105,7 +235,7 @@ impl Statements {
             _ => Bsdf::Diffuse { reflectance: self.kd.into() },
         };
         let is_clear = matches!(front, Bsdf::Dielectric { .. });
-        let opacity = (!is_clear && self.d < 1.0).then(|| Colour::Constant(Rgb::splat(self.d)));
+        let opacity = (!is_clear && opacity < 1.0).then(|| Colour::Constant(Rgb::splat(opacity)));
         let back = (!is_clear).then_some(front);
         let material = Material { name: self.name.clone(), front, back, opacity };
         Entry { material, radiance: Some(self.ke).filter(|ke| ke.max_component() > 0.0) }
@@ -139,7 +269,12 @@ fn colour(keyword: Word<'_>, words: &mut Words<'_>) -> Result<Rgb, Problem> {
 
 fn number(keyword: Word<'_>, words: &mut Words<'_>) -> Result<f32, Problem> {
     let missing = || (keyword.place, format!("\"{}\" needs a number and is ignored", shown(keyword.text)));
-    parsed(words.next().ok_or_else(missing)?)
+    let mut word = words.next().ok_or_else(missing)?;
+    // `d -halo 0.5` is thinner towards its rim, which is left out.
+    if word.text == b"-halo" {
+        word = words.next().ok_or_else(missing)?;
+    }
+    parsed(word)
 }
 
 fn parsed(word: Word<'_>) -> Result<f32, Problem> {

@@ -2,11 +2,21 @@
 //! read; materials are kept by name.
 //!
 //! Our own reader, because errors must name the line. Two passes over the bytes: the first counts, so that the
-//! second allocates once and can check every index where it stands.
+//! second allocates once and can check every index where it stands. What exporters get wrong and what can be done
+//! without is mended or left out, counted and warned of: normals and texture coordinates that are no numbers, faces of
+//! fewer than three corners.
 
 use foton_math::glam::{DVec2, DVec3};
 
 use crate::diagnostic::Place;
+use crate::polygons::Polygons;
+use crate::tally::Tally;
+use crate::words::{Problem, Word, Words, direction, shown, texture_coordinate, vector};
+
+/// How warnings that readers of meshes share go on.
+pub(crate) const LEFT_OUT: &str = "fewer than three corners and are left out";
+pub(crate) const NORMALS_MENDED: &str = "zero or not finite: the faces around say where they point";
+pub(crate) const TEXTURES_MENDED: &str = "not finite and taken as zero";
 
 /// More problems than these in one file are only counted.
 const MOST_PROBLEMS: usize = 20;
@@ -22,6 +32,8 @@ pub(crate) struct Obj {
     pub(crate) libraries: Vec<(Place, String)>,
     /// Names of materials, each with the number of triangles before the first that has it.
     pub(crate) materials: Vec<(usize, String)>,
+    /// What was mended or left out.
+    pub(crate) warnings: Vec<Problem>,
 }
 
 /// A corner of a face.
@@ -35,11 +47,8 @@ pub(crate) struct Corner {
     pub(crate) normal: u32,
 }
 
-/// What is wrong, and where.
-pub(crate) type Problem = (Place, String);
-
 impl Obj {
-    /// Reads a file. Faces with more than three corners become fans, as in Mitsuba 3.
+    /// Reads a file. Faces with more than three corners become fans, as in Mitsuba 3, unless they are concave.
     ///
     /// # Errors
     /// All problems of the file, at most [`MOST_PROBLEMS`] of them one by one.
@@ -51,6 +60,10 @@ impl Obj {
         let mut parser = Parser {
             totals,
             face: Vec::new(),
+            polygons: Polygons::default(),
+            short_faces: Tally::default(),
+            bad_normal: None,
+            bad_textures: Tally::default(),
             problems: Vec::new(),
             obj: Self {
                 positions: Vec::with_capacity(totals.positions),
@@ -59,6 +72,7 @@ impl Obj {
                 triangles: Vec::with_capacity(totals.faces),
                 libraries: Vec::new(),
                 materials: Vec::new(),
+                warnings: Vec::new(),
             },
         };
         let mut unlisted = 0;
@@ -77,18 +91,31 @@ impl Obj {
         } else if parser.problems.is_empty() && parser.obj.triangles.is_empty() {
             parser.problems.push((Place::default(), "the file has no faces".to_owned()));
         }
-        parser.obj.drop_zero_normals();
-        if parser.problems.is_empty() { Ok(parser.obj) } else { Err(parser.problems) }
+        if parser.problems.is_empty() { Ok(parser.finish()) } else { Err(parser.problems) }
     }
-}
 
-impl Obj {
-    /// Corners whose normal is zero have none.
-    fn drop_zero_normals(&mut self) {
+    /// Corners whose normal is zero have none; how many normals those are.
+    fn drop_zero_normals(&mut self) -> usize {
+        let mut is_dropped = vec![false; self.normals.len()];
         for corner in self.triangles.iter_mut().flatten().filter(|c| c.normal != 0) {
-            if self.normals[corner.normal as usize - 1].try_normalize().is_none() {
+            let index = corner.normal as usize - 1;
+            if self.normals[index].try_normalize().is_none() {
+                is_dropped[index] = true;
                 corner.normal = 0;
             }
+        }
+        is_dropped.iter().filter(|&&dropped| dropped).count()
+    }
+
+    /// Triangles that are gone no longer stand before a material.
+    fn renumber_materials(&mut self, gone: &[usize]) {
+        let mut gone = gone.iter().peekable();
+        let mut count = 0;
+        for (before, _) in &mut self.materials {
+            while gone.next_if(|&at| at < before).is_some() {
+                count += 1;
+            }
+            *before -= count;
         }
     }
 }
@@ -123,6 +150,11 @@ struct Parser {
     totals: Totals,
     /// Corners of the face being read.
     face: Vec<Corner>,
+    polygons: Polygons,
+    short_faces: Tally,
+    /// The first normal that has no direction; how many of them faces name is known at the end.
+    bad_normal: Option<Place>,
+    bad_textures: Tally,
     problems: Vec<Problem>,
     obj: Obj,
 }
@@ -138,13 +170,20 @@ impl Parser {
                 position.map(|_| ())
             }
             b"vn" => {
-                let normal = vector(keyword, words);
-                self.obj.normals.push(normal.as_ref().map_or(DVec3::Z, |n| *n));
+                let normal = direction(keyword, words);
+                let vector = normal.as_ref().map_or(DVec3::Z, |n| n.unwrap_or(DVec3::ZERO));
+                if vector.try_normalize().is_none() {
+                    self.bad_normal.get_or_insert(keyword.place);
+                }
+                self.obj.normals.push(vector);
                 normal.map(|_| ())
             }
             b"vt" => {
                 let texture = texture_coordinate(keyword, words);
-                self.obj.textures.push(texture.as_ref().map_or(DVec2::ZERO, |t| *t));
+                if let Ok(None) = texture {
+                    self.bad_textures.add(|| (keyword.place, String::new()));
+                }
+                self.obj.textures.push(texture.as_ref().map_or(DVec2::ZERO, |t| t.unwrap_or_default()));
                 texture.map(|_| ())
             }
             b"f" => self.face(keyword, words),
@@ -167,13 +206,36 @@ impl Parser {
             self.face.push(corner);
         }
         let [first, rest @ ..] = &self.face[..] else {
-            return Err((keyword.place, "a face needs three corners, not 0".to_owned()));
+            self.short_faces.add(|| (keyword.place, String::new()));
+            return Ok(());
         };
         if rest.len() < 2 {
-            return Err((keyword.place, format!("a face needs three corners, not {}", self.face.len())));
+            self.short_faces.add(|| (keyword.place, String::new()));
         }
+        self.polygons.note(self.obj.triangles.len(), self.face.len());
         self.obj.triangles.extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
         Ok(())
+    }
+
+    /// The file, its polygons and normals mended.
+    fn finish(self) -> Obj {
+        let Self { mut obj, polygons, short_faces, bad_normal, bad_textures, .. } = self;
+        let positions = std::mem::take(&mut obj.positions);
+        let mended = polygons.mend(&mut obj.triangles, |corner| positions[corner.position as usize]);
+        obj.positions = positions;
+        obj.renumber_materials(&mended.gone);
+        let mut bad_normals = Tally::default();
+        bad_normals.add_many(obj.drop_zero_normals(), || (bad_normal.unwrap_or_default(), String::new()));
+        obj.warnings = [
+            short_faces.warning("face has", "faces have", LEFT_OUT),
+            bad_normals.warning("normal is", "normals are", NORMALS_MENDED),
+            bad_textures.warning("texture coordinate is", "texture coordinates are", TEXTURES_MENDED),
+        ]
+        .into_iter()
+        .flatten()
+        .chain(mended.warnings())
+        .collect();
+        obj
     }
 
     /// `v`, `v/t`, `v//n` or `v/t/n`.
@@ -205,126 +267,6 @@ fn number(what: &str, text: &[u8], total: usize, seen: usize) -> Result<u32, Str
         return Err(format!("there is no {what} {given}, the file has {total}"));
     }
     u32::try_from(found).map_err(|_| bad())
-}
-
-/// The three finite numbers after a keyword; more are ignored.
-pub(crate) fn vector(keyword: Word<'_>, words: &mut Words<'_>) -> Result<DVec3, Problem> {
-    let mut v = [0.0; 3];
-    for (count, number) in v.iter_mut().enumerate() {
-        let Some(word) = words.next() else {
-            let name = shown(keyword.text);
-            return Err((keyword.place, format!("\"{name}\" needs three numbers, not {count}")));
-        };
-        *number = finite(word)?;
-    }
-    Ok(DVec3::from_array(v))
-}
-
-/// One or two finite numbers after a keyword, the second 0 if it is missing; more are ignored.
-fn texture_coordinate(keyword: Word<'_>, words: &mut Words<'_>) -> Result<DVec2, Problem> {
-    let u = words.next().ok_or_else(|| (keyword.place, "\"vt\" needs two numbers, not 0".to_owned()))?;
-    Ok(DVec2::new(finite(u)?, words.next().map_or(Ok(0.0), finite)?))
-}
-
-fn finite(word: Word<'_>) -> Result<f64, Problem> {
-    let quality = match std::str::from_utf8(word.text).ok().and_then(|t| t.parse::<f64>().ok()) {
-        Some(value) if value.is_finite() => return Ok(value),
-        Some(_) => "finite number",
-        None => "number",
-    };
-    Err((word.place, format!("\"{}\" is not a {quality}", shown(word.text))))
-}
-
-/// The beginning of a word as it may stand in a message.
-pub(crate) fn shown(text: &[u8]) -> String {
-    text[..text.len().min(40)].escape_ascii().to_string()
-}
-
-/// A word and its place.
-#[derive(Clone, Copy)]
-pub(crate) struct Word<'a> {
-    pub(crate) text: &'a [u8],
-    pub(crate) place: Place,
-}
-
-/// The words of each line. Comments are skipped, and a backslash at the end of a line continues it.
-pub(crate) struct Words<'a> {
-    bytes: &'a [u8],
-    at: usize,
-    line: u32,
-    line_start: usize,
-    started: bool,
-}
-
-impl<'a> Words<'a> {
-    pub(crate) fn new(bytes: &'a [u8]) -> Self {
-        let bom = b"\xEF\xBB\xBF";
-        Self {
-            bytes: bytes.strip_prefix(bom).unwrap_or(bytes),
-            at: 0,
-            line: 1,
-            line_start: 0,
-            started: false,
-        }
-    }
-
-    /// Goes to the beginning of the next line; whether there is one.
-    pub(crate) fn next_line(&mut self) -> bool {
-        if self.started {
-            while self.next().is_some() {}
-            self.at += 1;
-            self.line += 1;
-            self.line_start = self.at;
-        }
-        self.started = true;
-        self.at < self.bytes.len()
-    }
-
-    /// The next word of this line.
-    pub(crate) fn next(&mut self) -> Option<Word<'a>> {
-        loop {
-            match *self.bytes.get(self.at)? {
-                b'\n' => return None,
-                b'#' => {
-                    let rest = &self.bytes[self.at..];
-                    self.at += rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
-                }
-                b'\\' if self.continuation() > 0 => {
-                    self.at += self.continuation();
-                    self.line += 1;
-                    self.line_start = self.at;
-                }
-                b if b.is_ascii_whitespace() => self.at += 1,
-                _ => break,
-            }
-        }
-        let start = self.at;
-        while let Some(&b) = self.bytes.get(self.at) {
-            if b.is_ascii_whitespace() || (b == b'\\' && self.continuation() > 0) {
-                break;
-            }
-            self.at += 1;
-        }
-        let column = u32::try_from(start - self.line_start + 1).unwrap_or(0);
-        Some(Word { text: &self.bytes[start..self.at], place: Place { line: self.line, column } })
-    }
-
-    /// What is left of this line as one text, white space around it removed.
-    pub(crate) fn rest_of_line(&mut self) -> String {
-        let rest = &self.bytes[self.at..];
-        let length = rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
-        self.at += length;
-        String::from_utf8_lossy(&rest[..length]).trim().to_owned()
-    }
-
-    /// The length of a backslash with the end of line after it, or 0.
-    fn continuation(&self) -> usize {
-        match &self.bytes[self.at + 1..] {
-            [b'\n', ..] => 2,
-            [b'\r', b'\n', ..] => 3,
-            _ => 0,
-        }
-    }
 }
 
 #[cfg(test)]
@@ -373,6 +315,47 @@ mod tests {
     }
 
     #[test]
+    fn a_concave_polygon_becomes_ears_and_materials_keep_their_faces() {
+        // An arrow with corners on its edges, one of them named twice, and a square of another material. The points come later.
+        let text = format!(
+            "f 5 6 7 7 8 9\nusemtl m\nf 1 2 3 4\n{SQUARE}v 0 0 0\nv 4 2 0\nv 0 4 0\nv 0.5 3 0\nv 1 2 0\n"
+        );
+        let obj = read(&text);
+        let area = |t: &[Corner; 3]| {
+            let [a, b, c] = t.map(|c| obj.positions[c.position as usize]);
+            0.5 * (b - a).cross(c - a).z
+        };
+        let start = obj.materials[0].0;
+        assert_eq!(positions(&obj)[start..], [[0, 1, 2], [0, 2, 3]]);
+        assert!(obj.triangles[..start].iter().all(|t| area(t) > 0.0), "{:?}", positions(&obj));
+        assert!((obj.triangles[..start].iter().map(area).sum::<f64>() - 6.0).abs() < 1e-12);
+        assert_eq!(obj.warnings, []);
+    }
+
+    #[test]
+    fn what_exporters_get_wrong_is_mended_and_counted() {
+        let text = format!(
+            "{SQUARE}vn 0 0 1\nvn nan 0 0\nvn 0 0 0\nvn 0 0 0\nvn -nan(ind) 0 1\nvt 1 1\nvt 0.5 1.#QNAN\nf 1 2\nf\n\
+             f 1/1/1 2/2/2 3/1/3\nf 1//5 3//1 4//1\nf 1 4 3 2 # and a face that crosses itself\nf 1 3 2 4\n"
+        );
+        let obj = read(&text);
+        assert_eq!(obj.triangles.len(), 6);
+        assert_eq!(obj.triangles[0].map(|c| c.normal), [1, 0, 0]);
+        assert_eq!(obj.triangles[1].map(|c| c.normal), [0, 1, 1]);
+        assert_eq!(obj.textures, [DVec2::ONE, DVec2::ZERO]);
+        let said: Vec<_> = obj.warnings.iter().map(|(p, m)| format!("{}: {m}", p.line)).collect();
+        assert_eq!(
+            said,
+            [
+                format!("12: 2 faces have {LEFT_OUT}"),
+                format!("6: 3 normals are {NORMALS_MENDED}"),
+                format!("11: 1 texture coordinate is {TEXTURES_MENDED}"),
+                "0: 1 face has edges that cross: what is filled may not be what was meant".to_owned(),
+            ]
+        );
+    }
+
+    #[test]
     fn positive_numbers_may_point_forward() {
         assert_eq!(positions(&read("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 1 1 0")), [[0, 1, 2]]);
     }
@@ -395,8 +378,6 @@ mod tests {
                 "2:5: \"x\" is not a number",
                 "3:1: \"v\" needs three numbers, not 2",
                 "4:5: \"nan\" is not a finite number",
-                "6:1: a face needs three corners, not 2",
-                "7:1: a face needs three corners, not 0",
                 "8:7: there is no vertex 9, the file has 4",
                 "9:3: there is no vertex 0, the file has 4",
                 "10:3: there is no vertex -9, the file has 4",

@@ -10,8 +10,7 @@ use foton_math::glam::{DVec2, DVec3};
 use foton_scene::description::Mesh;
 
 use crate::diagnostic::Place;
-use crate::obj::Problem;
-use crate::ply::mend_normals;
+use crate::meshes::{self, Parsed};
 
 const MAGIC: u16 = 0x041c;
 const HAS_NORMALS: u32 = 0x0001;
@@ -25,8 +24,10 @@ const DENSEST: u64 = 1032;
 ///
 /// # Errors
 /// The first problem of the file, or that it has not as many meshes.
-pub(crate) fn parse(bytes: &[u8], shape_index: u32) -> Result<Mesh, Problem> {
-    mesh(bytes, shape_index).map_err(|message| (Place::default(), message))
+pub(crate) fn parse(bytes: &[u8], shape_index: u32) -> Parsed {
+    let mut mesh = mesh(bytes, shape_index).map_err(|message| (Place::default(), message))?;
+    let warnings = meshes::mend(&mut mesh);
+    Ok((mesh, warnings))
 }
 
 fn mesh(bytes: &[u8], shape_index: u32) -> Result<Mesh, String> {
@@ -106,13 +107,8 @@ impl Stream<'_> {
         if let Some(i) = positions.iter().position(|p| !p.is_finite()) {
             return Err(format!("the position of vertex {i} is not finite"));
         }
-        if let Some(i) = texture_coordinates.iter().position(|p| !p.is_finite()) {
-            return Err(format!("the texture coordinate of vertex {i} is not finite"));
-        }
         let triangles = self.triangles(faces, vertices)?;
-        let mut mesh = Mesh { positions, normals, texture_coordinates, triangles };
-        mend_normals(&mut mesh);
-        Ok(mesh)
+        Ok(Mesh { positions, normals, texture_coordinates, triangles })
     }
 
     fn vectors(&mut self, count: u64) -> Result<Vec<DVec3>, String> {

@@ -172,7 +172,8 @@ impl Reader<'_> {
 
 /// Whether Mitsuba 3 turns the normals around when a transform mirrors the surface: those of a sphere, and those that
 /// follow the winding of an OBJ file's faces in the world. In a description outside stays outside, as it does for the
-/// other shapes of Mitsuba.
+/// other shapes of Mitsuba. Those are cylinders, too: rays that meet a mirrored one in Mitsuba 3.9 find its normals outside, and
+/// it shines there; only the points that it samples on such a lamp have them inside, which its pictures by paths then lack.
 pub(crate) fn is_turned_inside_out(plugin: &str, geometry: &Geometry) -> bool {
     match geometry {
         Geometry::Sphere { .. } => true,

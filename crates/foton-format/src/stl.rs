@@ -1,40 +1,79 @@
 //! STL files, text or binary, to a mesh of flat triangles.
 //!
 //! Nothing is welded: every triangle has three vertices of its own. The stated normals are not read, since files that
-//! state zero are many; the winding says where outside is, as the format demands.
+//! state zero are many; the winding says where outside is, as the format demands. A number of triangles that was never
+//! filled in is counted anew.
 
 use foton_math::glam::DVec3;
 use foton_scene::description::Mesh;
 
 use crate::diagnostic::Place;
-use crate::obj::{Problem, Words, shown, vector};
+use crate::meshes::Parsed;
+use crate::words::{Problem, Words, shown, vector, without_mark};
 
 /// What stands before the triangles of a binary file: 80 bytes of anything, and their number.
 const HEADER: usize = 84;
 /// A triangle of a binary file: normal, three corners, and two bytes of anything.
 const TRIANGLE: usize = 50;
+/// A number of triangles that stands for none that is known.
+const UNKNOWN: usize = u32::MAX as usize;
+/// How much of a file is looked at to tell text from bytes.
+const START: usize = 1024;
 
-/// Reads a file. A binary one is known by its length, since its header may well begin with `solid`.
+/// Reads a file. A binary one whose header begins with `solid` is known by its length, or by bytes that no text has.
 ///
 /// # Errors
 /// The first problem, with its line in a text file and with its byte in the message for a binary one.
-pub(crate) fn parse(bytes: &[u8]) -> Result<Mesh, Problem> {
+pub(crate) fn parse(bytes: &[u8]) -> Parsed {
     let stated = bytes[..bytes.len().min(HEADER)].last_chunk::<4>().filter(|_| bytes.len() >= HEADER);
-    let triangles = stated.map_or(0, |n| u32::from_le_bytes(*n) as usize);
-    let length = triangles.saturating_mul(TRIANGLE).saturating_add(HEADER);
-    let is_text = bytes.trim_ascii_start().starts_with(b"solid") && length != bytes.len();
-    let mesh = if is_text { text(bytes)? } else { binary(bytes, triangles, length)? };
+    let stated = stated.map_or(0, |n| u32::from_le_bytes(*n) as usize);
+    let room = bytes.len().saturating_sub(HEADER);
+    let fits = stated > 0 && stated <= room / TRIANGLE;
+    // What a program leaves that does not know the number when it begins and does not come back to it.
+    let is_unstated = matches!(stated, 0 | UNKNOWN) && room > 0 && room.is_multiple_of(TRIANGLE);
+    let is_exact = fits && stated * TRIANGLE == room;
+    let is_binary =
+        is_exact || (is_unstated || fits) && has_bytes_of_no_text(&bytes[..bytes.len().min(START)]);
+    let mut warnings = Vec::new();
+    let mesh = if says_solid(bytes) && !is_binary {
+        text(bytes)?
+    } else if is_unstated {
+        let triangles = room / TRIANGLE;
+        let message =
+            format!("the file says that it has {stated} triangles: all {triangles} that are there are read");
+        warnings.push((Place::default(), message));
+        binary(bytes, triangles)?
+    } else if bytes.len() < HEADER || stated > room / TRIANGLE {
+        let message = format!("the file is too short for {stated} triangles, or no STL file");
+        return Err((Place::default(), message));
+    } else {
+        let beyond = room - stated * TRIANGLE;
+        if beyond >= TRIANGLE {
+            let message = format!(
+                "the file has {stated} triangles, as it says: {beyond} bytes behind them are not read"
+            );
+            warnings.push((Place::default(), message));
+        }
+        binary(bytes, stated)?
+    };
     if mesh.triangles.is_empty() {
         return Err((Place::default(), "the file has no triangles".to_owned()));
     }
-    Ok(mesh)
+    Ok((mesh, warnings))
 }
 
-fn binary(bytes: &[u8], triangles: usize, length: usize) -> Result<Mesh, Problem> {
-    if bytes.len() < length.max(HEADER) {
-        let message = format!("the file is too short for {triangles} triangles, or no STL file");
-        return Err((Place::default(), message));
-    }
+/// Whether a file begins as text does.
+fn says_solid(bytes: &[u8]) -> bool {
+    let start = without_mark(bytes).trim_ascii_start().get(..5);
+    start.is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
+}
+
+fn has_bytes_of_no_text(bytes: &[u8]) -> bool {
+    bytes.iter().any(|b| b.is_ascii_control() && !b.is_ascii_whitespace())
+}
+
+fn binary(bytes: &[u8], triangles: usize) -> Result<Mesh, Problem> {
+    let length = HEADER + triangles * TRIANGLE;
     let mut positions = Vec::with_capacity(3 * triangles);
     for (i, triangle) in bytes[HEADER..length].chunks_exact(TRIANGLE).enumerate() {
         for corner in triangle[12..48].chunks_exact(12) {
@@ -63,10 +102,10 @@ fn text(bytes: &[u8]) -> Result<Mesh, Problem> {
                 positions.push(vector(keyword, &mut words)?);
                 corners += 1;
             }
-            b"endloop" | b"endfacet" if corners % 3 != 0 => {
+            b"endloop" | b"endfacet" | b"end" if corners % 3 != 0 => {
                 return Err((keyword.place, format!("a facet has three corners, not {corners}")));
             }
-            b"solid" | b"endsolid" | b"facet" | b"outer" | b"endloop" | b"endfacet" => corners = 0,
+            b"solid" | b"endsolid" | b"facet" | b"outer" | b"endloop" | b"endfacet" | b"end" => corners = 0,
             other => return Err((keyword.place, format!("\"{}\" is not understood", shown(other)))),
         }
     }

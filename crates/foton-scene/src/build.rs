@@ -18,7 +18,7 @@ use crate::normalise::Normalisation;
 use crate::scene::{Scene, Shape};
 use crate::sensor::Sensor;
 use crate::texture::Sampler;
-use checks::{check_environments, check_material, check_sensors, check_textures, world_bounds};
+use checks::{check_emitters, check_material, check_sensors, check_textures, world_bounds};
 use emitters::{area_emitter, ball, emitter_choice, unattached_emitter};
 use gather::Gathered;
 pub(crate) use patches::Patch;
@@ -38,8 +38,8 @@ pub enum BuildError {
     /// A transform flattens the shape.
     #[error("shape \"{0}\": its transform cannot be inverted")]
     Singular(String),
-    /// A transform makes a sphere or a disc something else.
-    #[error("shape \"{0}\": a sphere, a disc or a tube can only be turned, moved and scaled evenly")]
+    /// A transform makes a sphere, a disc or the cone of a spot something else.
+    #[error("\"{0}\": a sphere, a disc, a tube or a spot can only be turned, moved and scaled evenly")]
     NotRound(String),
     /// A triangle names a vertex that is not there, or normals do not match positions.
     #[error("shape \"{0}\" has a triangle or normals that do not fit its vertices")]
@@ -82,7 +82,7 @@ impl Scene {
     /// As [`Scene::build`].
     pub fn build_as_if(description: &SceneDescription, forced: Census) -> Result<Self, BuildError> {
         check_sensors(&description.sensors)?;
-        check_environments(description)?;
+        check_emitters(description)?;
         check_textures(description)?;
         let (min, max) = world_bounds(description)?;
         let normalisation = Normalisation::for_bounds(min, max);

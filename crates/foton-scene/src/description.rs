@@ -396,8 +396,9 @@ pub enum EmitterKind {
         /// On a surface that faces it (W·m⁻²).
         irradiance: Rgb,
     },
-    /// Radiance from infinitely far away, by direction: latitudes are rows, +y of the emitter's space is up, the middle of
-    /// the picture lies towards +z and its right half towards −x, as in Mitsuba 3's `envmap`.
+    /// Radiance from infinitely far away, by direction: latitudes are rows, the first and the last of them the poles, +y of the
+    /// emitter's space is up, the middle of the picture lies towards +z and its right half towards −x, as in Mitsuba 3's
+    /// `envmap`.
     Environment {
         /// Emitter to world; only its rotation matters.
         to_world: DAffine3,
@@ -409,6 +410,18 @@ pub enum EmitterKind {
 }
 
 impl Mesh {
+    /// Whether a triangle has an area that double precision can tell, its corners being there. Others are left out of scenes, and
+    /// nothing goes by where their corners are.
+    #[must_use]
+    pub fn has_area(&self, triangle: [u32; 3]) -> bool {
+        let [Some(&a), Some(&b), Some(&c)] = triangle.map(|i| self.positions.get(i as usize)) else {
+            return false;
+        };
+        let (u, v, w) = (b - a, c - a, c - b);
+        let longest = u.abs().max(v.abs()).max(w.abs()).max_element();
+        longest > 0.0 && (u / longest).cross(v / longest).length_squared() > FLATTEST * FLATTEST
+    }
+
     /// The square [−1, 1]² in the xy plane, its normal +z.
     #[must_use]
     pub fn rectangle() -> Self {
@@ -435,6 +448,9 @@ impl Mesh {
         Self { positions, normals: Vec::new(), texture_coordinates: Vec::new(), triangles }
     }
 }
+
+/// The height of a triangle of no area, by its longest side: rounding.
+const FLATTEST: f64 = 1e-12;
 
 #[cfg(test)]
 mod tests {

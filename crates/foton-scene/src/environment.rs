@@ -1,7 +1,9 @@
 //! An environment map: radiance by direction, chosen in proportion to what a direction brings.
 //!
-//! The picture is a latitude–longitude map. Radiance is interpolated between pixel centres; directions are chosen by pixels,
-//! each weighed by what interpolation puts there, so that no bright pixel's slope is left out.
+//! The picture is a latitude–longitude map as in Mitsuba 3: columns stand for the middles of their pixels, rows for latitudes
+//! from pole to pole, so that the first and the last row are the poles. Fewer than three rows are filled up with the last.
+//! Radiance is interpolated between those points. Directions are chosen by cells between four of them, each weighed by
+//! the light that interpolation puts there; so no bright pixel's slope is left out.
 
 use std::f32::consts::PI;
 use std::sync::Arc;
@@ -18,9 +20,9 @@ pub(crate) struct Environment {
     bitmap: Arc<Bitmap>,
     scale: f32,
     to_world: Mat3,
-    /// Chance of each row of pixels.
+    /// Chance of each row of cells.
     rows: Discrete,
-    /// Chance of each pixel within its row.
+    /// Chance of each cell within its row.
     columns: Vec<Discrete>,
     /// ∫ L dω per channel.
     total: Rgb,
@@ -39,7 +41,7 @@ pub(crate) struct EnvironmentSample {
 
 impl Environment {
     pub(crate) fn new(bitmap: Arc<Bitmap>, scale: f32, to_world: Mat3) -> Self {
-        let (width, height) = (bitmap.width as usize, bitmap.height as usize);
+        let (width, bands) = (bitmap.width as usize, bands(&bitmap));
         let mut environment = Self {
             bitmap,
             scale,
@@ -48,36 +50,36 @@ impl Environment {
             columns: Vec::new(),
             total: Rgb::BLACK,
         };
-        let mut row_weights = Vec::with_capacity(height);
-        for y in 0..height {
-            let weights: Vec<f64> =
-                (0..width).map(|x| f64::from(environment.cell_mean(x, y).mean())).collect();
-            row_weights.push(weights.iter().sum::<f64>() * environment.row_sine(y));
+        let mut row_weights = Vec::with_capacity(bands);
+        let mut total = [0.0f64; 3];
+        for y in 0..bands {
+            let weights: Vec<f64> = (0..width)
+                .map(|x| {
+                    let light = environment.cell_integral(x as i64, y);
+                    total.iter_mut().zip(light).for_each(|(sum, c)| *sum += c);
+                    light.iter().sum()
+                })
+                .collect();
+            row_weights.push(weights.iter().sum::<f64>());
             environment.columns.push(Discrete::new(weights));
         }
         environment.rows = Discrete::new(row_weights);
-        environment.total = environment.integral();
+        // Each pixel has a weight above zero in it: one that is no number makes the whole none, by which such a sky is refused.
+        environment.total = Rgb::from_array(total.map(|t| t as f32));
         environment
     }
 
-    /// ∫ L dω by four points to a pixel. Each pixel has a weight above zero in it: one that is no number makes the whole none, by
-    /// which such a sky is refused.
-    fn integral(&self) -> Rgb {
-        let (width, height) = (2 * self.bitmap.width, 2 * self.bitmap.height);
-        let step = 1.0 / Vec2::new(width as f32, height as f32);
-        let mut total = [0.0f64; 3];
-        for y in 0..height {
-            let v = (y as f32 + 0.5) * step.y;
-            let sine = f64::from((v * PI).sin());
-            for x in 0..width {
-                let here = self.at(Vec2::new((x as f32 + 0.5) * step.x, v));
-                for (sum, c) in total.iter_mut().zip(here.to_array()) {
-                    *sum += f64::from(c) * sine;
-                }
-            }
-        }
-        let area = 2.0 * f64::from(PI) * f64::from(PI) / (f64::from(width) * f64::from(height));
-        Rgb::from_array(total.map(|t| (t * area) as f32))
+    /// ∫ L dω over the cell to the right of and below a pixel, per channel: exact for what [`Self::at`] interpolates.
+    fn cell_integral(&self, x: i64, y: usize) -> [f64; 3] {
+        let step = std::f64::consts::PI / bands(&self.bitmap) as f64;
+        let (above, below) = (y as f64 * step, (y + 1) as f64 * step);
+        // ∫ (1 − t) sin θ dθ and ∫ t sin θ dθ, t growing from 0 to 1 in the cell.
+        let slope = (below.sin() - above.sin()) / step;
+        let (top, bottom) = (above.cos() - slope, slope - below.cos());
+        let mean = |y: i64| (self.pixel(x, y) + self.pixel(x + 1, y)).to_array().map(|c| 0.5 * f64::from(c));
+        let (upper, lower) = (mean(y as i64), mean(y as i64 + 1));
+        let width = 2.0 * std::f64::consts::PI / f64::from(self.bitmap.width);
+        std::array::from_fn(|c| width * (upper[c] * top + lower[c] * bottom))
     }
 
     /// Pixel of the map, columns wrapping around and rows ending at the poles.
@@ -85,25 +87,6 @@ impl Environment {
         let x = x.rem_euclid(i64::from(self.bitmap.width)) as usize;
         let y = y.clamp(0, i64::from(self.bitmap.height) - 1) as usize;
         self.bitmap.pixels[y * self.bitmap.width as usize + x] * self.scale
-    }
-
-    /// sin θ in the middle of a row.
-    fn row_sine(&self, y: usize) -> f64 {
-        let theta = (y as f64 + 0.5) / f64::from(self.bitmap.height) * std::f64::consts::PI;
-        theta.sin()
-    }
-
-    /// The mean radiance over a pixel as interpolation spreads it over its neighbours: no direction with light has density
-    /// zero.
-    fn cell_mean(&self, x: usize, y: usize) -> Rgb {
-        let (x, y) = (x as i64, y as i64);
-        let mut sum = Rgb::BLACK;
-        for (dy, wy) in [(-1, 0.125), (0, 0.75), (1, 0.125)] {
-            for (dx, wx) in [(-1, 0.125), (0, 0.75), (1, 0.125)] {
-                sum += self.pixel(x + dx, y + dy) * (wx * wy);
-            }
-        }
-        sum
     }
 
     /// ∫ L dω per channel.
@@ -116,14 +99,19 @@ impl Environment {
         self.at(self.uv(direction))
     }
 
-    /// Radiance at a place on the map, interpolated between pixel centres.
+    /// The cell of a place on the map by its column and row, and how far right and down in it the place is.
+    fn cell(&self, uv: Vec2) -> (i64, usize, Vec2) {
+        let bands = bands(&self.bitmap);
+        let (x, y) = (uv.x * self.bitmap.width as f32 - 0.5, uv.y * bands as f32);
+        let (column, row) = (x.floor(), (y as usize).min(bands - 1));
+        (column as i64, row, Vec2::new(x - column, y - row as f32))
+    }
+
+    /// Radiance at a place on the map, interpolated.
     fn at(&self, uv: Vec2) -> Rgb {
-        let p = uv * Vec2::new(self.bitmap.width as f32, self.bitmap.height as f32) - 0.5;
-        let low = p.floor();
-        let f = p - low;
-        let (x, y) = (low.x as i64, low.y as i64);
+        let (x, y, f) = self.cell(uv);
         let row = |y: i64| self.pixel(x, y) * (1.0 - f.x) + self.pixel(x + 1, y) * f.x;
-        row(y) * (1.0 - f.y) + row(y + 1) * f.y
+        row(y as i64) * (1.0 - f.y) + row(y as i64 + 1) * f.y
     }
 
     /// Where a direction lies on the map: u to the right, v down, both in [0, 1). As in Mitsuba 3: u = 0 lies towards −z
@@ -145,12 +133,12 @@ impl Environment {
             return 0.0;
         }
         let uv = self.uv(direction);
-        let y = ((uv.y * self.bitmap.height as f32) as usize).min(self.bitmap.height as usize - 1);
-        let x = ((uv.x * self.bitmap.width as f32) as usize).min(self.bitmap.width as usize - 1);
+        let (x, y, _) = self.cell(uv);
+        let x = x.rem_euclid(i64::from(self.bitmap.width)) as usize;
         if self.columns[y].is_empty() {
             return 0.0;
         }
-        let cells = f64::from(self.bitmap.width) * f64::from(self.bitmap.height);
+        let cells = f64::from(self.bitmap.width) * bands(&self.bitmap) as f64;
         let chance = self.rows.probability(y) * self.columns[y].probability(x) * cells;
         let sine = f64::from((uv.y * PI).sin()).max(1e-9);
         (chance / (2.0 * std::f64::consts::PI * std::f64::consts::PI * sine)) as f32
@@ -163,12 +151,17 @@ impl Environment {
         }
         let (y, along_y) = self.rows.choose_and_rest(f64::from(u.y));
         let (x, along_x) = self.columns[y].choose_and_rest(f64::from(u.x));
-        let size = Vec2::new(self.bitmap.width as f32, self.bitmap.height as f32);
-        let uv = Vec2::new(x as f32 + along_x as f32, y as f32 + along_y as f32) / size;
+        let size = Vec2::new(self.bitmap.width as f32, bands(&self.bitmap) as f32);
+        let uv = Vec2::new(x as f32 + 0.5 + along_x as f32, y as f32 + along_y as f32) / size;
         let direction = self.direction(uv);
         let pdf = self.pdf(direction);
         (pdf > 0.0).then(|| EnvironmentSample { direction, radiance: self.radiance(direction), pdf })
     }
+}
+
+/// How many rows of cells there are from pole to pole.
+fn bands(bitmap: &Bitmap) -> usize {
+    bitmap.height.max(3) as usize - 1
 }
 
 #[cfg(test)]
@@ -222,5 +215,53 @@ mod tests {
             .sum::<f64>()
             / 200_000.0;
         assert!((whole / f64::from(map.total().g) - 1.0).abs() < 0.05, "{whole} {:?}", map.total());
+    }
+
+    /// A map whose pixels are all different, as it was given to Mitsuba.
+    fn small(width: u32, height: u32) -> Environment {
+        let shade = |x: u32, y: u32| Rgb::splat(((x * 7 + y * 11 + 3) % 13 + 1) as f32);
+        let pixels = (0..height).flat_map(|y| (0..width).map(move |x| shade(x, y))).collect();
+        Environment::new(Arc::new(Bitmap { width, height, pixels }), 1.0, Mat3::IDENTITY)
+    }
+
+    #[test]
+    fn tiny_maps_are_those_of_mitsuba_everywhere_and_together() {
+        let directions = [
+            Vec3::new(0.3, 0.8, 0.5),
+            Vec3::new(-0.6, 0.1, 0.7),
+            Vec3::new(0.2, -0.9, -0.1),
+            Vec3::X,
+            Vec3::NEG_Z,
+            Vec3::new(-0.5, -0.4, -0.7),
+            Vec3::new(0.01, 1.0, -0.02),
+            Vec3::new(0.3, -1.0, 0.01),
+        ];
+        // Printed by Mitsuba 3.9.1, the integrals from 240 × 480 of its values.
+        for (width, height, radiances, total) in [
+            (2, 1, [6.2959, 9.0789, 5.0331, 4.0, 7.5, 8.882, 6.4669, 4.0742], 94.248),
+            (4, 2, [9.2623, 3.4308, 3.4338, 5.5, 6.0, 9.1589, 5.6102, 5.6485], 79.965),
+            (8, 4, [9.4805, 6.0221, 6.0071, 5.0, 9.25, 8.1406, 4.5896, 7.3903], 87.376),
+        ] {
+            let map = small(width, height);
+            for (d, wanted) in directions.iter().zip(radiances) {
+                let found = map.radiance(d.normalize()).g;
+                assert!((found - wanted).abs() < 1e-3, "{width} × {height} {d}: {found}, not {wanted}");
+            }
+            let found = map.total().g;
+            assert!((found / total - 1.0).abs() < 1e-4, "{width} × {height}: {found}, not {total}");
+            let mut stream = Stream::new(3, Purpose::Test, 0, 0);
+            let n = 100_000;
+            let (mut light, mut upward, mut whole) = (0.0f64, 0.0f64, 0.0f64);
+            for _ in 0..n {
+                let s = map.sample(stream.next_2d()).expect("not black");
+                light += f64::from(s.radiance.g / s.pdf) / f64::from(n);
+                upward += f64::from(s.radiance.g / s.pdf * s.direction.y) / f64::from(n);
+                let d = warp::square_to_sphere(stream.next_2d());
+                whole += f64::from(map.pdf(d) / warp::square_to_sphere_pdf()) / f64::from(n);
+                upward -= f64::from(map.radiance(d).g * d.y / warp::square_to_sphere_pdf()) / f64::from(n);
+            }
+            assert!((light / f64::from(total) - 1.0).abs() < 0.01, "{width} × {height}: {light}");
+            assert!((whole - 1.0).abs() < 0.01 && upward.abs() < 0.01 * f64::from(total), "{whole} {upward}");
+        }
     }
 }

@@ -1,7 +1,8 @@
 //! The header of a PLY file: what stands in which order after it.
 
 use crate::diagnostic::Place;
-use crate::obj::{Problem, shown};
+use crate::tally::Tally;
+use crate::words::{Problem, shown};
 
 /// What a file says about itself.
 pub(super) struct Header {
@@ -13,6 +14,10 @@ pub(super) struct Header {
     pub(super) length: usize,
     /// Its lines.
     pub(super) lines: u32,
+    /// What its lines end in: `\n`, or `\r` on systems of long ago.
+    pub(super) line_end: u8,
+    /// Lines that begin with no word of a header: they belong to the one before.
+    pub(super) wrapped: Tally,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +44,11 @@ impl Property {
     /// Whether it lists the corners of a face.
     pub(super) fn is_corners(&self) -> bool {
         matches!(self.kind, Kind::List { .. }) && matches!(&*self.name, "vertex_indices" | "vertex_index")
+    }
+
+    /// Whether it lists a texture coordinate for each corner of a face.
+    pub(super) fn is_corner_textures(&self) -> bool {
+        matches!(self.kind, Kind::List { .. }) && matches!(&*self.name, "texcoord" | "texcoords")
     }
 }
 
@@ -94,29 +104,52 @@ impl Number {
 impl Header {
     /// Reads the lines up to `end_header`.
     pub(super) fn parse(bytes: &[u8]) -> Result<Self, Problem> {
-        let mut header =
-            Self { encoding: Encoding::Ascii, elements: Vec::new(), vertices: 0, length: 0, lines: 0 };
+        let mut header = Self {
+            encoding: Encoding::Ascii,
+            elements: Vec::new(),
+            vertices: 0,
+            length: 0,
+            lines: 0,
+            line_end: line_end(bytes),
+            wrapped: Tally::default(),
+        };
         let mut encoding = None;
+        // A statement that says too little by itself, how many lines it may go on, and what was wrong with it.
+        let mut unfinished: Option<(Vec<String>, u32, Problem)> = None;
+        let mut is_comment = false;
         loop {
-            let rest = &bytes[header.length..];
-            header.lines += 1;
-            let place = Place { line: header.lines, column: 0 };
-            let Some(end) = rest.iter().position(|&b| b == b'\n') else {
-                let message = if header.lines == 1 { NO_PLY } else { "the file ends inside its header" };
-                return Err((place, message.to_owned()));
-            };
-            header.length += end + 1;
-            let line = String::from_utf8_lossy(&rest[..end]);
-            let words: Vec<&str> = line.split_ascii_whitespace().collect();
+            let (place, line) = header.line(bytes)?;
+            let text = String::from_utf8_lossy(line);
+            let mut words: Vec<String> = text.split_ascii_whitespace().map(str::to_owned).collect();
             if header.lines == 1 && words != ["ply"] {
                 return Err((place, NO_PLY.to_owned()));
+            }
+            let begins = words.first().is_none_or(|word| KEYWORDS.contains(&word.as_str()));
+            let (mut problem, mut may_go_on) = ((place, misunderstood(line)), MOST_WRAPS);
+            match unfinished.take() {
+                Some((before, left, first)) if !begins && left > 0 => {
+                    words = [before, words].concat();
+                    (problem, may_go_on) = (first, left - 1);
+                    header.wrapped.add(|| (place, String::new()));
+                }
+                Some((_, _, problem)) => return Err(problem),
+                None if !begins && is_comment => {
+                    header.wrapped.add(|| (place, String::new()));
+                    continue;
+                }
+                None if !begins => return Err(problem),
+                None => {
+                    is_comment = words.first().is_some_and(|word| word == "comment" || word == "obj_info");
+                }
             }
             if words == ["end_header"] {
                 break;
             }
-            header
-                .statement(&words, &mut encoding)
-                .map_err(|message| (place, message.unwrap_or_else(|| misunderstood(&rest[..end]))))?;
+            let words_read: Vec<&str> = words.iter().map(String::as_str).collect();
+            if let Err(message) = header.statement(&words_read, &mut encoding) {
+                problem.1 = message.unwrap_or(problem.1);
+                unfinished = Some((words, may_go_on, problem));
+            }
         }
         let place = Place { line: header.lines, column: 0 };
         header.encoding = encoding.ok_or_else(|| (place, "the header has no \"format\" line".to_owned()))?;
@@ -124,7 +157,20 @@ impl Header {
         Ok(header)
     }
 
-    /// One line; an error with no message is a line that is not understood.
+    /// The next line and its place.
+    fn line<'a>(&mut self, bytes: &'a [u8]) -> Result<(Place, &'a [u8]), Problem> {
+        let rest = &bytes[self.length..];
+        self.lines += 1;
+        let place = Place { line: self.lines, column: 0 };
+        let Some(end) = rest.iter().position(|&b| b == self.line_end) else {
+            let message = if self.lines == 1 { NO_PLY } else { "the file ends inside its header" };
+            return Err((place, message.to_owned()));
+        };
+        self.length += end + 1;
+        Ok((place, &rest[..end]))
+    }
+
+    /// One statement; an error with no message is one that is not understood.
     fn statement(&mut self, words: &[&str], encoding: &mut Option<Encoding>) -> Result<(), Option<String>> {
         let number = |name: &str| {
             Number::named(name).ok_or_else(|| Some(format!("unknown type \"{}\"", shown(name.as_bytes()))))
@@ -177,9 +223,12 @@ impl Header {
         if vertex.count > u64::from(u32::MAX) {
             return Err("the file has more vertices than can be numbered");
         }
-        let face = element("face").ok_or("the file has no faces")?;
-        let corners = face.properties.iter().filter(|p| p.is_corners()).count();
-        if corners != 1 {
+        let faces = [element("face"), element("tristrips")];
+        if faces.iter().all(Option::is_none) {
+            return Err("the file has no faces");
+        }
+        let one_list = |e: &Element| e.properties.iter().filter(|p| p.is_corners()).count() == 1;
+        if !faces.into_iter().flatten().all(one_list) {
             return Err("a face needs one list \"vertex_indices\"");
         }
         self.vertices = vertex.count;
@@ -188,6 +237,21 @@ impl Header {
 }
 
 const NO_PLY: &str = "the file does not begin with \"ply\"";
+
+/// What lines of a header begin with.
+const KEYWORDS: [&str; 7] = ["ply", "format", "comment", "obj_info", "element", "property", "end_header"];
+
+/// A statement goes on for at most so many lines more.
+const MOST_WRAPS: u32 = 4;
+
+/// What lines end in, going by the first.
+fn line_end(bytes: &[u8]) -> u8 {
+    let first = bytes.iter().position(|b| matches!(b, b'\r' | b'\n'));
+    match first.map(|at| &bytes[at..]) {
+        Some([b'\r', b'\n', ..]) | None => b'\n',
+        Some(rest) => rest[0],
+    }
+}
 
 fn misunderstood(line: &[u8]) -> String {
     format!("\"{}\" is not understood in a header", shown(line.trim_ascii()))

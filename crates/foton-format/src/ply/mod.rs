@@ -1,17 +1,21 @@
-//! Polygon files (PLY), text or binary, to a mesh: positions, normals, texture coordinates and faces as fans.
+//! Polygon files (PLY), text or binary, to a mesh: positions, normals, texture coordinates, faces and strips of triangles.
 //!
+//! Texture coordinates are those of vertices, or those that faces state for each corner (`texcoord`, as MeshLab writes
+//! them): then vertices are split where those differ, and a seam is a crease unless the file has normals, as in OBJ files.
 //! Elements and properties of other names are read over, lists too. A count in the header is believed only as far as
 //! the bytes after it can hold it, so that no file makes us allocate more than a small multiple of its size. Normals
 //! are those of the file; where it has none, [`crate::meshes`] computes them.
 
+mod faces;
 mod header;
 mod numbers;
 
-use foton_math::glam::{DAffine3, DVec2, DVec3};
+use foton_math::glam::{DVec2, DVec3};
 use foton_scene::description::Mesh;
 
-use crate::meshes::smooth_normals;
-use crate::obj::Problem;
+use crate::meshes::{self, Parsed};
+use crate::words::Problem;
+use faces::Faces;
 use header::{Element, Encoding, Header, Kind, Property};
 use numbers::{Binary, Numbers, Text};
 
@@ -19,46 +23,47 @@ use numbers::{Binary, Numbers, Text};
 ///
 /// # Errors
 /// The first problem, with its line in a text file and with its byte in the message for a binary one.
-pub(crate) fn parse(bytes: &[u8]) -> Result<Mesh, Problem> {
+pub(crate) fn parse(bytes: &[u8]) -> Parsed {
     let header = Header::parse(bytes)?;
     let body = &bytes[header.length..];
-    match header.encoding {
-        Encoding::Ascii => read(&header, Text::new(body, header.lines + 1)),
-        Encoding::LittleEndian => read(&header, Binary::<false>::new(body, header.length)),
-        Encoding::BigEndian => read(&header, Binary::<true>::new(body, header.length)),
-    }
+    let (mesh, mut warnings) = match header.encoding {
+        Encoding::Ascii => read(&header, Text::new(body, header.line_end, header.lines + 1))?,
+        Encoding::LittleEndian => read(&header, Binary::<false>::new(body, header.length))?,
+        Encoding::BigEndian => read(&header, Binary::<true>::new(body, header.length))?,
+    };
+    let wrapped = header.wrapped.warning("line of the header goes", "lines of the header go", WRAPPED);
+    warnings.extend(wrapped);
+    Ok((mesh, warnings))
 }
 
-fn read(header: &Header, mut numbers: impl Numbers) -> Result<Mesh, Problem> {
+const WRAPPED: &str = "on with the one before";
+
+fn read(header: &Header, mut numbers: impl Numbers) -> Parsed {
     let mut mesh = Mesh::default();
-    for element in header.elements.iter().filter(|e| !e.properties.is_empty()) {
-        let least = element.properties.iter().map(|p| numbers.least_bytes(p.kind)).sum::<u64>();
+    let mut faces = Faces::new(header);
+    let fits = |element: &Element, numbers: &_| {
+        let least = element.properties.iter().map(|p| Numbers::least_bytes(numbers, p.kind)).sum::<u64>();
         // The last line of a text file may lack its end.
-        if element.count.saturating_mul(least) > numbers.bytes_left() as u64 + 1 {
+        if element.count.saturating_mul(least) > Numbers::bytes_left(numbers) as u64 + 1 {
             let message = format!("the file is too short for {} × {}", element.count, element.name);
-            return Err(numbers.problem(message));
+            return Err(Numbers::problem(numbers, message));
         }
+        Ok(())
+    };
+    // Faces that come before the vertices go by their number.
+    header.elements.iter().try_for_each(|element| fits(element, &numbers))?;
+    for element in header.elements.iter().filter(|e| !e.properties.is_empty()) {
+        fits(element, &numbers)?;
         match element.name.as_str() {
             "vertex" => vertices(element, &mut numbers, &mut mesh)?,
-            "face" => faces(element, header.vertices, &mut numbers, &mut mesh)?,
+            "face" => faces.read(element, &mut numbers)?,
+            "tristrips" => faces.read_strips(element, &mut numbers)?,
             _ => skip(element, &mut numbers)?,
         }
     }
-    mend_normals(&mut mesh);
-    Ok(mesh)
-}
-
-/// Computes normals that a file states as zero or not as numbers; those of a vertex without faces often are.
-pub(crate) fn mend_normals(mesh: &mut Mesh) {
-    let is_bad = |n: &DVec3| n.try_normalize().is_none();
-    if mesh.normals.iter().any(is_bad) {
-        let smooth = smooth_normals(&mesh.positions, &mesh.triangles, &DAffine3::IDENTITY);
-        for (normal, smooth) in mesh.normals.iter_mut().zip(smooth) {
-            if is_bad(normal) {
-                *normal = smooth;
-            }
-        }
-    }
+    let mut warnings = faces.finish(&mut mesh)?;
+    warnings.extend(meshes::mend(&mut mesh));
+    Ok((mesh, warnings))
 }
 
 fn skip(element: &Element, numbers: &mut impl Numbers) -> Result<(), Problem> {
@@ -125,63 +130,9 @@ fn vertices(element: &Element, numbers: &mut impl Numbers, mesh: &mut Mesh) -> R
             mesh.normals.push(DVec3::new(nx, ny, nz));
         }
         if has_uv {
-            let uv = DVec2::new(s, t);
-            if !uv.is_finite() {
-                return Err(numbers.problem(format!("the texture coordinate {s} {t} is not finite")));
-            }
-            mesh.texture_coordinates.push(uv);
+            mesh.texture_coordinates.push(DVec2::new(s, t));
         }
         numbers.end_element();
-    }
-    Ok(())
-}
-
-fn faces(
-    element: &Element,
-    vertices: u64,
-    numbers: &mut impl Numbers,
-    mesh: &mut Mesh,
-) -> Result<(), Problem> {
-    mesh.triangles.reserve(usize::try_from(element.count).unwrap_or(0));
-    for _ in 0..element.count {
-        for property in &element.properties {
-            match property.kind {
-                Kind::List { count, item } if property.is_corners() => {
-                    let corners = length(numbers.next(count)?, numbers)?;
-                    fan(corners, vertices, || numbers.next(item), &mut mesh.triangles)
-                        .map_err(|e| e.unwrap_or_else(|message| numbers.problem(message)))?;
-                }
-                _ => skip_value(property, numbers)?,
-            }
-        }
-        numbers.end_element();
-    }
-    Ok(())
-}
-
-/// Adds the triangles of a face. An error is one of reading, or a message about what was read.
-#[allow(clippy::cast_possible_truncation, reason = "an index is below the count of vertices, which fits")]
-fn fan(
-    corners: u64,
-    vertices: u64,
-    mut next: impl FnMut() -> Result<f64, Problem>,
-    triangles: &mut Vec<[u32; 3]>,
-) -> Result<(), Result<Problem, String>> {
-    if corners < 3 {
-        return Err(Err(format!("a face needs three corners, not {corners}")));
-    }
-    let mut corner = || {
-        let number = next().map_err(Ok)?;
-        let index = whole(number).filter(|&i| i < vertices);
-        index
-            .map(|i| i as u32)
-            .ok_or_else(|| Err(format!("there is no vertex {number}, the file has {vertices}")))
-    };
-    let (first, mut last) = (corner()?, corner()?);
-    for _ in 2..corners {
-        let next = corner()?;
-        triangles.push([first, last, next]);
-        last = next;
     }
     Ok(())
 }

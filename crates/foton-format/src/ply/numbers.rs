@@ -2,7 +2,7 @@
 
 use super::header::{Kind, Number};
 use crate::diagnostic::Place;
-use crate::obj::{Problem, shown};
+use crate::words::{Problem, parsed, shown};
 
 /// A way to store numbers.
 pub(super) trait Numbers {
@@ -23,18 +23,19 @@ pub(super) struct Text<'a> {
     bytes: &'a [u8],
     at: usize,
     line: u32,
+    line_end: u8,
 }
 
 impl<'a> Text<'a> {
-    pub(super) fn new(bytes: &'a [u8], line: u32) -> Self {
-        let mut text = Self { bytes, at: 0, line };
+    pub(super) fn new(bytes: &'a [u8], line_end: u8, line: u32) -> Self {
+        let mut text = Self { bytes, at: 0, line, line_end };
         text.skip_empty_lines();
         text
     }
 
     fn skip_empty_lines(&mut self) {
         while let Some(b) = self.bytes.get(self.at).filter(|b| b.is_ascii_whitespace()) {
-            self.line += u32::from(*b == b'\n');
+            self.line += u32::from(*b == self.line_end);
             self.at += 1;
         }
     }
@@ -42,7 +43,7 @@ impl<'a> Text<'a> {
 
 impl Numbers for Text<'_> {
     fn next(&mut self, _: Number) -> Result<f64, Problem> {
-        while self.bytes.get(self.at).is_some_and(|&b| b.is_ascii_whitespace() && b != b'\n') {
+        while self.bytes.get(self.at).is_some_and(|&b| b.is_ascii_whitespace() && b != self.line_end) {
             self.at += 1;
         }
         let rest = &self.bytes[self.at..];
@@ -57,13 +58,12 @@ impl Numbers for Text<'_> {
         if word.len() <= 15 && word.iter().all(u8::is_ascii_digit) {
             return Ok(word.iter().fold(0.0, |n, &digit| n * 10.0 + f64::from(digit - b'0')));
         }
-        let number = std::str::from_utf8(word).ok().and_then(|w| w.parse().ok());
-        number.ok_or_else(|| self.problem(format!("\"{}\" is not a number", shown(word))))
+        parsed(word).ok_or_else(|| self.problem(format!("\"{}\" is not a number", shown(word))))
     }
 
     fn end_element(&mut self) {
         let rest = &self.bytes[self.at..];
-        self.at += rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
+        self.at += rest.iter().position(|&b| b == self.line_end).unwrap_or(rest.len());
         self.skip_empty_lines();
     }
 

@@ -196,6 +196,12 @@ fn values_out_of_range_are_errors() {
             &["s.xml:2:56: \"cutoff_angle\" must be above 0 and at most 180 degrees"],
         ),
         (
+            "<emitter type='spot'><transform name='to_world'><scale x='-2' z='0.3'/></transform></emitter>",
+            &[
+                "s.xml:2:22: a spot can be turned, moved and scaled evenly, but not stretched or sheared: its cone must stay round",
+            ],
+        ),
+        (
             "<emitter type='spot'><float name='beam_width' value='30'/></emitter>",
             &["warning: s.xml:2:54: \"beam_width\" is larger than \"cutoff_angle\" (20) and is cut to it"],
         ),

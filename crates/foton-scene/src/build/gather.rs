@@ -45,7 +45,7 @@ impl Gathered {
         match &shape.geometry {
             Geometry::Mesh(mesh) => self.add_mesh(index, shape, mesh, to_scene),
             Geometry::Sphere { centre, radius } => {
-                let scale = even_scale(&shape.to_world, &[0, 1, 2], &shape.name)?;
+                let scale = even_scale(&shape.to_world, &[0, 1, 2], ROUNDNESS, &shape.name)?;
                 let centre = to_scene.point(shape.to_world.transform_point3(*centre));
                 let radius = to_scene.length(radius * scale);
                 if radius > 0.0 {
@@ -55,7 +55,7 @@ impl Gathered {
                 Ok(())
             }
             Geometry::Disc => {
-                let scale = even_scale(&shape.to_world, &[0, 1], &shape.name)?;
+                let scale = even_scale(&shape.to_world, &[0, 1], ROUNDNESS, &shape.name)?;
                 let m = shape.to_world.matrix3;
                 // The inverse transpose takes +z to the cross product of the other axes, whatever the handedness.
                 let side = if (m.determinant() < 0.0) == shape.flip_normals { 1.0 } else { -1.0 };
@@ -69,7 +69,7 @@ impl Gathered {
                 Ok(())
             }
             Geometry::Cylinder { from, to, radius } => {
-                let scale = even_scale(&shape.to_world, &[0, 1, 2], &shape.name)?;
+                let scale = even_scale(&shape.to_world, &[0, 1, 2], ROUNDNESS, &shape.name)?;
                 let [from, to] = [from, to].map(|&p| to_scene.point(shape.to_world.transform_point3(p)));
                 let radius = to_scene.length(radius * scale);
                 if radius > 0.0 && from != to {
@@ -113,7 +113,8 @@ impl Gathered {
                 (b, c) = (c, b);
             }
             let corners = |[a, b, c]: [u32; 3]| [a, b, c].map(|i| positions[i as usize]);
-            let Some(flat) = triangle_normal(corners([a, b, c])) else {
+            let flat = triangle_normal(corners([a, b, c])).filter(|_| mesh.has_area(*triangle));
+            let Some(flat) = flat else {
                 self.census.degenerate_triangles += 1;
                 continue;
             };
@@ -187,14 +188,19 @@ fn world_normals(shape: &ShapeDescription, mesh: &Mesh) -> Result<Vec<Vec3>, Bui
     Ok(mesh.normals.iter().map(|&n| (m * n).normalize_or_zero().as_vec3()).collect())
 }
 
-/// The factor by which the transform scales the given axes, if it keeps them of one length and perpendicular.
-fn even_scale(to_world: &DAffine3, axes: &[usize], name: &str) -> Result<f64, BuildError> {
+/// The factor by which the transform scales the given axes, if it keeps them of one length and perpendicular within
+/// a share of that.
+pub(super) fn even_scale(
+    to_world: &DAffine3,
+    axes: &[usize],
+    within: f64,
+    name: &str,
+) -> Result<f64, BuildError> {
     let scale = to_world.matrix3.x_axis.length();
     for (n, &i) in axes.iter().enumerate() {
         let v = to_world.matrix3.col(i);
-        let even = (v.length() / scale - 1.0).abs() < ROUNDNESS;
-        let square =
-            axes[..n].iter().all(|&j| v.dot(to_world.matrix3.col(j)).abs() < ROUNDNESS * scale * scale);
+        let even = (v.length() / scale - 1.0).abs() < within;
+        let square = axes[..n].iter().all(|&j| v.dot(to_world.matrix3.col(j)).abs() < within * scale * scale);
         if !(even && square) {
             return Err(BuildError::NotRound(name.to_owned()));
         }

@@ -36,6 +36,49 @@ fn triangles_without_area_are_dropped_and_counted() {
 }
 
 #[test]
+fn what_is_left_out_of_a_mesh_says_nothing_of_the_size_of_the_scene() {
+    let sound = Mesh::rectangle();
+    let far = DVec3::new(1e8, -3e7, 2e8);
+    // A stray vertex; triangles with a corner named twice, with two in one place, and with three on a line, which rounding
+    // bends a little.
+    for faces in [&[][..], &[[0, 4, 4]], &[[4, 0, 4]], &[[0, 4, 5]], &[[6, 4, 0]], &[[4, 7, 0]]] {
+        let mut torn = Mesh { texture_coordinates: Vec::new(), ..sound.clone() };
+        let between = [0.5, 1.0 / 3.0].map(|t| sound.positions[0].lerp(far, t));
+        torn.positions.extend([far, far].into_iter().chain(between));
+        torn.triangles.extend(faces);
+        for to_world in [DAffine3::IDENTITY, DAffine3::from_scale(DVec3::new(3.0, 0.3, 1.0))] {
+            let (whole, found) =
+                (build(vec![mesh(sound.clone(), to_world)]), build(vec![mesh(torn.clone(), to_world)]));
+            assert_eq!(found.normalisation(), whole.normalisation(), "{faces:?}");
+            assert_eq!((found.bounds(), found.census().triangles), (whole.bounds(), 2), "{faces:?}");
+        }
+    }
+}
+
+#[test]
+fn the_cone_of_a_spot_stays_round() {
+    let spot = |m: DMat3| {
+        let kind = EmitterKind::Spot {
+            to_world: DAffine3::from_mat3(m),
+            intensity: Rgb::WHITE,
+            cutoff_degrees: 30.0,
+            beam_degrees: 20.0,
+        };
+        let mut description = describe(vec![ball(DVec3::ZERO, 1.0)]);
+        description.emitters.push(EmitterDescription { name: "bad".into(), kind });
+        Scene::build(&description).err()
+    };
+    for scale in [DVec3::new(-2.0, 1.0, 0.3), DVec3::new(1.0, 1.0, 1.01), DVec3::new(2.0, 1.0, 1.0)] {
+        assert_eq!(spot(DMat3::from_diagonal(scale)), Some(BuildError::NotRound(bad())), "{scale}");
+    }
+    let sheared = DMat3::from_cols(DVec3::X, DVec3::new(0.1, 1.0, 0.0), DVec3::Z);
+    assert_eq!(spot(sheared), Some(BuildError::NotRound(bad())));
+    for scale in [DVec3::splat(3.0), DVec3::new(-1.0, 1.0, 1.0), DVec3::new(1.0, 1.0005, 1.0)] {
+        assert_eq!(spot(DMat3::from_diagonal(scale)), None, "{scale}");
+    }
+}
+
+#[test]
 fn a_shining_shape_without_area_is_no_emitter() {
     let mut flat = mesh(Mesh { triangles: torn().triangles[2..].to_vec(), ..torn() }, DAffine3::IDENTITY);
     flat.radiance = Some(Rgb::WHITE);

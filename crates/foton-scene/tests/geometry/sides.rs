@@ -69,6 +69,30 @@ fn mirrors_keep_the_outside_of_closed_shapes_and_flipping_turns_it() {
 }
 
 #[test]
+fn mirrors_keep_the_outside_of_tubes_and_flipping_turns_it() {
+    let (from, to) = (DVec3::new(-0.5, 0.2, 0.1), DVec3::new(0.5, 0.3, 0.0));
+    for to_world in placements() {
+        let tube = Geometry::Cylinder { from, to, radius: 0.25 };
+        for description in both(shape(tube, to_world)) {
+            let outside = !description.flip_normals;
+            let scene = build(vec![description]);
+            let ends = [from, to].map(|end| scene.normalisation().point(to_world.transform_point3(end)));
+            let mut stream = stream(42);
+            for _ in 0..300 {
+                let across = (ends[1] - ends[0]).cross(direction(&mut stream)).normalize();
+                let origin = ends[0].lerp(ends[1], stream.next_1d()) - across * 5000.0;
+                let hit = scene.nearest(Ray::new(origin, across)).expect("the tube is around its axis");
+                assert_side(&scene, &hit, -across, outside);
+                let [u, v] = [stream.next_2d(), stream.next_2d()];
+                let photon = scene.emitters()[0].emit(stream.next_1d(), u, v);
+                let inside = scene.occluded(Ray::new(photon.origin, photon.direction));
+                assert!(!(inside && outside), "light from outside meets the tube again");
+            }
+        }
+    }
+}
+
+#[test]
 fn mirrors_carry_the_normal_of_discs_and_rectangles_and_flipping_turns_it() {
     for to_world in placements() {
         let m: DMat3 = to_world.matrix3;

@@ -4,6 +4,9 @@ use super::Mutation;
 
 const GEOMETRY: &str = "-p foton-scene --test geometry";
 const SCENE: &str = "-p foton-scene --lib";
+const FORMAT: &str = "-p foton-format --lib";
+const MESHES: &str = "-p foton-format --test meshes";
+const PICTURES: &str = "-p foton-format --test pictures";
 const INTEGRATOR: &str = "-p foton-integrator --lib";
 const ANALYTIC: &str = "-p foton-tests --test analytic";
 const LEDGER: &str = "-p foton-tests --test ledger";
@@ -91,6 +94,94 @@ pub(super) const LIST: &[Mutation] = &[
         to: "uv",
         target: SCENE,
         test: "coordinates_beyond_all_fractions_have_a_colour_all_the_same",
+    },
+    Mutation {
+        what: "what is left out says nothing of a scene's size",
+        file: "crates/foton-scene/src/build/checks.rs",
+        from: "mesh.triangles.iter().filter(|t| mesh.has_area(**t))",
+        to: "mesh.triangles.iter()",
+        target: GEOMETRY,
+        test: "what_is_left_out_of_a_mesh_says_nothing_of_the_size_of_the_scene",
+    },
+    Mutation {
+        what: "cones of spots stay round",
+        file: "crates/foton-scene/src/build/checks.rs",
+        from: "even_scale(to_world, &[0, 1, 2], CONE_ROUNDNESS, &emitter.name)?;",
+        to: "even_scale(to_world, &[], CONE_ROUNDNESS, &emitter.name)?;",
+        target: GEOMETRY,
+        test: "the_cone_of_a_spot_stays_round",
+    },
+    Mutation {
+        what: "rows of maps go from pole to pole",
+        file: "crates/foton-scene/src/environment.rs",
+        from: "bitmap.height.max(3) as usize - 1",
+        to: "bitmap.height as usize",
+        target: SCENE,
+        test: "tiny_maps_are_those_of_mitsuba_everywhere_and_together",
+    },
+    Mutation {
+        what: "glass that refracts nothing is opaque",
+        file: "crates/foton-format/src/mtl.rs",
+        from: "let is_glass = (asks_for_glass && refracts)",
+        to: "let is_glass = asks_for_glass",
+        target: MESHES,
+        test: "a_material_of_maya_is_opaque_and_that_is_said",
+    },
+    Mutation {
+        what: "Tr is what other materials say",
+        file: "crates/foton-format/src/mtl.rs",
+        from: "let opacity = if reading.tr_is_opacity { tr } else { 1.0 - tr };",
+        to: "let opacity = 1.0 - tr;",
+        target: MESHES,
+        test: "transparency_as_exporters_mean_it_makes_no_model_vanish",
+    },
+    Mutation {
+        what: "concave polygons are no fans",
+        file: "crates/foton-format/src/polygons.rs",
+        from: "(is_wrong || (square == 0.0 && folded)).then_some(area)",
+        to: "(is_wrong && square < 0.0 && folded).then_some(area)",
+        target: MESHES,
+        test: "a_concave_polygon_has_its_own_area_in_every_format",
+    },
+    Mutation {
+        what: "materials keep their faces when triangles are gone",
+        file: "crates/foton-format/src/obj.rs",
+        from: "while gone.next_if(|&at| at < before).is_some() {",
+        to: "while gone.next_if(|&at| at < before).is_some() && false {",
+        target: FORMAT,
+        test: "a_concave_polygon_becomes_ears_and_materials_keep_their_faces",
+    },
+    Mutation {
+        what: "texture coordinates of corners are read",
+        file: "crates/foton-format/src/ply/faces.rs",
+        from: "if element.properties.iter().any(Property::is_corner_textures) {",
+        to: "if false {",
+        target: MESHES,
+        test: "texture_coordinates_of_corners_are_those_of_vertices_that_are_split_where_they_differ",
+    },
+    Mutation {
+        what: "mended normals are counted",
+        file: "crates/foton-format/src/meshes.rs",
+        from: "normals.add_many(usize::from(is_used), Problem::default);",
+        to: "let _ = is_used;",
+        target: MESHES,
+        test: "what_exporters_get_wrong_in_a_ply_file_is_mended_and_counted",
+    },
+    Mutation {
+        what: "binary STL files that begin like text are known by their bytes",
+        file: "crates/foton-format/src/stl.rs",
+        from: "if says_solid(bytes) && !is_binary {",
+        to: "if says_solid(bytes) && !is_exact {",
+        target: MESHES,
+        test: "stl_files_of_every_program_are_read",
+    },
+    Mutation {
+        what: "a JPEG that ends early is said",
+        file: "crates/foton-format/src/images.rs",
+        from: "if bytes.starts_with(&JPEG_START) && is_cut_jpeg(&bytes) {",
+        to: "if false {",
+        target: PICTURES,
+        test: "a_jpeg_that_ends_early_is_read_as_far_as_it_goes_and_that_is_said",
     },
     Mutation {
         what: "N is double precision",

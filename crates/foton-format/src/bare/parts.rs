@@ -1,0 +1,147 @@
+//! An OBJ file as shapes: one for each material that its faces use, with what the files of materials say of it.
+
+use std::collections::HashMap;
+
+use foton_math::glam::DAffine3;
+use foton_scene::description::{Mesh, SceneDescription};
+
+use super::{Library, add_shape};
+use crate::diagnostic::{Place, Report};
+use crate::meshes::{self, Format, Wanted};
+use crate::mtl;
+use crate::obj::Obj;
+
+/// Adds a shape for each material of an OBJ file, in the order in which they are first used.
+pub(super) fn add_obj(
+    obj: &Obj,
+    library: &mut Library<'_>,
+    report: &mut Report,
+    scene: &mut SceneDescription,
+) {
+    let mut known: HashMap<String, mtl::Entry> = HashMap::new();
+    for (place, line) in &obj.libraries {
+        let (files, lost) = libraries(line, library);
+        for filename in lost {
+            report.warning(*place, format!("{filename} is not there: its materials are grey"));
+        }
+        for (path, bytes) in files {
+            let (entries, problems) = mtl::parse(&bytes);
+            for (place, message) in problems {
+                report.warning_in(&path, place, message);
+            }
+            for entry in entries {
+                known.entry(entry.material.name.clone()).or_insert(entry);
+            }
+        }
+    }
+    let wanted = Wanted { format: Format::Obj, face_normals: false, flip_v: true };
+    let mesh = meshes::build(obj, wanted, &DAffine3::IDENTITY);
+    let mut remap = vec![u32::MAX; mesh.positions.len()];
+    for (name, triangles) in by_material(obj, &mesh) {
+        let entry = find(name, &known);
+        if entry.is_none() && !name.is_empty() && !obj.libraries.is_empty() {
+            report.warning(Place::default(), format!("there is no material \"{name}\": it is grey"));
+        }
+        let name = if name.is_empty() { "mesh" } else { name };
+        add_shape(name, part(&mesh, &triangles, &mut remap), entry, scene);
+    }
+}
+
+/// A material by the name that faces use: as it stands, or without quotes or a comment behind it.
+fn find<'a>(name: &str, known: &'a HashMap<String, mtl::Entry>) -> Option<&'a mtl::Entry> {
+    let shorter = || [mtl::unquoted(name), mtl::unquoted(without_comment(name))].into_iter();
+    known.get(name).or_else(|| shorter().find_map(|name| known.get(name)))
+}
+
+fn without_comment(text: &str) -> &str {
+    text.split_once(" #").map_or(text, |(before, _)| before.trim_end())
+}
+
+/// A file's path and contents.
+type LibraryFile = (String, Vec<u8>);
+
+/// The files that a line `mtllib` names, and the names of which there is no file. The line is one name if there is such a
+/// file; otherwise names end where quotes do or behind `.mtl`, and what is no file by then are words.
+fn libraries(line: &str, library: &mut Library<'_>) -> (Vec<LibraryFile>, Vec<String>) {
+    let (mut files, mut lost) = (Vec::new(), Vec::new());
+    if let Some(file) = library(line).or_else(|| library(mtl::unquoted(line))) {
+        return (vec![file], lost);
+    }
+    let mut look = |name: &str| match library(name) {
+        Some(file) => {
+            files.push(file);
+            true
+        }
+        None => false,
+    };
+    // What stands between quotes is every second piece.
+    for (i, piece) in
+        without_comment(line).split('"').enumerate().filter(|(_, piece)| !piece.trim().is_empty())
+    {
+        if i % 2 == 1 {
+            if !look(piece) {
+                lost.push(piece.to_owned());
+            }
+            continue;
+        }
+        let mut name = String::new();
+        let words: Vec<&str> = piece.split_whitespace().collect();
+        for (i, word) in words.iter().enumerate() {
+            name = if name.is_empty() { (*word).to_owned() } else { format!("{name} {word}") };
+            let is_end = word.to_ascii_lowercase().ends_with(".mtl") || i + 1 == words.len();
+            if is_end && !look(&name) {
+                lost.extend(name.split(' ').filter(|word| !look(word)).map(str::to_owned));
+            }
+            if is_end {
+                name.clear();
+            }
+        }
+    }
+    (files, lost)
+}
+
+/// The triangles of each material that has any.
+fn by_material<'a>(obj: &'a Obj, mesh: &Mesh) -> Vec<(&'a str, Vec<[u32; 3]>)> {
+    let mut parts: Vec<(&str, Vec<[u32; 3]>)> = Vec::new();
+    let mut indices: HashMap<&str, usize> = HashMap::new();
+    let mut runs = vec![(0, "")];
+    runs.extend(obj.materials.iter().map(|(before, name)| (*before, name.as_str())));
+    for (i, (from, name)) in runs.iter().enumerate() {
+        let to = runs.get(i + 1).map_or(mesh.triangles.len(), |next| next.0);
+        if to > *from {
+            let index = *indices.entry(name).or_insert_with(|| {
+                parts.push((name, Vec::new()));
+                parts.len() - 1
+            });
+            parts[index].1.extend_from_slice(&mesh.triangles[*from..to]);
+        }
+    }
+    parts
+}
+
+/// Some triangles of a mesh with the vertices that they need. `remap` is all `u32::MAX`, before and after.
+fn part(mesh: &Mesh, triangles: &[[u32; 3]], remap: &mut [u32]) -> Mesh {
+    let mut used: Vec<usize> = Vec::new();
+    let triangles = triangles
+        .iter()
+        .map(|corners| {
+            corners.map(|i| {
+                let slot = &mut remap[i as usize];
+                if *slot == u32::MAX {
+                    *slot = used.len() as u32;
+                    used.push(i as usize);
+                }
+                *slot
+            })
+        })
+        .collect();
+    used.iter().for_each(|&i| remap[i] = u32::MAX);
+    let normals = if mesh.normals.is_empty() { Vec::new() } else { pick(&mesh.normals, &used) };
+    let has_uv = !mesh.texture_coordinates.is_empty();
+    let texture_coordinates = if has_uv { pick(&mesh.texture_coordinates, &used) } else { Vec::new() };
+    Mesh { positions: pick(&mesh.positions, &used), normals, texture_coordinates, triangles }
+}
+
+fn pick<T: Copy>(values: &[T], indices: &[usize]) -> Vec<T> {
+    indices.iter().map(|&i| values[i]).collect()
+}

@@ -1,0 +1,195 @@
+//! The faces of a PLY file, and its strips of triangles.
+
+use foton_math::glam::DVec2;
+use foton_scene::description::Mesh;
+
+use super::header::{Element, Header, Kind, Property};
+use super::numbers::Numbers;
+use super::{length, skip_value, whole};
+use crate::diagnostic::Place;
+use crate::meshes::Vertices;
+use crate::obj::LEFT_OUT;
+use crate::polygons::Polygons;
+use crate::tally::Tally;
+use crate::words::Problem;
+
+/// The triangles of a file as they are read, and what was left out.
+pub(super) struct Faces {
+    /// How many vertices the file says it has.
+    vertices: u64,
+    triangles: Vec<[u32; 3]>,
+    polygons: Polygons,
+    /// Vertices by their number in the file and the texture coordinate of a corner, if faces state any.
+    split: Option<Vertices<(u32, Option<DVec2>)>>,
+    short: Tally,
+    unfit: Tally,
+}
+
+impl Faces {
+    pub(super) fn new(header: &Header) -> Self {
+        Self {
+            vertices: header.vertices,
+            triangles: Vec::new(),
+            polygons: Polygons::default(),
+            split: None,
+            short: Tally::default(),
+            unfit: Tally::default(),
+        }
+    }
+
+    /// Reads faces that are polygons.
+    pub(super) fn read(&mut self, element: &Element, numbers: &mut impl Numbers) -> Result<(), Problem> {
+        self.triangles.reserve(usize::try_from(element.count).unwrap_or(0));
+        if element.properties.iter().any(Property::is_corner_textures) {
+            return self.read_textured(element, numbers);
+        }
+        for _ in 0..element.count {
+            for property in &element.properties {
+                match property.kind {
+                    Kind::List { count, item } if property.is_corners() => {
+                        let corners = length(numbers.next(count)?, numbers)?;
+                        if corners < 3 {
+                            self.short.add(|| numbers.problem(String::new()));
+                        }
+                        let first = self.triangles.len();
+                        let mut ends = [0; 2];
+                        for i in 0..corners {
+                            let corner = self.corner(numbers.next(item)?, numbers)?;
+                            match i {
+                                0 | 1 => ends[i as usize] = corner,
+                                _ => {
+                                    self.triangles.push([ends[0], ends[1], corner]);
+                                    ends[1] = corner;
+                                }
+                            }
+                        }
+                        self.polygons.note(first, self.triangles.len() - first + 2);
+                    }
+                    _ => skip_value(property, numbers)?,
+                }
+            }
+            numbers.end_element();
+        }
+        Ok(())
+    }
+
+    /// Reads faces with a texture coordinate for each corner.
+    fn read_textured(&mut self, element: &Element, numbers: &mut impl Numbers) -> Result<(), Problem> {
+        let vertices = usize::try_from(self.vertices).unwrap_or(0);
+        let mut split = Vertices::new(vertices);
+        let (mut corners, mut textures): (Vec<u32>, Vec<f64>) = Default::default();
+        for _ in 0..element.count {
+            corners.clear();
+            textures.clear();
+            for property in &element.properties {
+                match property.kind {
+                    Kind::List { count, item } if property.is_corners() => {
+                        for _ in 0..length(numbers.next(count)?, numbers)? {
+                            corners.push(self.corner(numbers.next(item)?, numbers)?);
+                        }
+                    }
+                    Kind::List { count, item } if property.is_corner_textures() => {
+                        for _ in 0..length(numbers.next(count)?, numbers)? {
+                            textures.push(numbers.next(item)?);
+                        }
+                    }
+                    _ => skip_value(property, numbers)?,
+                }
+            }
+            if corners.len() < 3 {
+                self.short.add(|| numbers.problem(String::new()));
+            }
+            let fits = textures.len() == 2 * corners.len();
+            if !fits || !textures.iter().all(|t| t.is_finite()) {
+                self.unfit.add(|| numbers.problem(String::new()));
+            }
+            for (i, corner) in corners.iter_mut().enumerate() {
+                let uv = fits.then(|| DVec2::new(textures[2 * i], textures[2 * i + 1]));
+                *corner = split.index(*corner, (*corner, uv.filter(|uv| uv.is_finite())));
+            }
+            if let [first, rest @ ..] = &corners[..] {
+                self.polygons.note(self.triangles.len(), corners.len());
+                self.triangles.extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
+            }
+            numbers.end_element();
+        }
+        self.split = Some(split);
+        Ok(())
+    }
+
+    /// Reads strips: each corner makes a triangle with the two before, every other one turned around; −1 begins a new strip.
+    pub(super) fn read_strips(
+        &mut self,
+        element: &Element,
+        numbers: &mut impl Numbers,
+    ) -> Result<(), Problem> {
+        for _ in 0..element.count {
+            for property in &element.properties {
+                match property.kind {
+                    Kind::List { count, item } if property.is_corners() => {
+                        let mut strip = 0;
+                        let mut last = [0; 2];
+                        for _ in 0..length(numbers.next(count)?, numbers)? {
+                            let number = numbers.next(item)?;
+                            if number == -1.0 {
+                                strip = 0;
+                                continue;
+                            }
+                            let corner = self.corner(number, numbers)?;
+                            let [a, b] = last;
+                            // Strips are joined by triangles that name a corner twice.
+                            if strip >= 2 && a != b && b != corner && corner != a {
+                                self.triangles.push(if strip % 2 == 0 {
+                                    [a, b, corner]
+                                } else {
+                                    [b, a, corner]
+                                });
+                            }
+                            last = [b, corner];
+                            strip += 1;
+                        }
+                    }
+                    _ => skip_value(property, numbers)?,
+                }
+            }
+            numbers.end_element();
+        }
+        Ok(())
+    }
+
+    /// The vertex that a number names.
+    #[allow(clippy::cast_possible_truncation, reason = "an index is below the count of vertices, which fits")]
+    fn corner(&self, number: f64, numbers: &impl Numbers) -> Result<u32, Problem> {
+        let index = whole(number).filter(|&i| i < self.vertices);
+        index.map(|i| i as u32).ok_or_else(|| {
+            numbers.problem(format!("there is no vertex {number}, the file has {}", self.vertices))
+        })
+    }
+
+    /// Gives the mesh its triangles, and vertices for them; what is to be warned of.
+    pub(super) fn finish(self, mesh: &mut Mesh) -> Result<Vec<Problem>, Problem> {
+        let Self { mut triangles, polygons, split, short, unfit, .. } = self;
+        if triangles.is_empty() {
+            return Err((Place::default(), "the file has no faces".to_owned()));
+        }
+        if let Some(split) = split {
+            let of_vertex = |i: u32| mesh.texture_coordinates.get(i as usize).copied().unwrap_or_default();
+            let textures = split.keys.iter().map(|&(i, uv)| uv.unwrap_or_else(|| of_vertex(i))).collect();
+            mesh.texture_coordinates = textures;
+            mesh.positions = split.keys.iter().map(|&(i, _)| mesh.positions[i as usize]).collect();
+            if !mesh.normals.is_empty() {
+                mesh.normals = split.keys.iter().map(|&(i, _)| mesh.normals[i as usize]).collect();
+            }
+        }
+        let mended = polygons.mend(&mut triangles, |i| mesh.positions[i as usize]);
+        mesh.triangles = triangles;
+        let warnings = [
+            short.warning("face has", "faces have", LEFT_OUT),
+            unfit.warning("face has", "faces have", UNFIT),
+        ];
+        Ok(warnings.into_iter().flatten().chain(mended.warnings()).collect())
+    }
+}
+
+const UNFIT: &str =
+    "texture coordinates that are not finite or do not fit the corners: those of the vertices are taken";
