@@ -9,6 +9,7 @@
 mod floors;
 mod kernels;
 mod rules;
+mod scenes;
 mod stops;
 mod truth;
 
@@ -25,10 +26,22 @@ use truth::{TILE, Truth, open};
 /// Pixels along a side of what is judged.
 const SIDE: u32 = 128;
 
-const ASSETS: [&str; 7] =
-    ["furnace", "cornell-diffuse", "cornell-spheres", "box-spheres", "ring", "glass-and-ring", "pool"];
+const ASSETS: [&str; 10] = [
+    "furnace",
+    "cornell-diffuse",
+    "cornell-spheres",
+    "box-spheres",
+    "ring",
+    "glass-and-ring",
+    "pool",
+    "decal",
+    "narrow-lights",
+    "far-lamp",
+];
 const CHECKPOINTS: [u64; 4] = [16, 32, 64, 128];
 const PHOTONS: u32 = 1 << 16;
+/// A tile is lit that has this share of the mean light.
+const LIT: f64 = 0.01;
 /// Standard deviations of nominal 50, 90 and 99 % bounds.
 const Z: [f64; 3] = [0.674, 1.645, 2.576];
 
@@ -40,6 +53,8 @@ struct Found {
     is_within: bool,
     /// Tiles within each bound, and all, of smooth tiles and of others.
     covered: [([f64; 3], f64); 2],
+    /// Tiles that are called unknown though light reaches them, and all that light reaches.
+    unknown: [f64; 2],
     /// Shares of the squared error of direct, caustic and indirect light, estimated and true.
     classes: [[f64; 3]; 2],
 }
@@ -96,9 +111,9 @@ fn print_slopes(seeds: u64) {
 
 fn coverage(named: &[&str], (seeds, passes): (u64, u64), rule: RadiusRule) {
     println!(
-        "| scene | passes | true % | estimated % (noise, bias) | estimated/true | true within low..high | smooth tiles: 50 90 99 % | other tiles: 50 90 99 % |"
+        "| scene | passes | true % | estimated % (noise, bias) | estimated/true | true within low..high | smooth tiles: 50 90 99 % | other tiles: 50 90 99 % | unknown tiles, of lit ones |"
     );
-    println!("|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|");
     let mut plotted = Vec::new();
     let mut classes = String::new();
     for name in if named.is_empty() { ASSETS.to_vec() } else { named.to_vec() } {
@@ -179,9 +194,16 @@ fn run(scene: &Arc<Scene>, (seed, radius_rule): (u64, RadiusRule), passes: u64) 
 fn judge(ppm: &Ppm, truth: &Truth) -> Found {
     let error = ppm.error().expect("passes and light");
     let relative = truth.error(ppm);
-    let mut covered = [([0.0; 3], 0.0); 2];
+    let (mut covered, mut unknown) = ([([0.0; 3], 0.0); 2], [0.0; 2]);
     for (i, (tile, (t, variance))) in ppm.error_tiles().iter().zip(&truth.tiles).enumerate() {
         if tile.pixels < (TILE * TILE) as u32 {
+            continue;
+        }
+        if *t > LIT * truth.mean() {
+            unknown[0] += f64::from(u8::from(tile.is_unknown()));
+            unknown[1] += 1.0;
+        }
+        if tile.is_unknown() {
             continue;
         }
         let kind = usize::from(!truth.is_smooth(i));
@@ -203,6 +225,7 @@ fn judge(ppm: &Ppm, truth: &Truth) -> Found {
         deviation: relative.deviation,
         is_within: (error.low..=error.high).contains(&relative.value),
         covered,
+        unknown,
         classes: [estimated, truth.class_shares(ppm)],
     }
 }
@@ -222,7 +245,7 @@ fn row(name: &str, passes: u64, found: &[&Found]) {
         format!("{:.0} {:.0} {:.0} (of {all})", share(0), share(1), share(2))
     };
     println!(
-        "| {name} | {passes} | {:.2} ± {:.2} | {:.2} ({:.2}, {:.2}) | {:.2} ({least:.2}–{most:.2}) | {within}/{} | {} | {} |",
+        "| {name} | {passes} | {:.2} ± {:.2} | {:.2} ({:.2}, {:.2}) | {:.2} ({least:.2}–{most:.2}) | {within}/{} | {} | {} | {:.0} of {:.0} |",
         100.0 * mean(&|f| f.truth),
         100.0 * mean(&|f| f.deviation) / n.sqrt(),
         100.0 * mean(&|f| f.estimated[0]),
@@ -232,5 +255,7 @@ fn row(name: &str, passes: u64, found: &[&Found]) {
         found.len(),
         coverage(0),
         coverage(1),
+        found.iter().map(|f| f.unknown[0]).sum::<f64>(),
+        found.iter().map(|f| f.unknown[1]).sum::<f64>(),
     );
 }

@@ -57,13 +57,25 @@ pub struct TileError {
     pub bias: f64,
     /// Standard deviation of `bias`; independent of the noise of the mean.
     pub bias_noise: f64,
+    /// Standard deviation of what eye samples see of light that is narrower than discs: each lies within it or beside it by chance.
+    pub focus: f64,
+    /// Of those pixels, how many have found no light: unknown, not dark.
+    pub unknown: u32,
 }
 
 impl TileError {
-    /// A bound of the tile's error that `z` standard deviations of noise belong to: √max(0, B² − Var B) + z σ.
+    /// A bound of the tile's error that `z` standard deviations of noise belong to: √max(0, B² − Var B) + z √(σ² + F²), F what
+    /// samples see of narrow light. It holds for tiles that are not unknown.
     #[must_use]
     pub fn bound(&self, z: f64) -> f64 {
-        (self.bias * self.bias - self.bias_noise * self.bias_noise).max(0.0).sqrt() + z * self.noise
+        let bias2 = self.bias * self.bias - self.bias_noise * self.bias_noise;
+        bias2.max(0.0).sqrt() + z * self.noise.hypot(self.focus)
+    }
+
+    /// Whether most of it has found no light, so that nothing can be said of its error.
+    #[must_use]
+    pub const fn is_unknown(&self) -> bool {
+        2 * self.unknown > self.pixels
     }
 }
 

@@ -55,6 +55,9 @@ struct Tile {
     pixels: u32,
     light: Moments,
     bias: Moments,
+    /// Of the last pass, for all so far: squares of what discs may hide, and pixels that are unknown.
+    focus2: f64,
+    unknown: u32,
 }
 
 /// Sums over all passes so far.
@@ -84,6 +87,15 @@ pub(crate) struct Pass<'a, const LAYERS: usize> {
     pub(crate) question: Question,
     /// Whether direct light came by shadow rays.
     pub(crate) shadow_rays: bool,
+}
+
+/// What the pixels of a tile add to it in a pass.
+#[derive(Clone, Copy, Default)]
+struct OfTile {
+    light: f64,
+    bias: f64,
+    focus2: f64,
+    unknown: u32,
 }
 
 /// What a pixel's own pass says.
@@ -182,7 +194,7 @@ impl ErrorSums {
             .enumerate()
             .map(|(band, (pixels, tiles))| {
                 let mut sums = Sums::default();
-                let mut addends = vec![(0.0, 0.0); tiles.len()];
+                let mut addends = vec![OfTile::default(); tiles.len()];
                 for (i, pixel) in pixels.iter_mut().enumerate() {
                     let index = band * TILE * width + i;
                     if pass.hit_points.pixel_start[index] == pass.hit_points.pixel_start[index + 1] {
@@ -198,25 +210,28 @@ impl ErrorSums {
                     pixel.add(&addend, photons);
                     let mean = pass.radiance.luminance_sum(index) * shares.per_photon;
                     pixel.sum_up(mean, &shares, &mut sums);
-                    sums.focus2 += addend.focus * shares.per_photon * shares.per_photon;
+                    let focus2 = addend.focus * shares.per_photon * shares.per_photon;
+                    sums.focus2 += focus2;
                     sums.deviation += (addend.light * per_photon - mean).powi(2);
                     let one_photon = || f64::max(0.0, pass.one_photon(index, samples) / weights.photons);
-                    if pass.shadow_rays {
+                    let mut is_unknown = mean <= 0.0;
+                    if is_unknown || pass.shadow_rays {
                         // Shadow rays know nothing of indirect light.
                         let one_photon = one_photon();
-                        sums.unknown += f64::from(u8::from(mean <= 0.0 || one_photon > mean));
+                        is_unknown |= one_photon > mean;
                         sums.unknown2 += one_photon.powi(2);
-                    } else if mean <= 0.0 {
-                        sums.unknown += 1.0;
-                        sums.unknown2 += one_photon().powi(2);
                     }
-                    let (light, bias) = &mut addends[i % width / TILE];
-                    *light += addend.light;
-                    *bias += addend.bias;
+                    sums.unknown += f64::from(u8::from(is_unknown));
+                    let of_tile = &mut addends[i % width / TILE];
+                    of_tile.light += addend.light;
+                    of_tile.bias += addend.bias;
+                    of_tile.focus2 += focus2;
+                    of_tile.unknown += u32::from(is_unknown);
                 }
-                for (tile, (light, bias)) in tiles.iter_mut().zip(addends) {
-                    tile.light.add(light, photons);
-                    tile.bias.add(bias, photons);
+                for (tile, of_tile) in tiles.iter_mut().zip(addends) {
+                    tile.light.add(of_tile.light, photons);
+                    tile.bias.add(of_tile.bias, photons);
+                    (tile.focus2, tile.unknown) = (of_tile.focus2, of_tile.unknown);
                 }
                 sums
             })
@@ -251,6 +266,8 @@ impl ErrorSums {
                 noise: variance.sqrt() / pixels,
                 bias: bias / pixels,
                 bias_noise: bias_variance.sqrt() / pixels,
+                focus: tile.focus2.sqrt() / pixels,
+                unknown: tile.unknown,
             }
         };
         self.tiles.iter().map(of).collect()

@@ -26,6 +26,7 @@ impl ErrorSums {
         for t in &self.tiles {
             put(&t.light.numbers());
             put(&t.bias.numbers());
+            put(&[t.focus2, t.unknown.into()]);
         }
     }
 
@@ -63,7 +64,8 @@ impl ErrorSums {
         }
         for tile in &mut self.tiles {
             let (light, bias) = (Moments::of(numbers(input)?), Moments::of(numbers(input)?));
-            *tile = Tile { light, bias, ..*tile };
+            let [focus2, unknown] = numbers(input)?;
+            *tile = Tile { light, bias, focus2, unknown: unknown as u32, ..*tile };
         }
         Ok(())
     }
