@@ -1,6 +1,7 @@
 //! The command line. Its words are stable: scripts rely on them.
 
 mod measure;
+mod together;
 
 use std::num::NonZeroU32;
 use std::path::PathBuf;
@@ -173,7 +174,7 @@ pub(crate) struct Render {
     /// from its beginning
     #[arg(long, value_name = "FILE")]
     pub(crate) resume: Option<PathBuf>,
-    /// Layers to put into an EXR: direct, caustic, indirect, emission, radius, photon_count, shape_id,
+    /// Layers to put into an EXR, each once: direct, caustic, indirect, emission, radius, photon_count, shape_id,
     /// error_noise, error_bias, error_total
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = layer)]
     pub(crate) layers: Vec<LayerKind>,

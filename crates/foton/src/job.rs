@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use foton_film::check_writable;
-use foton_format::{Opened, Options, Suggested};
+use foton_format::{Opened, Options, Severity, Suggested};
 use foton_integrator::{Alpha, Cancelled, LayerKind, Ppm, Settings};
 use foton_scene::Scene;
 use foton_session::snapshot::{self, Format};
@@ -31,7 +31,7 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let suggested = opened.suggested;
-    let (scene, identity) = build(opened, &name, (args.size, args.memory), talk)?;
+    let (scene, identity) = build(opened, &name, sensor, (args.size, args.memory), talk)?;
     let (defaults, suggested) = match args.preset {
         Some(preset) => (
             Preset::from(preset).apply(Settings::default()),
@@ -145,10 +145,12 @@ pub(crate) fn open(
     foton_format::open(scene, &options).map_err(Failure::Open)
 }
 
-/// Builds the scene, at another size if one is asked for and within that many bytes, and says what its file got wrong.
+/// Builds the scene, at another size if one is asked for and within that many bytes, and says what its file got wrong and what is
+/// too far away for it, seen from a sensor.
 pub(crate) fn build(
-    opened: Opened,
+    mut opened: Opened,
     name: &str,
+    sensor: usize,
     (size, memory): (Option<Size>, Option<u64>),
     talk: &Talk,
 ) -> Result<(Arc<Scene>, SceneIdentity), Failure> {
@@ -156,15 +158,14 @@ pub(crate) fn build(
         talk.finding(finding);
     }
     let identity = SceneIdentity { name: name.to_owned(), hash: opened.source_hash };
-    let mut description = opened.description;
     if let Some(Size { width, height }) = size {
-        for sensor in &mut description.sensors {
+        for sensor in &mut opened.description.sensors {
             sensor.resize(width, height);
         }
     }
-    memory::refuse_to_build(&description, memory)?;
+    memory::refuse_to_build(&opened.description, memory)?;
     let scene =
-        Scene::build(&description).map_err(|cause| Failure::Build { scene: name.to_owned(), cause })?;
+        Scene::build(&opened.description).map_err(|cause| Failure::of_build(&opened, name, &cause))?;
     let census = scene.census();
     if census.degenerate_triangles > 0 {
         talk.warning(&format!("left out {} triangles without area", census.degenerate_triangles));
@@ -174,6 +175,9 @@ pub(crate) fn build(
             "\"{}\" is only {:.0} steps of single precision across, so small is it where it stands: its shape is rounded to those",
             shape.name, shape.steps_across
         ));
+    }
+    for far in scene.far_things(sensor) {
+        talk.finding(&opened.finding(Severity::Warning, name, Some(&far.name), far.to_string()));
     }
     if census.narrow_gloss {
         talk.note("gloss of roughness up to 0.1 is followed in directions chosen once: its noise stays; --spp lowers it");

@@ -4,7 +4,7 @@ use std::fmt;
 use std::io::Write;
 
 use foton_film::{ReadError, WriteError};
-use foton_format::{Diagnostic, OpenError};
+use foton_format::{Diagnostic, OpenError, Opened, Severity};
 use foton_integrator::{ClassError, DirectLight, ErrorEstimate, Ledger, Ppm};
 use foton_measure::CompareError;
 use foton_measure::sweep::SweepError;
@@ -21,10 +21,8 @@ const WORTH_A_WARNING: f64 = 1e-3;
 #[derive(Debug)]
 pub(crate) enum Failure {
     Open(OpenError),
-    Build {
-        scene: String,
-        cause: BuildError,
-    },
+    /// What was read makes no scene.
+    Build(Diagnostic),
     Memory(String),
     /// Bytes.
     BuildMemory {
@@ -58,7 +56,7 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Open(cause) => cause.fmt(f),
-            Self::Build { scene, cause } => write!(f, "{scene}: {cause}"),
+            Self::Build(cause) => cause.fmt(f),
             Self::Memory(why) => {
                 write!(f, "{why}. A smaller --size, --spp or --photons needs less; --memory sets the limit")
             }
@@ -84,6 +82,13 @@ impl fmt::Display for Failure {
             Self::Window(cause) => cause.fmt(f),
             Self::Compare { a, b, cause } => write!(f, "A is {a}, B is {b}: {cause}"),
         }
+    }
+}
+
+impl Failure {
+    /// Why the scene of that name cannot be built, with its place.
+    pub(crate) fn of_build(opened: &Opened, scene: &str, cause: &BuildError) -> Self {
+        Self::Build(opened.finding(Severity::Error, scene, cause.part(), cause.to_string()))
     }
 }
 
@@ -169,11 +174,16 @@ impl Talk {
     /// Why nothing was rendered.
     pub(crate) fn failure(&mut self, failure: &Failure) {
         self.bar.finish_and_clear();
-        if let Failure::Open(OpenError { diagnostics }) = failure {
-            for d in diagnostics {
+        let found = match failure {
+            Failure::Open(OpenError { diagnostics }) => &diagnostics[..],
+            Failure::Build(diagnostic) => std::slice::from_ref(diagnostic),
+            _ => &[],
+        };
+        if !found.is_empty() {
+            for d in found {
                 let severity = match d.severity {
-                    foton_format::Severity::Warning => "warning",
-                    foton_format::Severity::Error => "error",
+                    Severity::Warning => "warning",
+                    Severity::Error => "error",
                 };
                 self.event(&located(severity, d));
                 self.line(&format!("{severity}: {d}"));
