@@ -171,7 +171,7 @@ pub(crate) struct Render {
     #[arg(long, value_name = "TIME", default_value = "30s", value_parser = duration, requires = "checkpoint")]
     pub(crate) checkpoint_every: Duration,
     /// Go on from a checkpoint of the same scene and settings, with the same bits as without a break; --passes and --time count
-    /// from its beginning
+    /// from its beginning, --alpha, --photons and --preset change it from the next pass on
     #[arg(long, value_name = "FILE")]
     pub(crate) resume: Option<PathBuf>,
     /// Layers to put into an EXR, each once: direct, caustic, indirect, emission, radius, photon_count, shape_id,

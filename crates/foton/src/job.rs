@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use foton_film::check_writable;
 use foton_format::{Opened, Options, Severity, Suggested};
-use foton_integrator::{Alpha, Cancelled, LayerKind, Ppm, Settings};
+use foton_integrator::{Alpha, Cancelled, Change, LayerKind, Ppm, Settings};
 use foton_scene::Scene;
 use foton_session::snapshot::{self, Format};
 use foton_session::{Interrupt, Preset, SceneIdentity, Session, StartError, StopRule, checkpoint};
@@ -80,10 +80,11 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
     let interrupt = interrupt_on_signals(talk);
     talk.begin();
     let mut session = Session::start(scene, settings, threads, interrupt.cancel())?;
-    if let Some(checkpoint) = &args.resume {
-        checkpoint::resume(checkpoint, &mut session, &identity)?;
-        let passes = session.ppm().passes();
-        talk.line(&format!("going on from {} after {passes} passes", checkpoint.display()));
+    if let Some(path) = &args.resume {
+        checkpoint::resume(path, &mut session, &identity)?;
+        go_on(args, path, &mut session, &rule, talk);
+        // Passes may be larger than a render from the beginning would have had them.
+        refuse_beyond_memory(session.ppm().scene(), session.ppm().settings(), threads, args.memory)?;
     }
     let mut keeper = Keeper::new(args, session.elapsed());
     let layers = if *format == Format::Exr { &args.layers[..] } else { &[] };
@@ -107,6 +108,32 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
         keeper.keep(session.ppm(), session.elapsed(), session.rays(), &identity, talk);
     }
     finish(&session, &[(path.clone(), *format)], layers, &identity, outputs, talk)
+}
+
+/// Says where a render goes on from. Of what is asked for by name, that which may change between passes changes with the next one;
+/// all else is as in the checkpoint, or it would not have been taken up.
+fn go_on(args: &Render, path: &Path, session: &mut Session, rule: &StopRule, talk: &Talk) {
+    let passes = session.ppm().passes();
+    talk.line(&format!("going on from {} after {passes} passes", path.display()));
+    let preset = args.preset.map(|preset| Preset::from(preset).apply(Settings::default()));
+    let alpha = args.alpha.or(preset.as_ref().map(|p| p.alpha));
+    let photons = args.photons.or(preset.as_ref().map(|p| p.photons_per_pass));
+    let now = session.ppm().settings();
+    let changes = [
+        alpha.filter(|&alpha| alpha != now.alpha).map(Change::Alpha),
+        photons.filter(|&photons| photons != now.photons_per_pass).map(Change::PhotonsPerPass),
+    ];
+    for change in changes.into_iter().flatten() {
+        session.ppm_mut().change(change);
+        talk.line(&format!("{change} from pass {} on", passes + 1));
+    }
+    if rule.is_reached(passes, session.elapsed(), Duration::ZERO, session.ppm().error().as_ref()) {
+        talk.warning(&format!(
+            "the checkpoint has {passes} passes in {:.1} s and is past --passes, --time or --error already, which count from its \
+             beginning: nothing is added",
+            session.elapsed().as_secs_f64()
+        ));
+    }
 }
 
 /// Writes checkpoints when they are due.

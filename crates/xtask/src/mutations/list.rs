@@ -342,6 +342,22 @@ pub(super) const LIST: &[Mutation] = &[
         test: "options_that_contradict_each_other_are_refused_at_once",
     },
     Mutation {
+        what: "options change a resumed render",
+        file: "crates/foton/src/job.rs",
+        from: "session.ppm_mut().change(change);",
+        to: "",
+        target: CLI,
+        test: "alpha_photons_and_presets_change_a_resumed_render_from_the_next_pass_on",
+    },
+    Mutation {
+        what: "what must be the same in a checkpoint is",
+        file: "crates/foton-session/src/checkpoint/fixed.rs",
+        from: "if kept == here {",
+        to: "if kept == here || kept.len() > 1 {",
+        target: CLI,
+        test: "what_cannot_change_on_the_way_is_refused_by_name",
+    },
+    Mutation {
         what: "versions that are not known are said",
         file: "crates/foton-format/src/include.rs",
         from: "if major > NEWEST {",
