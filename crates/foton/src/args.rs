@@ -178,6 +178,10 @@ pub(crate) struct Render {
     /// error_noise, error_bias, error_total
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = layer)]
     pub(crate) layers: Vec<LayerKind>,
+    /// Stop at the first value that is not finite (NaN or infinite), say where it arose, and write the image of the passes before.
+    /// Otherwise such values are left out and counted
+    #[arg(long)]
+    pub(crate) strict: bool,
     /// Print one JSON object a line on stdout
     #[arg(long)]
     pub(crate) json: bool,

@@ -80,8 +80,14 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
     let interrupt = interrupt_on_signals(talk);
     talk.begin();
     let mut session = Session::start(scene, settings, threads, interrupt.cancel())?;
+    if args.strict {
+        session.ppm_mut().stop_at_first_not_finite();
+    }
     if let Some(path) = &args.resume {
         checkpoint::resume(path, &mut session, &identity)?;
+        if args.strict && session.ppm().ledger().dropped > 0 {
+            return Err(Failure::LeftOut { path: path.clone(), values: session.ppm().ledger().dropped });
+        }
         go_on(args, path, &mut session, &rule, talk);
         // Passes may be larger than a render from the beginning would have had them.
         refuse_beyond_memory(session.ppm().scene(), session.ppm().settings(), threads, args.memory)?;
@@ -104,7 +110,7 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
         }
     });
     // After a fault hit points may be half-way between two passes: the last checkpoint is the one to go on from.
-    if session.panic().is_none() {
+    if session.panic().is_none() && session.not_finite().is_none() {
         keeper.keep(session.ppm(), session.elapsed(), session.rays(), &identity, talk);
     }
     finish(&session, &[(path.clone(), *format)], layers, &identity, outputs, talk)
@@ -260,15 +266,15 @@ pub(crate) fn finish(
     mut outputs: Vec<String>,
     talk: &Talk,
 ) -> Result<(), Failure> {
+    let fault = |passes: Option<u64>| {
+        let panic = session.panic().cloned().map(|panic| Failure::Panicked { panic, passes });
+        panic.or_else(|| session.not_finite().cloned().map(|place| Failure::NotFinite { place, passes }))
+    };
     if session.ppm().passes() == 0 {
-        if let Some(panic) = session.panic() {
-            return Err(Failure::Panicked { panic: panic.clone(), passes: None });
-        }
-        // Interrupted twice in the first pass: there is no picture yet.
-        return Err(StartError::Cancelled(Cancelled).into());
+        // Without a fault it was interrupted twice in the first pass: there is no picture yet.
+        return Err(fault(None).unwrap_or_else(|| StartError::Cancelled(Cancelled).into()));
     }
-    let fault = session.panic();
-    if let Some(panic) = fault.filter(|p| !p.leaves_the_image_whole()) {
+    if let Some(panic) = session.panic().filter(|p| !p.leaves_the_image_whole()) {
         return Err(Failure::Panicked { panic: panic.clone(), passes: None });
     }
     // One that cannot be written does not keep the others from it.
@@ -293,8 +299,7 @@ pub(crate) fn finish(
     if let Some(error) = unwritten {
         return Err(error.into());
     }
-    let passes = Some(session.ppm().passes());
-    fault.map_or(Ok(()), |panic| Err(Failure::Panicked { panic: panic.clone(), passes }))
+    fault(Some(session.ppm().passes())).map_or(Ok(()), Err)
 }
 
 /// Writes an image that cannot be written where it was asked for into the system's folder for temporary files, under a name that

@@ -4,6 +4,7 @@
 mod light;
 mod numbers;
 mod optics;
+mod strict;
 
 use std::num::NonZeroU32;
 

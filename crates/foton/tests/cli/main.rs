@@ -9,6 +9,7 @@ mod resuming;
 mod scene_says;
 #[cfg(unix)]
 mod signals;
+mod strict;
 #[cfg(target_os = "linux")]
 mod write_faults;
 

@@ -103,7 +103,7 @@ fn photons_that_are_dropped_are_warned_of_with_their_light() {
     let dropped = done["ledger"]["dropped_photons"].as_u64().expect("a count");
     assert!(dropped > 1000, "{dropped}");
     let line = said.iter().find(|line| line.contains("dropped")).expect("a warning");
-    let start = format!("{dropped} photons were dropped because their power was not finite: ");
+    let start = format!("{dropped} photons or sums of them were dropped because they were not finite: ");
     let places = line.strip_prefix(&start).unwrap_or_else(|| panic!("{line}"));
     let [one, two] = ["one", "two"].map(|id| {
         let before = places.split(", ").find_map(|place| place.strip_suffix(&format!(" at \"{id}\"")));
