@@ -171,5 +171,5 @@ pub enum Halt {
     Cancelled(#[from] Cancelled),
     /// A value was not finite, and the render is to stop at the first of those.
     #[error(transparent)]
-    NotFinite(#[from] NotFinite),
+    NotFinite(#[from] Box<NotFinite>),
 }

@@ -186,7 +186,7 @@ impl Ppm {
             return Ok(());
         }
         let here = left_out.map(|left_out| NotFinite::new(&self.scene, self.passes + 1, left_out));
-        self.not_finite.clone().or(here).map_or(Ok(()), |place| Err(place.into()))
+        self.not_finite.clone().or(here).map_or(Ok(()), |place| Err(Box::new(place).into()))
     }
 
     /// From now on a pass in which a value is not finite does not happen. Otherwise such values are left out and counted.

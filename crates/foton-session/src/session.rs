@@ -42,7 +42,7 @@ pub enum PassError {
     Panicked(#[from] Panic),
     /// A value is not finite where the render is to stop at the first of those; no other pass can follow.
     #[error(transparent)]
-    NotFinite(#[from] NotFinite),
+    NotFinite(#[from] Box<NotFinite>),
 }
 
 impl From<Halt> for PassError {
@@ -89,7 +89,7 @@ pub struct Session {
     elapsed: Duration,
     rays: u64,
     panic: Option<Panic>,
-    not_finite: Option<NotFinite>,
+    not_finite: Option<Box<NotFinite>>,
 }
 
 impl Session {
@@ -220,8 +220,8 @@ impl Session {
 
     /// Where the render stopped because a value was not finite, if it did. The image is that of the passes before.
     #[must_use]
-    pub const fn not_finite(&self) -> Option<&NotFinite> {
-        self.not_finite.as_ref()
+    pub fn not_finite(&self) -> Option<&NotFinite> {
+        self.not_finite.as_deref()
     }
 
     /// Takes a render's state back, with the time and rays that it took.

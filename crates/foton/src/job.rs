@@ -268,7 +268,9 @@ pub(crate) fn finish(
 ) -> Result<(), Failure> {
     let fault = |passes: Option<u64>| {
         let panic = session.panic().cloned().map(|panic| Failure::Panicked { panic, passes });
-        panic.or_else(|| session.not_finite().cloned().map(|place| Failure::NotFinite { place, passes }))
+        panic.or_else(|| {
+            session.not_finite().cloned().map(|place| Failure::NotFinite { place: Box::new(place), passes })
+        })
     };
     if session.ppm().passes() == 0 {
         // Without a fault it was interrupted twice in the first pass: there is no picture yet.

@@ -42,7 +42,7 @@ pub(crate) enum Failure {
     },
     /// A value that is not finite, where the render is to stop at the first of those, and the passes that the written image has.
     NotFinite {
-        place: NotFinite,
+        place: Box<NotFinite>,
         passes: Option<u64>,
     },
     /// A checkpoint whose passes have left out values already.

@@ -45,7 +45,7 @@ fn first(sketch: &Sketch, settings: &Settings, quantity: Quantity) -> NotFinite 
         assert_eq!(other.not_finite(), Some(&place), "{threads} threads");
         assert!(bits(&other.ppm().image()) == bits(&session.ppm().image()));
         let again = other.advance(&Cancel::default());
-        assert_eq!(again.err(), Some(PassError::NotFinite(place.clone())), "no pass follows");
+        assert_eq!(again.err(), Some(PassError::NotFinite(Box::new(place.clone()))), "no pass follows");
     }
     let before = sketch.render(settings.clone(), complete as u32);
     assert!(bits(&session.ppm().image()) == bits(&before.image()));
