@@ -214,7 +214,7 @@ fn genuine() -> Genuine {
     Genuine { session, identity, bytes, state }
 }
 
-/// Bytes before the state in a checkpoint: magic, version, four numbers.
+/// Bytes before the text in a checkpoint: magic, version, four numbers, of which the first is the text's length.
 const HEADER: usize = 8 + 4 + 4 * 8;
 
 /// The genuine checkpoint and its state, for seeds.
@@ -231,6 +231,8 @@ pub fn read_checkpoint(data: &[u8]) -> String {
         let file = if *first == 1 {
             let mut file = genuine.bytes[..HEADER - 8].to_vec();
             file.extend((rest.len() as u64).to_le_bytes());
+            let text = genuine.bytes[12..20].iter().rev().fold(0, |n, &b| n << 8 | usize::from(b));
+            file.extend(&genuine.bytes[HEADER..HEADER + text]);
             file.extend(zstd::bulk::compress(rest, 1).expect("memory"));
             let sum = file
                 .iter()

@@ -50,3 +50,13 @@ fn pictures_that_fuzzing_kept_break_nothing() {
 fn checkpoints_that_fuzzing_kept_break_nothing() {
     replay("checkpoint");
 }
+
+/// What is mutated reaches what a checksum guards.
+#[test]
+fn a_genuine_state_in_a_header_of_our_own_is_taken_up() {
+    let (file, state) = foton_fuzz::genuine_checkpoint();
+    for data in [[&[0], &file[..]].concat(), [&[1], &state[..]].concat()] {
+        let said = foton_fuzz::read_checkpoint(&data);
+        assert!(said.starts_with("taken up"), "{said}");
+    }
+}

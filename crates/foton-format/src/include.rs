@@ -17,6 +17,9 @@ const DEEPEST: usize = 15;
 /// All files that a scene may include: some that double at every level must not take for ever.
 const MOST_FILES: usize = 1000;
 
+/// The newest version of Mitsuba, by the first part of its number, whose names are known here.
+const NEWEST: u32 = 3;
+
 /// A scene with everything that it includes.
 pub(crate) struct Expanded {
     pub(crate) document: Document,
@@ -51,8 +54,23 @@ pub(crate) fn expand(
 
 /// Whether a root says that its file is of a version before 2.
 fn is_old(root: &Element, report: &mut Report) -> bool {
-    let version = root.attribute("version");
-    version.and_then(|v| parse_attribute(v, values::major_version, report)).is_some_and(|major| major < 2)
+    major_version(root, report).is_some_and(|major| major < 2)
+}
+
+/// The first part of the version that a root says its file is of. One that is newer than all that we know is read as the newest of
+/// those, with a warning: what it has renamed since is then reported by its own name and place.
+pub(crate) fn major_version(root: &Element, report: &mut Report) -> Option<u32> {
+    let attribute = root.attribute("version")?;
+    let major = parse_attribute(attribute, values::major_version, report)?;
+    if major > NEWEST {
+        let message = format!(
+            "version {} is newer than {NEWEST}, the newest that foton knows, and the file is read as version {NEWEST}; \
+             if it is one, write version=\"{NEWEST}.0.0\"",
+            attribute.value.trim()
+        );
+        report.warning(attribute.value_place, message);
+    }
+    Some(major)
 }
 
 struct Walk<'a, 'f> {

@@ -124,6 +124,32 @@ pub struct Opened {
     pub source_hash: u64,
 }
 
+impl Opened {
+    /// A finding about the part of the scene of that name, or about the whole file, which is called `file`. Its place is that of the
+    /// part's element, or of the `<include>` that brings it.
+    #[must_use]
+    pub fn finding(&self, severity: Severity, file: &str, part: Option<&str>, message: String) -> Diagnostic {
+        let place = part.and_then(|part| self.node_of(part)).and_then(|node| self.document.element(node));
+        let Place { line, column } = place.map_or_else(Place::default, |element| element.place);
+        Diagnostic { severity, file: file.to_owned(), line, column, message }
+    }
+
+    /// The element of the sensor, shape, emitter or material of that name.
+    fn node_of(&self, part: &str) -> Option<NodeId> {
+        let (named, nodes) = (&self.description, &self.nodes);
+        let sensor = named.sensors.iter().position(|s| s.name == part);
+        let shape = named.shapes.iter().position(|s| s.name == part);
+        let emitter = named.emitters.iter().position(|e| e.name == part);
+        let material = named.materials.iter().position(|m| m.name == part);
+        let found = sensor.and_then(|i| nodes.sensors.get(i).copied());
+        let found = found.or_else(|| nodes.shapes.get(shape?).copied());
+        let found = found.or_else(|| nodes.emitters.get(emitter?).copied());
+        let found = found.or_else(|| *nodes.materials.get(material?)?);
+        // In place of a mesh file there is an empty document, and its root stands for all shapes.
+        found.filter(|node| *node != self.document.root())
+    }
+}
+
 /// The elements that stand for what is in a description, in its order; for those of another file its `<include>`.
 #[derive(Clone, Debug, Default)]
 pub struct SceneNodes {

@@ -4,18 +4,19 @@ use std::collections::HashMap;
 
 use foton_scene::description::SceneDescription;
 
+use crate::SceneNodes;
 use crate::diagnostic::Report;
 use crate::document::{Document, Element, NodeId};
 use crate::files::Files;
 use crate::ids::Ids;
 use crate::images::Images;
+use crate::include::major_version;
 use crate::integrator::Suggested;
 use crate::materials::Materials;
 use crate::meshes::Meshes;
 use crate::names::{Plugins, did_you_mean};
-use crate::properties::{Properties, check_attributes, parse_attribute};
+use crate::properties::{Properties, check_attributes};
 use crate::textures::Textures;
-use crate::{SceneNodes, values};
 
 /// What is known while a scene is read.
 pub(crate) struct Reader<'a> {
@@ -107,10 +108,7 @@ impl<'a> Reader<'a> {
             return false;
         }
         check_attributes(element, &["version"], &["id", "name", "type"], &mut self.report);
-        let major = element
-            .attribute("version")
-            .and_then(|v| parse_attribute(v, values::major_version, &mut self.report));
-        major.is_some()
+        major_version(element, &mut self.report).is_some()
     }
 
     /// The contents of a plugin's element.

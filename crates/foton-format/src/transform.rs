@@ -43,6 +43,9 @@ pub(crate) fn read(document: &Document, node: NodeId, report: &mut Report) -> Op
 
 /// Whether the axes lie in a plane, or an axis vanishes.
 fn is_singular(m: DMat3) -> bool {
+    let largest = m.to_cols_array().iter().fold(0.0_f64, |most, c| most.max(c.abs()));
+    // What is very large or small has no volume that is a number.
+    let m = if (1e-60..1e60).contains(&largest) { m } else { m * (1.0 / largest) };
     let volume = m.x_axis.length() * m.y_axis.length() * m.z_axis.length();
     m.determinant().abs() <= 1e-9 * volume
 }
@@ -133,7 +136,11 @@ fn look_at(element: &Element, report: &mut Report) -> Option<DAffine3> {
     };
     let (origin, target, up) = (read("origin"), read("target"), read("up"));
     let (origin, target, up) = (origin?, target?, up?);
-    let Some(direction) = (target - origin).try_normalize() else {
+    let towards = target - origin;
+    // The square of a distance may be no number where the distance is one.
+    let direction =
+        towards.try_normalize().or_else(|| (towards / towards.abs().max_element()).try_normalize());
+    let Some(direction) = direction else {
         report.error(element.place, "the origin and the target of this lookat are the same point");
         return None;
     };
@@ -210,6 +217,18 @@ mod tests {
             "<lookat origin='0,0,4' target='0,0,0' up='0,1,0'/>",
             [[-1., 0., 0., 0.], [0., 1., 0., 0.], [0., 0., -1., 4.]],
         );
+    }
+
+    /// Volumes and squares of distances that are no numbers make no transform singular and no two points one.
+    #[test]
+    fn very_large_and_very_small_transforms_are_transforms() {
+        for size in [1e150, 1e15, 1e-15, 1e-120] {
+            let scaled = product(&format!("<scale value='{size:e}'/>"));
+            assert_eq!(scaled.matrix3.x_axis.x, size);
+            let from_afar =
+                product(&format!("<lookat origin='0, 0, {:e}' target='0,0,0' up='0,1,0'/>", size * size));
+            assert!((from_afar.matrix3.z_axis.z + 1.0).abs() < 1e-12, "{from_afar}");
+        }
     }
 
     #[test]

@@ -78,9 +78,11 @@ pub(crate) fn srgb_to_linear(encoded: f64) -> f64 {
 
 /// The first part of a version such as `3.0.0`.
 pub(crate) fn major_version(version: &str) -> Result<u32, String> {
-    let parts: Result<Vec<u32>, _> = version.trim().split('.').map(str::parse).collect();
+    // Digits alone: "+3" is a number, too.
+    let part = |text: &str| text.parse::<u32>().ok().filter(|_| text.bytes().all(|b| b.is_ascii_digit()));
+    let parts: Option<Vec<u32>> = version.trim().split('.').map(part).collect();
     match parts {
-        Ok(parts) if parts.len() <= 3 => Ok(parts[0]),
+        Some(parts) if parts.len() <= 3 => Ok(parts[0]),
         _ => Err(format!("\"{version}\" is not a version such as 3.0.0")),
     }
 }

@@ -8,6 +8,7 @@ use std::ops::Range;
 use crate::gather::Tally;
 use crate::ledger::{Ledger, Loss};
 use crate::light_use::LightUse;
+use crate::not_finite::{LeftOut, Omissions};
 use crate::photon_pass::Chunk;
 
 /// A pass of up to so many photons is one batch.
@@ -61,6 +62,8 @@ pub(crate) struct Counts {
     /// Photons stored in the pass.
     pub(crate) stored: u64,
     pub(crate) tally: Tally,
+    /// The first value of the pass that was not finite.
+    pub(crate) left_out: Option<LeftOut>,
 }
 
 impl Counts {
@@ -72,9 +75,16 @@ impl Counts {
             self.losses.iter_mut().zip(&chunk.losses).for_each(|(sum, &loss)| *sum += loss);
             self.rays += chunk.rays;
             self.stored += chunk.photons.len() as u64;
+            self.left_out = self.left_out.or(chunk.left_out);
         }
-        self.ledger.dropped += tally.dropped;
+        self.leave_out(tally.omissions);
         self.tally += *tally;
+    }
+
+    /// Counts what was left out beside photons.
+    pub(crate) fn leave_out(&mut self, omissions: Omissions) {
+        self.ledger.dropped += omissions.count;
+        self.left_out = self.left_out.or(omissions.first);
     }
 }
 

@@ -8,6 +8,7 @@ use foton_scene::Scene;
 use rayon::prelude::*;
 
 use crate::hit_point::{HitPoints, Irradiance, ShadowOrigin};
+use crate::not_finite::{LeftOut, Omissions, Quantity, Surface};
 use crate::packet::LANES;
 use crate::photon::PathClass;
 
@@ -18,19 +19,19 @@ pub(crate) const SHORTENED: f32 = 1e-4;
 const BLOCK: usize = 256 * LANES;
 
 /// Adds this pass's estimate of direct irradiance, times `photons` so that it can join sums that are divided by the number of
-/// photons. Returns the number of rays, and of estimates left out because they were not finite.
+/// photons. Returns the number of rays, and what was left out because it was not finite.
 pub(crate) fn add<const LAYERS: usize>(
     scene: &Scene,
     hit_points: &HitPoints,
     irradiance_slots: &mut [Irradiance<LAYERS>],
     (seed, pass, photons): (u64, u64, u64),
-) -> (u64, u64) {
+) -> (u64, Omissions) {
     let layer = if LAYERS == 1 { 0 } else { PathClass::Direct as usize };
     irradiance_slots
         .par_chunks_mut(BLOCK)
         .enumerate()
         .map(|(block, irradiance)| {
-            let (mut rays, mut dropped) = (0, 0);
+            let (mut rays, mut omissions) = (0, Omissions::default());
             for (i, irradiance) in irradiance.iter_mut().enumerate() {
                 let slot = block * BLOCK + i;
                 let packet = &hit_points.packets[slot / LANES];
@@ -47,13 +48,20 @@ pub(crate) fn add<const LAYERS: usize>(
                     if term.is_finite() {
                         irradiance[layer] += term;
                     } else {
-                        dropped += 1;
+                        let mut stream = Stream::new(seed, Purpose::ShadowRay, pass, slot as u64);
+                        let light = scene.choose_emitter(f64::from(stream.next_1d()));
+                        omissions.add(LeftOut {
+                            quantity: Quantity::DirectLight,
+                            light: light.map(|(emitter, _)| emitter as u32),
+                            surface: Surface::Below(at.shading_normal),
+                            position: at.origin,
+                        });
                     }
                 }
             }
-            (rays, dropped)
+            (rays, omissions)
         })
-        .reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1))
+        .reduce(|| (0, Omissions::default()), |a, b| (a.0 + b.0, a.1.followed_by(b.1)))
 }
 
 /// Irradiance from one sampled point of an emitter, and the direction it comes from.

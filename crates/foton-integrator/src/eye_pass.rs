@@ -14,6 +14,7 @@ use std::f32::consts::FRAC_1_PI;
 use crate::cancel::{Cancel, Cancelled};
 use crate::highlights::Glossy;
 use crate::hit_point::{Gloss, HitPoint};
+use crate::not_finite::{self, LeftOut, Quantity};
 use crate::radius::{FirstRadius, slab2};
 use crate::sampling::PixelSamples;
 use crate::settings::Settings;
@@ -46,6 +47,8 @@ pub(crate) struct EyePaths {
     pub(crate) rays: u64,
     /// Paths given up because their weight or light was not a finite number.
     pub(crate) dropped: u64,
+    /// The first value of those that was none.
+    pub(crate) left_out: Option<LeftOut>,
 }
 
 impl EyePaths {
@@ -112,6 +115,7 @@ impl EyePass<'_> {
             all.shapes.extend(part.shapes);
             all.rays += part.rays;
             all.dropped += part.dropped;
+            all.left_out = all.left_out.or(part.left_out);
         }
         Ok(all)
     }
@@ -146,11 +150,18 @@ impl EyePass<'_> {
                     leaves: 1,
                 };
                 walk.follow(pixel, places.point(sample));
-                let seen = walk.emission;
-                if seen.is_finite() {
-                    emission += seen;
+                let sum = emission + walk.emission;
+                if sum.is_finite() {
+                    emission = sum;
                 } else {
                     paths.dropped += 1;
+                    // A sum of numbers that is none has no other place.
+                    paths.left_out.get_or_insert(LeftOut {
+                        quantity: Quantity::SeenEmission,
+                        light: None,
+                        surface: not_finite::Surface::Unknown,
+                        position: self.sensor().origin(),
+                    });
                 }
             }
             paths.counts.push((paths.hit_points.len() - before) as u32);
@@ -198,7 +209,8 @@ impl Walk<'_, '_> {
         let visible = branch.edges <= self.pass.max_depth;
         let Some(surface) = surface else {
             if visible {
-                self.emission += branch.weight * scene.escaped_radiance(branch.ray.direction);
+                let emitted = branch.weight * scene.escaped_radiance(branch.ray.direction);
+                self.see(emitted, branch.ray.origin, None);
             }
             return;
         };
@@ -213,7 +225,7 @@ impl Walk<'_, '_> {
             if branch.density > 0.0 && !emitted.is_black() {
                 emitted *= Glossy::share_of_following(scene, &surface, branch.ray.origin, branch.density);
             }
-            self.emission += emitted;
+            self.see(emitted, surface.position, Some(surface.shape));
         }
         let outward = wo.dot(surface.normal) > 0.0;
         let Some(scattering) = scene.scattering(&surface, outward) else { return };
@@ -241,7 +253,7 @@ impl Walk<'_, '_> {
                 (branch.weight, Some(self.paths.gloss.len() as u32 - 1))
             }
         };
-        if weight.is_black() || !self.is_finite(weight) {
+        if weight.is_black() || !self.is_finite(weight, surface) {
             return;
         }
         let side = 1f32.copysign(wo.dot(surface.normal));
@@ -263,11 +275,29 @@ impl Walk<'_, '_> {
         });
     }
 
-    /// Whether a weight is a number, and counts those that are not.
-    fn is_finite(&mut self, weight: Rgb) -> bool {
-        let finite = weight.is_finite();
-        self.paths.dropped += u64::from(!finite);
-        finite
+    /// Adds emitted light that the path sees. Where it is no number the sample is given up at its end, and its place noted here.
+    fn see(&mut self, light: Rgb, position: Vec3, shape: Option<u32>) {
+        if !light.is_finite() {
+            let surface = shape.map_or(not_finite::Surface::Unknown, not_finite::Surface::Shape);
+            let left_out = LeftOut { quantity: Quantity::SeenEmission, light: None, surface, position };
+            self.paths.left_out.get_or_insert(left_out);
+        }
+        self.emission += light;
+    }
+
+    /// Whether a weight is a number; counts those that are not, and notes the first.
+    fn is_finite(&mut self, weight: Rgb, surface: &Surface) -> bool {
+        if weight.is_finite() {
+            return true;
+        }
+        self.paths.dropped += 1;
+        self.paths.left_out.get_or_insert(LeftOut {
+            quantity: Quantity::EyeWeight,
+            light: None,
+            surface: not_finite::Surface::Shape(surface.shape),
+            position: surface.position,
+        });
+        false
     }
 
     fn follow_lobes(&mut self, branch: &Branch, surface: &Surface, scattering: &Scattering, distance: f32) {
@@ -290,7 +320,8 @@ impl Walk<'_, '_> {
             let at = Glossy { scene: self.pass.scene, surface, scattering, frame: &frame, wo: local };
             let point = self.lamp.take().unwrap_or_else(|| self.stream.next_2d());
             let u = (self.stream.next_1d(), self.stream.next_1d(), point);
-            self.emission += weight * at.looked_up(u, &mut self.stream, &mut self.paths.rays);
+            let highlight = weight * at.looked_up(u, &mut self.stream, &mut self.paths.rays);
+            self.see(highlight, surface.position, Some(surface.shape));
         }
         let facet = facet.unwrap_or_default();
         let lobes = scattering.followed_lobes(local, Transport::Radiance, facet);
@@ -313,7 +344,7 @@ impl Walk<'_, '_> {
         };
         for lobe in chosen.iter().flatten() {
             let weight = weight * lobe.weight;
-            if weight.is_black() || !self.is_finite(weight) {
+            if weight.is_black() || !self.is_finite(weight, surface) {
                 continue;
             }
             let sampled = frame.to_outer(lobe.wi).normalize();

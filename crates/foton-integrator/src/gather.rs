@@ -17,6 +17,7 @@ use crate::batch::Batch;
 use crate::error::Question;
 use crate::grid::Grid;
 use crate::hit_point::{Gloss, HitPoints, Irradiance};
+use crate::not_finite::{Omissions, Quantity};
 use crate::packet::{LANES, Packet};
 use crate::photon::Photon;
 use crate::photon_map::PhotonMap;
@@ -45,10 +46,20 @@ pub(crate) struct Tally {
     pub(crate) unknown: u64,
     /// Hit points whose radius is at its floor.
     pub(crate) floored: u64,
-    /// Photon–hit-point pairs whose light was not a finite number, and that were left out of all sums but the count.
-    pub(crate) dropped: u64,
+    /// Photon–hit-point pairs, and sums of those, whose light was not a finite number, and that were left out of all sums but the
+    /// count.
+    pub(crate) omissions: Omissions,
     /// Sum of r² in square scene units.
     pub(crate) radius2: f64,
+}
+
+impl Tally {
+    /// Counts a value at a lane that was not finite, and notes its place if it is the first.
+    #[cold]
+    #[inline(never)]
+    fn leave_out(&mut self, quantity: Quantity, packet: &Packet, l: usize) {
+        self.omissions.add(packet.left_out(quantity, l));
+    }
 }
 
 /// How a pass is gathered.
@@ -71,7 +82,7 @@ impl AddAssign for Tally {
         self.accepted += o.accepted;
         self.unknown += o.unknown;
         self.floored += o.floored;
-        self.dropped += o.dropped;
+        self.omissions = self.omissions.followed_by(o.omissions);
         self.radius2 += o.radius2;
     }
 }
@@ -296,7 +307,7 @@ fn collect_gloss<const LAYERS: usize, const MOMENTS: bool>(
             let shading = wi.dot(gloss.frame.normal).abs();
             let weighed = photon.power * gloss.eval(wi) * cosine_ratio(shading, geometric);
             if !weighed.is_finite() {
-                tally.dropped += 1;
+                tally.leave_out(Quantity::GatheredLight, packet, l);
                 continue;
             }
             layer[0][l] += weighed.r;
@@ -414,6 +425,10 @@ fn conclude<const LAYERS: usize>(
         let per_area = 1.0 / (PI * radius2);
         for (out, flux) in irradiance[l].iter_mut().zip(&found.flux) {
             *out = Rgb::new(flux[0][l], flux[1][l], flux[2][l]) * per_area;
+            if !out.is_finite() {
+                *out = Rgb::BLACK;
+                tally.leave_out(Quantity::Irradiance, packet, l);
+            }
         }
         let count = u64::from(found.count[l]) + counts.get(l).copied().unwrap_or(0);
         let smallest2 = f64::from(smallest2[l]);

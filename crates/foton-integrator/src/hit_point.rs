@@ -8,6 +8,7 @@ use foton_math::{Frame, Rgb};
 use foton_scene::Scattering;
 
 use crate::adaptive::Evidence;
+use crate::not_finite::{LeftOut, Quantity};
 use crate::packet::{self, LANES, Packet};
 use crate::refine::Statistics;
 
@@ -166,6 +167,12 @@ impl HitPoints {
     /// How many there are.
     pub(crate) const fn len(&self) -> usize {
         self.slot_of.len()
+    }
+
+    /// What is noted of a pixel whose sum was not finite, by its first hit point.
+    pub(crate) fn left_out_at(&self, first: u32) -> LeftOut {
+        let slot = self.slot_of[first as usize] as usize;
+        self.packets[slot / LANES].left_out(Quantity::PixelSum, slot % LANES)
     }
 
     /// Statistics of all hit points, in sample order.

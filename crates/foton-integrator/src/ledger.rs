@@ -23,7 +23,7 @@ pub struct Ledger {
     pub shading_normals: f64,
     /// What dropped photons still carried when last it was a number.
     pub lost: f64,
-    /// Photons whose power was NaN or infinite, and that were not traced on.
+    /// Values that were NaN or infinite and were left out: photons, which were not traced on, and light at hit points and pixels.
     pub dropped: u64,
 }
 

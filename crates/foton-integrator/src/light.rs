@@ -7,6 +7,7 @@ use crate::error::{self, ErrorSums, Question};
 use crate::gather::{self, MOMENTS, NO_MOMENTS, Rule, Tally};
 use crate::grid::Grid;
 use crate::hit_point::{HitPoints, Irradiance};
+use crate::not_finite::Omissions;
 use crate::packet::LANES;
 use crate::photon::PathClass;
 use crate::photon_map::PhotonMap;
@@ -91,20 +92,19 @@ impl Light {
         })
     }
 
-    /// Adds direct light by shadow rays to the pass; returns the number of rays, and of estimates left out because
-    /// they were not finite.
+    /// Adds direct light by shadow rays to the pass; returns the number of rays, and what was left out because it was not finite.
     pub(crate) fn add_direct(
         &mut self,
         scene: &Scene,
         hit_points: &HitPoints,
         key: (u64, u64, u64),
-    ) -> (u64, u64) {
+    ) -> (u64, Omissions) {
         each!(self, s => direct_light::add(scene, hit_points, &mut s.irradiance_slots, key))
     }
 
-    /// Adds the pass to the pixels.
-    pub(crate) fn add_pass(&mut self, hit_points: &HitPoints) {
-        each!(self, s => s.radiance.add(hit_points, &s.irradiance_slots));
+    /// Adds the pass to the pixels; says what was left out because it was not finite.
+    pub(crate) fn add_pass(&mut self, hit_points: &HitPoints) -> Omissions {
+        each!(self, s => s.radiance.add(hit_points, &s.irradiance_slots))
     }
 
     /// Tells the error of a pass that was added; `photons` are those of the pass, `power` is a photon's on average.

@@ -4,6 +4,7 @@ use foton_math::Aabb;
 use foton_math::glam::Vec3;
 
 use crate::hit_point::HitPoint;
+use crate::not_finite::{LeftOut, Quantity, Surface};
 use crate::photon::patch_mark;
 
 /// Hit points in a packet.
@@ -57,6 +58,13 @@ impl Packet {
             packet.patch[lane] = patch_mark(h.patch);
         }
         packet
+    }
+
+    /// What is noted of a value at a lane that was not finite.
+    pub(crate) fn left_out(&self, quantity: Quantity, l: usize) -> LeftOut {
+        let of = |rows: &[[f32; LANES]; 3]| Vec3::from_array(rows.map(|row| row[l]));
+        let surface = Surface::Below(of(&self.normal) * 127.0);
+        LeftOut { quantity, light: None, surface, position: of(&self.position) }
     }
 
     /// Boxes around the spheres of the packet's discs.

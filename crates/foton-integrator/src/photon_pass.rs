@@ -17,6 +17,7 @@ use crate::cancel::{Cancel, Cancelled};
 use crate::grid::Grid;
 use crate::ledger::{Ledger, Loss, energy};
 use crate::light_use::LightUse;
+use crate::not_finite::{LeftOut, Quantity, Surface};
 use crate::photon::{PathClass, Photon};
 use crate::settings::DirectLight;
 use draws::{Draw, Draws};
@@ -58,6 +59,16 @@ pub(crate) struct Chunk {
     pub(crate) lights: Vec<LightUse>,
     /// By material.
     pub(crate) losses: Vec<Loss>,
+    /// The first photon whose power was no number.
+    pub(crate) left_out: Option<LeftOut>,
+}
+
+impl Chunk {
+    /// Notes a photon whose power was no number, if it is the first.
+    #[cold]
+    fn leave_out(&mut self, left_out: LeftOut) {
+        self.left_out.get_or_insert(left_out);
+    }
 }
 
 /// A photon on its way.
@@ -133,6 +144,7 @@ impl PhotonPass<'_> {
             chunk.lights.resize(self.scene.emitters().len(), LightUse::default());
             chunk.losses.clear();
             chunk.losses.resize(self.scene.materials().len(), Loss::default());
+            chunk.left_out = None;
             let range = first..photons.min(first + CHUNK);
             self.arch.dispatch(Follow { pass: self, range, chunk });
             Ok(())
@@ -154,6 +166,12 @@ impl PhotonPass<'_> {
             chunk.ledger.dropped += 1;
             chunk.lights[emitter].emitted += 1;
             chunk.lights[emitter].dropped += 1;
+            chunk.leave_out(LeftOut {
+                quantity: Quantity::EmittedPower,
+                light: Some(emitter as u32),
+                surface: Surface::Unknown,
+                position: start.origin,
+            });
             return;
         }
         chunk.ledger.emitted += energy(power);

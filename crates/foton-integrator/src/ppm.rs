@@ -18,6 +18,7 @@ use crate::hit_point::HitPoints;
 use crate::ledger::{Ledger, Loss};
 use crate::light::Light;
 use crate::light_use::LightUse;
+use crate::not_finite::{Halt, LeftOut, NotFinite};
 use crate::photon::Photon;
 use crate::photon_map::PhotonMap;
 use crate::photon_pass::{Chunk, PhotonPass};
@@ -95,6 +96,9 @@ pub struct Ppm {
     last_photons: u64,
     changes: Vec<(u64, Change)>,
     start: Start,
+    /// Whether a pass that leaves a value out does not happen.
+    strict: bool,
+    not_finite: Option<NotFinite>,
     /// The instruction set that photons and gather are compiled for. It changes no bit.
     arch: Arch,
 }
@@ -124,6 +128,7 @@ impl Ppm {
         let step = (eye.hit_points.len() / LOOKED_AT).max(1);
         let seen: Vec<Vec3> = eye.hit_points.iter().step_by(step).map(|h| h.position).collect();
         let sources = scene.sources(&seen);
+        let not_finite = eye.left_out.map(|left_out| NotFinite::new(&scene, 0, left_out));
         drop((eye.hit_points, eye.gloss));
         let grid = Grid::new(&hit_points.packets);
         let light = Light::new(eye.emission, &hit_points, &settings);
@@ -154,6 +159,8 @@ impl Ppm {
             last_photons: 0,
             changes: Vec::new(),
             start,
+            strict: false,
+            not_finite,
             arch: Arch::new(),
         })
     }
@@ -161,12 +168,10 @@ impl Ppm {
     /// One pass: photons from the emitters, sorted into a map, gathered by every hit point, batch by batch; then added to the image.
     ///
     /// # Errors
-    /// When cancelled while photons are traced; the pass then has not happened.
-    pub fn advance(
-        &mut self,
-        watch: &mut dyn FnMut(Stage),
-        cancel: &Cancel,
-    ) -> Result<PassReport, Cancelled> {
+    /// When cancelled while photons are traced; the pass then has not happened. After [`Ppm::stop_at_first_not_finite`], when a
+    /// value is not: the image is then that of the passes before, and hit points may be half-way to the next.
+    pub fn advance(&mut self, watch: &mut dyn FnMut(Stage), cancel: &Cancel) -> Result<PassReport, Halt> {
+        self.halt_at(None)?;
         let mut counts = self.begin_pass();
         for batch in self.batches(counts.photons) {
             watch(Stage::Trace);
@@ -174,9 +179,33 @@ impl Ppm {
             let shot = self.photon_pass(counts.photons, batch).shoot(&mut chunks, cancel);
             self.chunks = chunks;
             shot?;
+            self.halt_at(self.chunks.iter().find_map(|chunk| chunk.left_out))?;
             self.take_batch(batch, &mut counts, watch, cancel)?;
+            self.halt_at(counts.left_out)?;
         }
+        self.add_shadow_rays(&mut counts, watch);
+        self.halt_at(counts.left_out)?;
         Ok(self.conclude_pass(counts, watch))
+    }
+
+    /// An error where a value was left out that must not be: this one, or one before it.
+    fn halt_at(&self, left_out: Option<LeftOut>) -> Result<(), Halt> {
+        if !self.strict {
+            return Ok(());
+        }
+        let here = left_out.map(|left_out| NotFinite::new(&self.scene, self.passes + 1, left_out));
+        self.not_finite.clone().or(here).map_or(Ok(()), |place| Err(Box::new(place).into()))
+    }
+
+    /// From now on a pass in which a value is not finite does not happen. Otherwise such values are left out and counted.
+    pub const fn stop_at_first_not_finite(&mut self) {
+        self.strict = true;
+    }
+
+    /// The first value that was not finite since the render was started or restored, and was left out.
+    #[must_use]
+    pub const fn first_not_finite(&self) -> Option<&NotFinite> {
+        self.not_finite.as_ref()
     }
 
     /// Makes ready for the batches of a pass.
@@ -194,6 +223,7 @@ impl Ppm {
             rays: 0,
             stored: 0,
             tally: Tally::default(),
+            left_out: None,
         }
     }
 
@@ -229,19 +259,26 @@ impl Ppm {
         Ok(())
     }
 
-    /// What a pass does once its hit points are refined.
-    pub(crate) fn conclude_pass(&mut self, counts: Counts, watch: &mut dyn FnMut(Stage)) -> PassReport {
-        let Counts { ledger, lights, losses, photons, mut rays, stored, tally } = counts;
-        (self.ledger, self.lights, self.losses) = (ledger, lights, losses);
+    /// Adds direct light by shadow rays, if it is asked for, once hit points are refined.
+    pub(crate) fn add_shadow_rays(&mut self, counts: &mut Counts, watch: &mut dyn FnMut(Stage)) {
         if self.settings.direct_light == DirectLight::ShadowRays {
             watch(Stage::ShadowRays);
-            let key = (self.settings.seed, self.passes, photons);
-            let (shadow_rays, dropped) = self.light.add_direct(&self.scene, &self.hit_points, key);
-            rays += shadow_rays;
-            self.ledger.dropped += dropped;
+            let key = (self.settings.seed, self.passes, counts.photons);
+            let (rays, omissions) = self.light.add_direct(&self.scene, &self.hit_points, key);
+            counts.rays += rays;
+            counts.leave_out(omissions);
         }
+    }
+
+    /// What a pass does once its light is gathered.
+    pub(crate) fn conclude_pass(&mut self, mut counts: Counts, watch: &mut dyn FnMut(Stage)) -> PassReport {
         watch(Stage::Radiance);
-        self.light.add_pass(&self.hit_points);
+        counts.leave_out(self.light.add_pass(&self.hit_points));
+        let Counts { ledger, lights, losses, photons, rays, stored, tally, left_out } = counts;
+        (self.ledger, self.lights, self.losses) = (ledger, lights, losses);
+        if let (None, Some(left_out)) = (&self.not_finite, left_out) {
+            self.not_finite = Some(NotFinite::new(&self.scene, self.passes + 1, left_out));
+        }
         self.mark_cells(&tally);
         self.photons_emitted += photons;
         let power = self.mean_power();

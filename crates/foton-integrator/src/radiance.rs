@@ -4,6 +4,7 @@ use foton_math::Rgb;
 use rayon::prelude::*;
 
 use crate::hit_point::{HitPoints, Irradiance};
+use crate::not_finite::Omissions;
 use crate::state::{Reader, StateError, Writer};
 
 /// Pixels that one task looks after.
@@ -31,16 +32,22 @@ impl<const LAYERS: usize> Radiance<LAYERS> {
         }
     }
 
-    /// Adds a pass.
-    pub(crate) fn add(&mut self, hit_points: &HitPoints, irradiance_slots: &[Irradiance<LAYERS>]) {
+    /// Adds a pass; says what it left out because it was not finite.
+    pub(crate) fn add(
+        &mut self,
+        hit_points: &HitPoints,
+        irradiance_slots: &[Irradiance<LAYERS>],
+    ) -> Omissions {
         let samples = self.samples;
-        self.last.par_chunks_mut(BLOCK).zip(self.sums.par_chunks_mut(BLOCK)).enumerate().for_each(
-            |(block, (last, sums))| {
+        let blocks = self.last.par_chunks_mut(BLOCK).zip(self.sums.par_chunks_mut(BLOCK)).enumerate();
+        blocks
+            .map(|(block, (last, sums))| {
+                let mut omissions = Omissions::default();
                 for (i, (last, sum)) in last.iter_mut().zip(sums).enumerate() {
                     let pixel = block * BLOCK + i;
                     let range = hit_points.pixel_start[pixel]..hit_points.pixel_start[pixel + 1];
                     *last = [Rgb::BLACK; LAYERS];
-                    for h in range {
+                    for h in range.clone() {
                         let irradiance = &irradiance_slots[hit_points.slot_of[h as usize] as usize];
                         let weight = hit_points.weights[h as usize];
                         for (last, irradiance) in last.iter_mut().zip(irradiance) {
@@ -49,13 +56,18 @@ impl<const LAYERS: usize> Radiance<LAYERS> {
                     }
                     for (last, sum) in last.iter_mut().zip(sum) {
                         *last = *last / samples;
+                        if !last.is_finite() {
+                            *last = Rgb::BLACK;
+                            omissions.add(hit_points.left_out_at(range.start));
+                        }
                         for (sum, add) in sum.iter_mut().zip(last.to_array()) {
                             *sum += f64::from(add);
                         }
                     }
                 }
-            },
-        );
+                omissions
+            })
+            .reduce(Omissions::default, Omissions::followed_by)
     }
 
     /// Reflected radiance of one class (or of all, where classes are not kept apart) after `photons` in all.

@@ -96,7 +96,12 @@ impl Variants {
             }
         }
         let runs = self.runs.iter_mut().zip(counts).enumerate();
-        Ok(runs.map(|(i, (run, counts))| run.conclude_pass(counts, &mut |s| watch(Step::Of(i, s)))).collect())
+        let conclude = |(i, (run, mut counts)): (usize, (&mut Ppm, Counts))| {
+            let watch = &mut |stage| watch(Step::Of(i, stage));
+            run.add_shadow_rays(&mut counts, watch);
+            run.conclude_pass(counts, watch)
+        };
+        Ok(runs.map(conclude).collect())
     }
 
     /// The renders, in the order of their settings.
@@ -142,6 +147,7 @@ fn hand_out(all: &[Chunk], run: &mut Ppm) {
         (own.ledger, own.rays) = (all.ledger, all.rays);
         own.lights.clone_from(&all.lights);
         own.losses.clone_from(&all.losses);
+        own.left_out = all.left_out;
     });
 }
 

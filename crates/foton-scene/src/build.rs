@@ -12,19 +12,22 @@ use thiserror::Error;
 
 use crate::bsdf::Coat;
 use crate::census::Census;
-use crate::description::{Bsdf, Colour, Material, SceneDescription, SensorDescription};
+use crate::description::{Bsdf, Colour, Material, SceneDescription, SensorDescription, ShapeDescription};
 use crate::emitter::{Aim, Emitter, Kind};
 use crate::normalise::Normalisation;
 use crate::scene::{Scene, Shape};
 use crate::sensor::Sensor;
 use crate::texture::Sampler;
-use checks::{check_emitters, check_material, check_sensors, check_textures, world_bounds};
+use checks::{
+    check_described_emitters, check_emitters, check_material, check_sensors, check_textures, shape_bounds,
+    world_bounds,
+};
 use emitters::{area_emitter, ball, emitter_choice, unattached_emitter};
 use gather::Gathered;
 pub(crate) use patches::Patch;
 
 /// Why a description makes no scene. Names are those of the scene file.
-#[derive(Debug, Error, PartialEq, Eq)]
+#[derive(Debug, Error, PartialEq)]
 pub enum BuildError {
     /// There is nothing to look through.
     #[error("the scene has no sensor")]
@@ -35,6 +38,43 @@ pub enum BuildError {
     /// A coordinate, or what an emitter emits, is NaN or infinite.
     #[error("\"{0}\" has a coordinate or an emission that is not finite")]
     NotFinite(String),
+    /// Light whose power, or that of its photons, single precision does not hold.
+    #[error(
+        "\"{name}\" emits more than single precision holds: of its {emission:.1e}, this scene can take up to about {most:.0e}. \
+         Divide the emission of all lights by one number: the image is darker by that, and otherwise the same"
+    )]
+    TooBright {
+        /// The emitter.
+        name: String,
+        /// The largest component of what it emits, in the unit of the file.
+        emission: f64,
+        /// What it may emit.
+        most: f64,
+    },
+    /// Light so weak in so large a scene that single precision does not hold it.
+    #[error(
+        "\"{name}\" emits less than single precision holds in so large a scene: of its {emission:.1e}, at least {least:.0e} \
+         is needed. Multiply the emission of all lights by one number, or give the scene in a larger unit"
+    )]
+    TooDim {
+        /// The emitter.
+        name: String,
+        /// The largest component of what it emits, in the unit of the file.
+        emission: f64,
+        /// What it must emit.
+        least: f64,
+    },
+    /// A light or camera whose distance single precision does not hold.
+    #[error(
+        "\"{name}\" is {times:.0e} times as far away as the scene is large, and single precision holds no such distance: bring it \
+         nearer. For light from far away there is the \"directional\" emitter"
+    )]
+    TooFar {
+        /// The emitter or sensor.
+        name: String,
+        /// Its distance in half-sizes of the scene.
+        times: f64,
+    },
     /// A transform flattens the shape.
     #[error("shape \"{0}\": its transform cannot be inverted")]
     Singular(String),
@@ -66,6 +106,28 @@ pub enum BuildError {
     TooLarge,
 }
 
+impl BuildError {
+    /// The part of the scene that it is about, by its name.
+    #[must_use]
+    pub fn part(&self) -> Option<&str> {
+        match self {
+            Self::NoSensor | Self::TooLarge => None,
+            Self::BadSensor(name)
+            | Self::NotFinite(name)
+            | Self::TooBright { name, .. }
+            | Self::TooDim { name, .. }
+            | Self::TooFar { name, .. }
+            | Self::Singular(name)
+            | Self::NotRound(name)
+            | Self::BadMesh(name)
+            | Self::NoMaterial(name)
+            | Self::NoTexture(name)
+            | Self::BadTexture(name)
+            | Self::BadMaterial(name) => Some(name),
+        }
+    }
+}
+
 impl Scene {
     /// Builds the scene that rays meet.
     ///
@@ -81,11 +143,11 @@ impl Scene {
     /// # Errors
     /// As [`Scene::build`].
     pub fn build_as_if(description: &SceneDescription, forced: Census) -> Result<Self, BuildError> {
-        check_sensors(&description.sensors)?;
-        check_emitters(description)?;
+        check_described_emitters(description)?;
         check_textures(description)?;
         let (min, max) = world_bounds(description)?;
         let normalisation = Normalisation::for_bounds(min, max);
+        check_sensors(&description.sensors, &normalisation)?;
         let mut gathered = Gathered::new(forced);
         for material in &description.materials {
             check_material(material, description)?;
@@ -121,6 +183,7 @@ impl Scene {
             shapes.push(Shape {
                 name: shape.name.clone(),
                 steps_across: steps_across(&extent),
+                extent: if extent.is_empty() { place_of(shape, &normalisation) } else { extent },
                 material: shape.material as u32,
                 emitter,
                 to_object: orientation(&shape.to_world),
@@ -133,9 +196,7 @@ impl Scene {
             (!casters.is_empty()).then(|| ball(&casters)).filter(|c| c.radius < 0.5 * scene_ball.radius);
         let at = (scene_ball, casters);
         emitters.extend(description.emitters.iter().map(|e| unattached_emitter(e, &normalisation, at)));
-        if let Some(bad) = emitters.iter().find(|e| !e.is_finite()) {
-            return Err(BuildError::NotFinite(bad.name.clone()));
-        }
+        check_emitters(&emitters, description, &normalisation)?;
         let mut scene = gathered.into_scene(normalisation, bounds);
         scene.shapes = shapes;
         scene.textures = description.textures.iter().map(Sampler::new).collect();
@@ -171,7 +232,7 @@ impl Scene {
     /// # Errors
     /// When a sensor makes no sense; see [`BuildError`].
     pub fn with_sensors(&self, sensors: &[SensorDescription]) -> Result<Self, BuildError> {
-        check_sensors(sensors)?;
+        check_sensors(sensors, &self.normalisation)?;
         let sensors = sensors.iter().map(|s| Sensor::new(s, &self.normalisation)).collect();
         Ok(Self { sensors, ..self.clone() })
     }
@@ -225,6 +286,16 @@ impl Census {
             self.rough_coats |= matches!(bsdf, Bsdf::Plastic { roughness: Some(_), .. });
             self.kept_gloss |= bsdf.keeps() && !matches!(bsdf, Bsdf::Diffuse { .. });
         }
+    }
+}
+
+/// Where a shape is of which no primitive is left: all of its points may be one in scene units.
+fn place_of(shape: &ShapeDescription, to_scene: &Normalisation) -> Aabb {
+    let (min, max) = shape_bounds(shape);
+    if min.cmpgt(max).any() {
+        Aabb::EMPTY
+    } else {
+        Aabb::EMPTY.with(to_scene.point(min)).with(to_scene.point(max))
     }
 }
 

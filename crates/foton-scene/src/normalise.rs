@@ -8,6 +8,10 @@ use foton_math::glam::{DVec3, Vec3};
 /// The exponent of the scene's half-size after scaling.
 const HALF_SIZE_EXPONENT: i32 = 11;
 
+/// Scenes whose half-size is 2 to the power of more than this, or less than its negative, are scaled as if it were that: beyond,
+/// the factor itself is no number.
+const LARGEST_EXPONENT: i32 = 1000;
+
 /// The map between world units and scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Normalisation {
@@ -22,12 +26,14 @@ impl Normalisation {
     /// The map for a scene that spans `min` to `max` in world units. A scene without extent is only shifted.
     #[must_use]
     pub fn for_bounds(min: DVec3, max: DVec3) -> Self {
-        let half = (max - min).max_element() * 0.5;
-        let centre = (min + max) * 0.5;
+        // Halves first: the whole may be no number.
+        let half = (max * 0.5 - min * 0.5).max_element();
+        let centre = min * 0.5 + max * 0.5;
         if !(half > 0.0 && half.is_finite() && centre.is_finite()) {
             return Self { centre: if centre.is_finite() { centre } else { DVec3::ZERO }, scale: 1.0 };
         }
-        Self { centre, scale: 2f64.powi(HALF_SIZE_EXPONENT - half.log2().ceil() as i32) }
+        let exponent = (half.log2().ceil() as i32).clamp(-LARGEST_EXPONENT, LARGEST_EXPONENT);
+        Self { centre, scale: 2f64.powi(HALF_SIZE_EXPONENT - exponent) }
     }
 
     /// Scene units per world unit, a power of two.
@@ -46,6 +52,14 @@ impl Normalisation {
     #[must_use]
     pub fn length(&self, world: f64) -> f32 {
         (world * self.scale) as f32
+    }
+
+    /// The farther half-size of a scene, in scene units.
+    pub(crate) const HALF_SIZE: f64 = (1u64 << HALF_SIZE_EXPONENT) as f64;
+
+    /// How far a point of the world is from the middle of the scene, along the axis on which it is farthest, in scene units.
+    pub(crate) fn distance(&self, world: DVec3) -> f64 {
+        ((world - self.centre) * self.scale).abs().max_element()
     }
 
     /// A point in world units.

@@ -30,6 +30,8 @@ pub struct Shape {
     /// How many steps between neighbouring coordinates of single precision it is across, where it stands: few for a small thing
     /// far from the middle of a large scene.
     pub steps_across: f32,
+    /// The box around it, in scene units.
+    pub(crate) extent: Aabb,
     /// Scene to object space, turning only: texture coordinates of spheres, discs and tubes.
     pub(crate) to_object: Mat3,
 }

@@ -1,23 +1,24 @@
 //! Checkpoints: a render's state in a file, from which it goes on with the same bits as if it had never stopped.
 //!
-//! Layout, little-endian: 8 bytes of magic, version (u32), hash of scene and settings (u64), nanoseconds of rendering (u64), rays
-//! (u64), length of the state (u64), the state as zstd, and a hash of all bytes before (u64). What the start of a render makes
-//! anew is not in it: hit points are collected again.
+//! Layout, little-endian: 8 bytes of magic, version (u32), length of the text (u64), nanoseconds of rendering (u64), rays (u64),
+//! length of the state (u64), the text (what must be the same: see `fixed`), the state as zstd, and a hash of all bytes before (u64).
+//! What the start of a render makes anew is not in it: hit points are collected again.
 
-use std::fmt::Write as _;
+mod fixed;
+
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use foton_film::{WriteError, atomic_write};
-use foton_integrator::{DirectLight, Ppm, StateError};
+use foton_integrator::{Ppm, StateError};
 use thiserror::Error;
 
 use crate::metadata::SceneIdentity;
 use crate::session::Session;
 
 const MAGIC: [u8; 8] = *b"fotonPPM";
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 const HEADER: usize = 8 + 4 + 4 * 8;
 const TRAILER: usize = 8;
 
@@ -56,14 +57,12 @@ pub enum ResumeError {
         path: PathBuf,
     },
     /// The scene or a setting is another.
-    #[error(
-        "{path}: the checkpoint is of another scene or of other settings: scene, size, eye samples, radius, direct light, depth, \
-         seed, sensor and layers must be the same",
-        path = path.display()
-    )]
+    #[error("{path}: the checkpoint {difference}", path = path.display())]
     OtherRender {
         /// Its path.
         path: PathBuf,
+        /// What is another, in words.
+        difference: String,
     },
     /// Its state makes no sense, although its hash is right.
     #[error("{path}: {cause}", path = path.display())]
@@ -90,12 +89,14 @@ pub fn write(
     let nanoseconds = u64::try_from(elapsed.as_nanos()).unwrap_or(u64::MAX);
     atomic_write(path, |file| {
         let packed = zstd::bulk::compress(&state, COMPRESSION)?;
-        let mut bytes = Vec::with_capacity(HEADER + packed.len() + TRAILER);
+        let text = fixed::of(ppm, scene);
+        let mut bytes = Vec::with_capacity(HEADER + text.len() + packed.len() + TRAILER);
         bytes.extend_from_slice(&MAGIC);
         bytes.extend_from_slice(&VERSION.to_le_bytes());
-        for number in [identity(ppm, scene), nanoseconds, rays, state.len() as u64] {
+        for number in [text.len() as u64, nanoseconds, rays, state.len() as u64] {
             bytes.extend_from_slice(&number.to_le_bytes());
         }
+        bytes.extend_from_slice(text.as_bytes());
         bytes.extend_from_slice(&packed);
         bytes.extend_from_slice(&hash(&bytes).to_le_bytes());
         file.write_all(&bytes)
@@ -129,8 +130,13 @@ pub fn resume(path: &Path, session: &mut Session, scene: &SceneIdentity) -> Resu
     if hash(content).to_le_bytes() != trailer {
         return Err(damaged());
     }
-    if number(12) != identity(session.ppm(), scene) {
-        return Err(ResumeError::OtherRender { path: owned() });
+    let body = &content[HEADER..];
+    let (text, packed) =
+        usize::try_from(number(12)).ok().and_then(|at| body.split_at_checked(at)).ok_or_else(damaged)?;
+    if let Some(difference) =
+        fixed::difference(&String::from_utf8_lossy(text), &fixed::of(session.ppm(), scene))
+    {
+        return Err(ResumeError::OtherRender { path: owned(), difference });
     }
     let expected = session.ppm().state().len() as u64;
     let length = number(36);
@@ -138,39 +144,10 @@ pub fn resume(path: &Path, session: &mut Session, scene: &SceneIdentity) -> Resu
     if length > 8 * expected.max(1 << 20) || number(28) > 1 << 60 {
         return Err(damaged());
     }
-    let state = zstd::bulk::decompress(&content[HEADER..], length as usize).map_err(|_| damaged())?;
+    let state = zstd::bulk::decompress(packed, length as usize).map_err(|_| damaged())?;
     session
         .restore(&state, Duration::from_nanos(number(20)), number(28))
         .map_err(|cause| ResumeError::State { path: owned(), cause })
-}
-
-/// A hash of the scene and of all settings that must be the same.
-fn identity(ppm: &Ppm, scene: &SceneIdentity) -> u64 {
-    let s = ppm.settings();
-    let sensor = &ppm.scene().sensors()[s.sensor];
-    let direct = s.direct_light == DirectLight::ShadowRays;
-    let mut text = String::new();
-    // Writing to a string does not fail.
-    let _ = write!(
-        text,
-        "{:016x} {} {} {} {:?} {} {:?} {} {} {} {direct} {} {} {} {} {}",
-        scene.hash,
-        sensor.name,
-        sensor.width,
-        sensor.height,
-        s.radius.map(f64::to_bits),
-        s.radius_scale,
-        s.radius_rule,
-        s.radius_floor,
-        s.samples_per_pixel,
-        s.first_pass,
-        Ppm::max_depth(ppm.scene(), s),
-        s.seed,
-        s.hit_points_per_sample,
-        s.layers,
-        ppm.start_report().hit_points,
-    );
-    hash(text.as_bytes())
 }
 
 /// FNV-1a, 64 bits.

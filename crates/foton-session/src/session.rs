@@ -4,7 +4,9 @@ use std::sync::Arc;
 use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 
-use foton_integrator::{Cancel, Cancelled, MemoryEstimate, PassReport, Ppm, Settings, StateError};
+use foton_integrator::{
+    Cancel, Cancelled, Halt, MemoryEstimate, NotFinite, PassReport, Ppm, Settings, StateError,
+};
 use foton_scene::Scene;
 use rayon::{ThreadPool, ThreadPoolBuildError};
 use thiserror::Error;
@@ -30,7 +32,7 @@ pub enum StartError {
 }
 
 /// Why a pass has not happened.
-#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 pub enum PassError {
     /// Someone asked to stop inside it.
     #[error(transparent)]
@@ -38,6 +40,18 @@ pub enum PassError {
     /// A fault of our own; no other pass can follow.
     #[error(transparent)]
     Panicked(#[from] Panic),
+    /// A value is not finite where the render is to stop at the first of those; no other pass can follow.
+    #[error(transparent)]
+    NotFinite(#[from] Box<NotFinite>),
+}
+
+impl From<Halt> for PassError {
+    fn from(halt: Halt) -> Self {
+        match halt {
+            Halt::Cancelled(cause) => cause.into(),
+            Halt::NotFinite(place) => place.into(),
+        }
+    }
 }
 
 /// Why a render stopped.
@@ -49,6 +63,8 @@ pub enum StopCause {
     Interrupted,
     /// A fault of our own: see [`Session::panic`].
     Panicked,
+    /// A value that is not finite: see [`Session::not_finite`].
+    NotFinite,
 }
 
 /// How a render stands after a pass.
@@ -73,6 +89,7 @@ pub struct Session {
     elapsed: Duration,
     rays: u64,
     panic: Option<Panic>,
+    not_finite: Option<Box<NotFinite>>,
 }
 
 impl Session {
@@ -123,7 +140,7 @@ impl Session {
             let started = contained(|| pool.install(|| Ppm::start(scene, settings, &mut watch, cancel)));
             started.map_err(|message| Panic { stage: clock.stage(), message })??
         };
-        Ok(Self { ppm, pool, stages, elapsed: begin.elapsed(), rays: 0, panic: None })
+        Ok(Self { ppm, pool, stages, elapsed: begin.elapsed(), rays: 0, panic: None, not_finite: None })
     }
 
     /// Runs passes until `rule` or `interrupt` says stop. `after_pass` sees each pass, and its time is not counted. It cannot
@@ -150,6 +167,7 @@ impl Session {
                 Ok(report) => report,
                 Err(PassError::Cancelled(_)) => return StopCause::Interrupted,
                 Err(PassError::Panicked(_)) => return StopCause::Panicked,
+                Err(PassError::NotFinite(_)) => return StopCause::NotFinite,
             };
             after_pass(&Progress {
                 ppm: &self.ppm,
@@ -164,10 +182,13 @@ impl Session {
     /// Runs one pass.
     ///
     /// # Errors
-    /// When cancelled, or by a fault of our own; the pass then has not happened.
+    /// When cancelled, by a fault of our own, or at a value that is not finite if it is to stop there; the pass then has not happened.
     pub fn advance(&mut self, cancel: &Cancel) -> Result<PassReport, PassError> {
         if let Some(panic) = &self.panic {
             return Err(panic.clone().into());
+        }
+        if let Some(place) = &self.not_finite {
+            return Err(place.clone().into());
         }
         let begin = Instant::now();
         let report = {
@@ -182,7 +203,11 @@ impl Session {
             outcome.map_err(|message| Panic { stage: clock.stage(), message })
         };
         self.elapsed += begin.elapsed();
-        let report = report.inspect_err(|panic| self.panic = Some(panic.clone()))??;
+        let report = report.inspect_err(|panic| self.panic = Some(panic.clone()))?;
+        if let Err(Halt::NotFinite(place)) = &report {
+            self.not_finite = Some(place.clone());
+        }
+        let report = report?;
         self.rays += report.rays;
         Ok(report)
     }
@@ -191,6 +216,12 @@ impl Session {
     #[must_use]
     pub const fn panic(&self) -> Option<&Panic> {
         self.panic.as_ref()
+    }
+
+    /// Where the render stopped because a value was not finite, if it did. The image is that of the passes before.
+    #[must_use]
+    pub fn not_finite(&self) -> Option<&NotFinite> {
+        self.not_finite.as_deref()
     }
 
     /// Takes a render's state back, with the time and rays that it took.

@@ -1,6 +1,7 @@
 //! The command line. Its words are stable: scripts rely on them.
 
 mod measure;
+mod together;
 
 use std::num::NonZeroU32;
 use std::path::PathBuf;
@@ -174,13 +175,17 @@ pub(crate) struct Render {
     #[arg(long, value_name = "TIME", default_value = "30s", value_parser = duration, requires = "checkpoint")]
     pub(crate) checkpoint_every: Duration,
     /// Go on from a checkpoint of the same scene and settings, with the same bits as without a break; --passes and --time count
-    /// from its beginning
+    /// from its beginning, --alpha, --photons and --preset change it from the next pass on
     #[arg(long, value_name = "FILE")]
     pub(crate) resume: Option<PathBuf>,
-    /// Layers to put into an EXR: direct, caustic, indirect, emission, radius, photon_count, shape_id,
+    /// Layers to put into an EXR, each once: direct, caustic, indirect, emission, radius, photon_count, shape_id,
     /// error_noise, error_bias, error_total
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = layer)]
     pub(crate) layers: Vec<LayerKind>,
+    /// Stop at the first value that is not finite (NaN or infinite), say where it arose, and write the image of the passes before.
+    /// Otherwise such values are left out and counted
+    #[arg(long)]
+    pub(crate) strict: bool,
     /// Print one JSON object a line on stdout
     #[arg(long)]
     pub(crate) json: bool,

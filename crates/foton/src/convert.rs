@@ -16,7 +16,7 @@ pub(crate) fn run(args: &Convert, talk: &Talk) -> Result<(), Failure> {
     // What cannot be rendered is not worth writing; building also checks every index.
     memory::refuse_to_build(&opened.description, None)?;
     let scene = args.scene.display().to_string();
-    Scene::build(&opened.description).map_err(|cause| Failure::Build { scene, cause })?;
+    Scene::build(&opened.description).map_err(|cause| Failure::of_build(&opened, &scene, &cause))?;
     foton_format::write_scene(&opened.description, &args.output)?;
     talk.line(&format!("wrote {}", args.output.display()));
     Ok(())

@@ -23,7 +23,7 @@ pub(crate) fn print(args: &Info, talk: &Talk) -> Result<(), Failure> {
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let probed = opened.description.clone();
-    let (scene, identity) = build(opened, &name, (None, args.memory), talk)?;
+    let (scene, identity) = build(opened, &name, sensor, (None, args.memory), talk)?;
     let settings = Settings { sensor, ..Settings::default() };
     if args.json {
         talk.event(&as_json(&scene, &settings, &name, identity.hash));

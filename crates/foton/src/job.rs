@@ -6,8 +6,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use foton_film::check_writable;
-use foton_format::{Opened, Options, Suggested};
-use foton_integrator::{Alpha, Cancelled, LayerKind, Ppm, Settings};
+use foton_format::{Opened, Options, Severity, Suggested};
+use foton_integrator::{Alpha, Cancelled, Change, LayerKind, Ppm, Settings};
 use foton_scene::Scene;
 use foton_session::snapshot::{self, Format};
 use foton_session::{Interrupt, Preset, SceneIdentity, Session, StartError, StopRule, checkpoint};
@@ -31,7 +31,7 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let suggested = opened.suggested;
-    let (scene, identity) = build(opened, &name, (args.size, args.memory), talk)?;
+    let (scene, identity) = build(opened, &name, sensor, (args.size, args.memory), talk)?;
     let (defaults, suggested) = match args.preset {
         Some(preset) => (
             Preset::from(preset).apply(Settings::default()),
@@ -81,10 +81,17 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
     let interrupt = interrupt_on_signals(talk);
     talk.begin();
     let mut session = Session::start(scene, settings, threads, interrupt.cancel())?;
-    if let Some(checkpoint) = &args.resume {
-        checkpoint::resume(checkpoint, &mut session, &identity)?;
-        let passes = session.ppm().passes();
-        talk.line(&format!("going on from {} after {passes} passes", checkpoint.display()));
+    if args.strict {
+        session.ppm_mut().stop_at_first_not_finite();
+    }
+    if let Some(path) = &args.resume {
+        checkpoint::resume(path, &mut session, &identity)?;
+        if args.strict && session.ppm().ledger().dropped > 0 {
+            return Err(Failure::LeftOut { path: path.clone(), values: session.ppm().ledger().dropped });
+        }
+        go_on(args, path, &mut session, &rule, talk);
+        // Passes may be larger than a render from the beginning would have had them.
+        refuse_beyond_memory(session.ppm().scene(), session.ppm().settings(), threads, args.memory)?;
     }
     let mut keeper = Keeper::new(args, session.elapsed());
     let layers = if *format == Format::Exr { &args.layers[..] } else { &[] };
@@ -104,10 +111,36 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
         }
     });
     // After a fault hit points may be half-way between two passes: the last checkpoint is the one to go on from.
-    if session.panic().is_none() {
+    if session.panic().is_none() && session.not_finite().is_none() {
         keeper.keep(session.ppm(), session.elapsed(), session.rays(), &identity, talk);
     }
     finish(&session, &[(path.clone(), *format)], layers, &identity, outputs, talk)
+}
+
+/// Says where a render goes on from. Of what is asked for by name, that which may change between passes changes with the next one;
+/// all else is as in the checkpoint, or it would not have been taken up.
+fn go_on(args: &Render, path: &Path, session: &mut Session, rule: &StopRule, talk: &Talk) {
+    let passes = session.ppm().passes();
+    talk.line(&format!("going on from {} after {passes} passes", path.display()));
+    let preset = args.preset.map(|preset| Preset::from(preset).apply(Settings::default()));
+    let alpha = args.alpha.or(preset.as_ref().map(|p| p.alpha));
+    let photons = args.photons.or(preset.as_ref().map(|p| p.photons_per_pass));
+    let now = session.ppm().settings();
+    let changes = [
+        alpha.filter(|&alpha| alpha != now.alpha).map(Change::Alpha),
+        photons.filter(|&photons| photons != now.photons_per_pass).map(Change::PhotonsPerPass),
+    ];
+    for change in changes.into_iter().flatten() {
+        session.ppm_mut().change(change);
+        talk.line(&format!("{change} from pass {} on", passes + 1));
+    }
+    if rule.is_reached(passes, session.elapsed(), Duration::ZERO, session.ppm().error().as_ref()) {
+        talk.warning(&format!(
+            "the checkpoint has {passes} passes in {:.1} s and is past --passes, --time or --error already, which count from its \
+             beginning: nothing is added",
+            session.elapsed().as_secs_f64()
+        ));
+    }
 }
 
 /// Writes checkpoints when they are due.
@@ -146,10 +179,12 @@ pub(crate) fn open(
     foton_format::open(scene, &options).map_err(Failure::Open)
 }
 
-/// Builds the scene, at another size if one is asked for and within that many bytes, and says what its file got wrong.
+/// Builds the scene, at another size if one is asked for and within that many bytes, and says what its file got wrong and what is
+/// too far away for it, seen from a sensor.
 pub(crate) fn build(
-    opened: Opened,
+    mut opened: Opened,
     name: &str,
+    sensor: usize,
     (size, memory): (Option<Size>, Option<u64>),
     talk: &Talk,
 ) -> Result<(Arc<Scene>, SceneIdentity), Failure> {
@@ -157,15 +192,14 @@ pub(crate) fn build(
         talk.finding(finding);
     }
     let identity = SceneIdentity { name: name.to_owned(), hash: opened.source_hash };
-    let mut description = opened.description;
     if let Some(Size { width, height }) = size {
-        for sensor in &mut description.sensors {
+        for sensor in &mut opened.description.sensors {
             sensor.resize(width, height);
         }
     }
-    memory::refuse_to_build(&description, memory)?;
+    memory::refuse_to_build(&opened.description, memory)?;
     let scene =
-        Scene::build(&description).map_err(|cause| Failure::Build { scene: name.to_owned(), cause })?;
+        Scene::build(&opened.description).map_err(|cause| Failure::of_build(&opened, name, &cause))?;
     let census = scene.census();
     if census.degenerate_triangles > 0 {
         talk.warning(&format!("left out {} triangles without area", census.degenerate_triangles));
@@ -175,6 +209,9 @@ pub(crate) fn build(
             "\"{}\" is only {:.0} steps of single precision across, so small is it where it stands: its shape is rounded to those",
             shape.name, shape.steps_across
         ));
+    }
+    for far in scene.far_things(sensor) {
+        talk.finding(&opened.finding(Severity::Warning, name, Some(&far.name), far.to_string()));
     }
     if census.narrow_gloss {
         talk.note("gloss of roughness up to 0.1 is followed in directions chosen once: its noise stays; --spp lowers it");
@@ -230,15 +267,17 @@ pub(crate) fn finish(
     mut outputs: Vec<String>,
     talk: &Talk,
 ) -> Result<(), Failure> {
+    let fault = |passes: Option<u64>| {
+        let panic = session.panic().cloned().map(|panic| Failure::Panicked { panic, passes });
+        panic.or_else(|| {
+            session.not_finite().cloned().map(|place| Failure::NotFinite { place: Box::new(place), passes })
+        })
+    };
     if session.ppm().passes() == 0 {
-        if let Some(panic) = session.panic() {
-            return Err(Failure::Panicked { panic: panic.clone(), passes: None });
-        }
-        // Interrupted twice in the first pass: there is no picture yet.
-        return Err(StartError::Cancelled(Cancelled).into());
+        // Without a fault it was interrupted twice in the first pass: there is no picture yet.
+        return Err(fault(None).unwrap_or_else(|| StartError::Cancelled(Cancelled).into()));
     }
-    let fault = session.panic();
-    if let Some(panic) = fault.filter(|p| !p.leaves_the_image_whole()) {
+    if let Some(panic) = session.panic().filter(|p| !p.leaves_the_image_whole()) {
         return Err(Failure::Panicked { panic: panic.clone(), passes: None });
     }
     // One that cannot be written does not keep the others from it.
@@ -263,8 +302,7 @@ pub(crate) fn finish(
     if let Some(error) = unwritten {
         return Err(error.into());
     }
-    let passes = Some(session.ppm().passes());
-    fault.map_or(Ok(()), |panic| Err(Failure::Panicked { panic: panic.clone(), passes }))
+    fault(Some(session.ppm().passes())).map_or(Ok(()), Err)
 }
 
 /// Writes an image that cannot be written where it was asked for into the system's folder for temporary files, under a name that

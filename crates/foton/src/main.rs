@@ -17,7 +17,8 @@ mod window;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser};
 
 use args::{Args, Command};
 use talk::{Failure, Talk};
@@ -37,6 +38,16 @@ fn live(args: &Args, talk: &mut Talk) -> Result<(), Failure> {
 
 fn main() -> ExitCode {
     let args = Args::parse();
+    if let Some(Command::Render(render)) = &args.command
+        && let Some(message) = render.contradiction()
+    {
+        let mut command = Args::command();
+        command.build();
+        let render = command
+            .find_subcommand_mut("render")
+            .map(|render| render.error(ErrorKind::ArgumentConflict, &message));
+        render.unwrap_or_else(|| command.error(ErrorKind::ArgumentConflict, message)).exit();
+    }
     let (result, mut talk) = match &args.command {
         Some(Command::Render(render)) => {
             let mut talk = Talk::new(render.json);

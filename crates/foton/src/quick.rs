@@ -29,7 +29,7 @@ pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failur
         }
         None => (ALL[0].open(&options), ALL[0].name.into()),
     };
-    let (scene, identity) = build(opened.map_err(Failure::Open)?, &name, (None, None), talk)?;
+    let (scene, identity) = build(opened.map_err(Failure::Open)?, &name, 0, (None, None), talk)?;
     let settings = Settings { error: true, ..Settings::default() };
     refuse_beyond_memory(&scene, &settings, None, None)?;
     let stem = snapshot::next_free(Path::new(""));

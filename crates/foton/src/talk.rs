@@ -2,10 +2,11 @@
 
 use std::fmt;
 use std::io::Write;
+use std::path::PathBuf;
 
 use foton_film::{ReadError, WriteError};
-use foton_format::{Diagnostic, OpenError};
-use foton_integrator::{ClassError, DirectLight, ErrorEstimate, Ledger, Ppm};
+use foton_format::{Diagnostic, OpenError, Opened, Severity};
+use foton_integrator::{ClassError, DirectLight, ErrorEstimate, Ledger, NotFinite, Ppm};
 use foton_measure::CompareError;
 use foton_measure::sweep::SweepError;
 use foton_scene::BuildError;
@@ -21,10 +22,8 @@ const WORTH_A_WARNING: f64 = 1e-3;
 #[derive(Debug)]
 pub(crate) enum Failure {
     Open(OpenError),
-    Build {
-        scene: String,
-        cause: BuildError,
-    },
+    /// What was read makes no scene.
+    Build(Diagnostic),
     Memory(String),
     /// Bytes.
     BuildMemory {
@@ -40,6 +39,16 @@ pub(crate) enum Failure {
     Panicked {
         panic: Panic,
         passes: Option<u64>,
+    },
+    /// A value that is not finite, where the render is to stop at the first of those, and the passes that the written image has.
+    NotFinite {
+        place: Box<NotFinite>,
+        passes: Option<u64>,
+    },
+    /// A checkpoint whose passes have left out values already.
+    LeftOut {
+        path: PathBuf,
+        values: u64,
     },
     Resume(ResumeError),
     Sweep(SweepError),
@@ -58,7 +67,7 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Open(cause) => cause.fmt(f),
-            Self::Build { scene, cause } => write!(f, "{scene}: {cause}"),
+            Self::Build(cause) => cause.fmt(f),
             Self::Memory(why) => {
                 write!(f, "{why}. A smaller --size, --spp or --photons needs less; --memory sets the limit")
             }
@@ -76,6 +85,21 @@ impl fmt::Display for Failure {
                 write!(f, "{panic}. What was written is the image after {passes} complete passes")
             }
             Self::Panicked { panic, passes: None } => write!(f, "{panic}. No image was written"),
+            Self::NotFinite { place, passes: Some(passes) } => {
+                write!(
+                    f,
+                    "stopped by --strict: {place}. What was written is the image after {passes} complete passes"
+                )
+            }
+            Self::NotFinite { place, passes: None } => {
+                write!(f, "stopped by --strict: {place}. No image was written")
+            }
+            Self::LeftOut { path, values } => write!(
+                f,
+                "{}: the passes of this checkpoint have left out {values} values that were not finite, and it does not say where: \
+                 --strict finds the first in a render from its beginning",
+                path.display()
+            ),
             Self::Resume(cause) => cause.fmt(f),
             Self::Sweep(cause) => cause.fmt(f),
             Self::Write(cause) => cause.fmt(f),
@@ -84,6 +108,13 @@ impl fmt::Display for Failure {
             Self::Window(cause) => cause.fmt(f),
             Self::Compare { a, b, cause } => write!(f, "A is {a}, B is {b}: {cause}"),
         }
+    }
+}
+
+impl Failure {
+    /// Why the scene of that name cannot be built, with its place.
+    pub(crate) fn of_build(opened: &Opened, scene: &str, cause: &BuildError) -> Self {
+        Self::Build(opened.finding(Severity::Error, scene, cause.part(), cause.to_string()))
     }
 }
 
@@ -169,16 +200,24 @@ impl Talk {
     /// Why nothing was rendered.
     pub(crate) fn failure(&mut self, failure: &Failure) {
         self.bar.finish_and_clear();
-        if let Failure::Open(OpenError { diagnostics }) = failure {
-            for d in diagnostics {
+        let found = match failure {
+            Failure::Open(OpenError { diagnostics }) => &diagnostics[..],
+            Failure::Build(diagnostic) => std::slice::from_ref(diagnostic),
+            _ => &[],
+        };
+        if !found.is_empty() {
+            for d in found {
                 let severity = match d.severity {
-                    foton_format::Severity::Warning => "warning",
-                    foton_format::Severity::Error => "error",
+                    Severity::Warning => "warning",
+                    Severity::Error => "error",
                 };
                 self.event(&located(severity, d));
                 self.line(&format!("{severity}: {d}"));
             }
             return;
+        }
+        if let Failure::NotFinite { place, .. } = failure {
+            self.event(&not_finite(place));
         }
         let message = failure.to_string();
         self.event(&json!({ "event": "error", "message": message }));
@@ -335,15 +374,20 @@ impl Talk {
         if ledger.dropped > 0 {
             let lights = ppm.scene().emitters().iter().zip(ppm.light_use());
             let lights = lights.map(|(emitter, light)| (emitter.name.as_str(), light.dropped));
-            let all = lights.chain(materials().map(|(name, loss)| (name, loss.dropped)));
-            let places: Vec<String> =
-                all.filter(|(_, n)| *n > 0).map(|(name, n)| format!("{n} at \"{name}\"")).collect();
-            let places = if places.is_empty() { vec!["where they were gathered".to_owned()] } else { places };
+            let all: Vec<_> = lights.chain(materials().map(|(name, loss)| (name, loss.dropped))).collect();
+            let gathered = ledger.dropped - all.iter().map(|(_, n)| n).sum::<u64>().min(ledger.dropped);
+            let named = all.iter().filter(|(_, n)| *n > 0).map(|(name, n)| format!("{n} at \"{name}\""));
+            let gathered = (gathered > 0).then(|| format!("{gathered} where light was gathered"));
+            let places: Vec<String> = named.chain(gathered).collect();
             self.warning(&format!(
-                "{} photons were dropped because their power was not finite: {}",
+                "{} photons or sums of them were dropped because they were not finite: {}",
                 ledger.dropped,
                 places.join(", ")
             ));
+        }
+        if let Some(place) = ppm.first_not_finite() {
+            self.event(&not_finite(place));
+            self.line(&format!("the first of those: {place}; --strict stops there"));
         }
     }
 }
@@ -377,6 +421,14 @@ fn add_error(event: &mut Value, error: Option<&ErrorEstimate>) {
         };
         CLASSES.into_iter().zip(classes).map(of).collect::<serde_json::Map<_, _>>()
     }));
+}
+
+fn not_finite(place: &NotFinite) -> Value {
+    let [shape, material] = place.surface.clone().map_or([None, None], |names| names.map(Some));
+    json!({
+        "event": "not_finite", "pass": place.pass, "quantity": place.quantity.name(), "light": place.light,
+        "shape": shape, "material": material, "position": place.position.to_array(),
+    })
 }
 
 fn located(event: &str, d: &Diagnostic) -> Value {

@@ -5,9 +5,10 @@ use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use foton_format::{Opened, Options, Saved, Suggested, save_edited};
+use foton_format::{Opened, Options, Saved, Severity, Suggested, save_edited};
 use foton_integrator::{Alpha, Settings};
 use foton_preview::WindowError;
+use foton_scene::BuildError;
 use foton_scene::description::SceneDescription;
 use foton_session::SceneIdentity;
 use foton_session::engine::{Loaded, Loader, Source};
@@ -56,6 +57,15 @@ impl Loader for Files {
             warnings: opened.warnings.iter().map(ToString::to_string).collect(),
             origin: Arc::new(opened),
         })
+    }
+
+    fn why_not_built(&self, loaded: &Loaded, cause: &BuildError) -> String {
+        let name = &loaded.identity.name;
+        let located = loaded
+            .origin
+            .downcast_ref::<Opened>()
+            .map(|opened| opened.finding(Severity::Error, name, cause.part(), cause.to_string()).to_string());
+        located.unwrap_or_else(|| format!("{name}: {cause}"))
     }
 
     fn save(

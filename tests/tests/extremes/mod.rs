@@ -5,6 +5,7 @@ mod light;
 mod narrow;
 mod numbers;
 mod optics;
+mod strict;
 mod surfaces;
 mod wide;
 

@@ -6,7 +6,7 @@ use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{EmitterKind, Geometry};
 use foton_tests::{Sketch, glass, grey, mean};
 
-use super::{advance, number, with_radius};
+use super::{advance, bits, number, with_radius};
 
 /// A lit room with a ball of glass, as large as `unit` says; radiance is the same in any unit.
 fn room(unit: f64) -> Sketch {
@@ -51,6 +51,34 @@ fn a_scene_in_another_unit_gives_the_same_picture() {
             let all = original.pixels.len();
             assert!(far * of_pixels <= all, "{radius_rule:?}, unit {unit}: {far} pixels of {all}");
         }
+    }
+}
+
+/// The square of the unit may be no number of single precision where the intensity that it makes of a light's is one.
+#[test]
+fn lights_without_extent_shine_in_any_unit() {
+    let image = |unit: f64| bits(&room(unit).render(with_radius(0.1 * unit, 2000), 2).image());
+    let original = image(1.0);
+    for exponent in [-62, -30, 62] {
+        assert!(image(2f64.powi(exponent)) == original, "units of 2^{exponent}");
+    }
+    // Where no intensity makes up for the size, less light is there, and not none.
+    let lit = |unit: f64| {
+        let mut sketch = room(unit);
+        sketch.0.shapes.iter_mut().for_each(|shape| shape.radiance = None);
+        for emitter in &mut sketch.0.emitters {
+            if let EmitterKind::Point { intensity, .. } = &mut emitter.kind {
+                *intensity = Rgb::splat(2f32.powi(80));
+            }
+        }
+        // Squares of such light, by which radii would adapt, are no numbers.
+        let settings = Settings { radius_rule: RadiusRule::Local, ..with_radius(0.1 * unit, 2000) };
+        sketch.render(settings, 2).image()
+    };
+    let (small, large) = (lit(1.0), lit(2f64.powi(90)));
+    for (small, large) in small.pixels.iter().zip(&large.pixels) {
+        // By the square of 2^90, which is more than the largest number.
+        assert_eq!(small.g.to_bits(), (large.g * 2f32.powi(90) * 2f32.powi(90)).to_bits());
     }
 }
 
@@ -145,7 +173,7 @@ fn sixty_four_threads_on_few_cores_give_the_bits_of_one() {
             let cancel = Cancel::default();
             let mut ppm = Ppm::start(scene, settings, &mut |_| (), &cancel).expect("starts");
             advance(&mut ppm, 2);
-            super::bits(&ppm.image())
+            bits(&ppm.image())
         })
     };
     let one = run(1);

@@ -43,6 +43,7 @@ fn files(path: &Path) -> io::Result<Vec<u8>> {
         Some("nan.hdr") => text("#?RADIANCE\n\n-Y 1"),
         Some("loop.xml") => text("<scene version='3.0.0'>\n<!-- -->\n<include filename='loop.xml'/></scene>"),
         Some("open.xml") => text("<scene version='3.0.0'>\n"),
+        Some("future.xml") => text("<bsdf version='7.0.0' type='diffuse' id='a'/>"),
         Some("bare.xml") => text("<bsdf type='diffuse'/>"),
         Some("sub/bad.xml") => text(
             "<scene version='3.0.0'>\n<bsdf type='diffuse'>\n<float name='reflectance' value='x'/>\n</bsdf>\n<shape type='spere'/>\n</scene>",

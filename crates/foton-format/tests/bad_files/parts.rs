@@ -282,6 +282,36 @@ fn files_that_are_not_scenes_are_refused() {
     }
 }
 
+/// Scenes and included files of versions that no Mitsuba had so far render all the same, and say so; what is no version is refused.
+#[test]
+fn versions_that_are_not_known_are_said() {
+    let newer = |version: &str| {
+        format!(
+            "version {version} is newer than 3, the newest that foton knows, and the file is read as version 3; \
+             if it is one, write version=\"3.0.0\""
+        )
+    };
+    let scene = |version: &str| {
+        found(
+            &format!("<scene version='{version}'><sensor type='perspective'/></scene>"),
+            &Options::default(),
+        )
+    };
+    for version in ["99", "4.0.0", "4294967295", " 4.1 "] {
+        let wanted = format!("warning: s.xml:1:17: {}", newer(version.trim()));
+        assert_eq!(scene(version), [wanted], "of {version}");
+    }
+    for version in ["3", "3.99.99", "2.1.0", "1.0.0", "0.6.0", "0.0.0"] {
+        assert_eq!(scene(version), [""; 0], "of {version}");
+    }
+    for version in ["", "3.0.0.0", "-1", "+3", "3,0", "three", "3.x", "4294967296", "1e1"] {
+        let wanted = format!("s.xml:1:17: \"{version}\" is not a version such as 3.0.0");
+        assert_eq!(scene(version), [wanted], "of {version}");
+    }
+    let included = "<include filename='future.xml'/>";
+    assert_all(&[(included, &[&format!("warning: future.xml:1:16: {}", newer("7.0.0"))])]);
+}
+
 #[test]
 fn all_problems_are_reported_in_one_go_in_the_order_of_the_file() {
     let xml = "<scene version='3.0.0'>

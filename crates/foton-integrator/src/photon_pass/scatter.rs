@@ -8,6 +8,7 @@ use super::draws::Draw;
 use super::{Chunk, Path, PhotonPass};
 use crate::eye_pass::{leaves_wrongly, on_the_right_side, shading_normal_towards};
 use crate::ledger::{Ledger, energy, left_out};
+use crate::not_finite::{self, LeftOut, Quantity};
 use crate::photon::{PathClass, Photon};
 use crate::settings::DirectLight;
 
@@ -127,6 +128,12 @@ impl PhotonPass<'_> {
             chunk.ledger.dropped += 1;
             chunk.ledger.lost += energy(path.power);
             chunk.losses[self.material(surface)].dropped += 1;
+            chunk.leave_out(LeftOut {
+                quantity: Quantity::ScatteredPower,
+                light: Some(path.emitter),
+                surface: not_finite::Surface::Shape(surface.shape),
+                position: surface.position,
+            });
             return;
         }
         chunk.ledger.absorbed += left_out(path.power, weight);

@@ -6,8 +6,11 @@ use foton_math::glam::DVec3;
 use super::BuildError;
 use super::gather::even_scale;
 use crate::description::{
-    Bsdf, Colour, EmitterKind, Geometry, Material, SceneDescription, SensorDescription, TextureKind,
+    Bsdf, Colour, EmitterKind, Geometry, Material, SceneDescription, SensorDescription, ShapeDescription,
+    TextureKind,
 };
+use crate::emitter::{Emitter, Kind};
+use crate::normalise::Normalisation;
 
 /// How unevenly a spot may be scaled: what nobody sees of its cone.
 const CONE_ROUNDNESS: f64 = 2e-3;
@@ -17,7 +20,10 @@ fn fits(first: u32, count: u32, side: u32) -> bool {
     count > 0 && u64::from(first) + u64::from(count) <= u64::from(side)
 }
 
-pub(super) fn check_sensors(sensors: &[SensorDescription]) -> Result<(), BuildError> {
+pub(super) fn check_sensors(
+    sensors: &[SensorDescription],
+    to_scene: &Normalisation,
+) -> Result<(), BuildError> {
     if sensors.is_empty() {
         return Err(BuildError::NoSensor);
     }
@@ -34,11 +40,12 @@ pub(super) fn check_sensors(sensors: &[SensorDescription]) -> Result<(), BuildEr
         if !good {
             return Err(BuildError::BadSensor(s.name.clone()));
         }
+        check_distance(s.to_world.translation, to_scene, &s.name)?;
     }
     Ok(())
 }
 
-pub(super) fn check_emitters(description: &SceneDescription) -> Result<(), BuildError> {
+pub(super) fn check_described_emitters(description: &SceneDescription) -> Result<(), BuildError> {
     for emitter in &description.emitters {
         match &emitter.kind {
             // That its pixels are numbers is seen by its power, which has a share of each.
@@ -52,6 +59,85 @@ pub(super) fn check_emitters(description: &SceneDescription) -> Result<(), Build
         }
     }
     Ok(())
+}
+
+/// Room for the sums of photons above an emitter's power.
+const HEADROOM: f64 = 1e6;
+
+/// Farther away than this, in scene units, the square of a distance is no number of single precision.
+const FARTHEST: f64 = 1e18;
+
+/// Whether what emitters emit and where they stand are numbers, of single precision and in scene units. `emitters` are those that
+/// are surfaces, and then those of the description.
+pub(super) fn check_emitters(
+    emitters: &[Emitter],
+    description: &SceneDescription,
+    to_scene: &Normalisation,
+) -> Result<(), BuildError> {
+    let surfaces = emitters.len() - description.emitters.len();
+    for (i, emitter) in emitters.iter().enumerate() {
+        let described = i.checked_sub(surfaces).map(|i| &description.emitters[i].kind);
+        let name = || emitter.name.clone();
+        let position = match described {
+            Some(EmitterKind::Point { position, .. }) => Some(*position),
+            Some(EmitterKind::Spot { to_world, .. }) => Some(to_world.translation),
+            _ => None,
+        };
+        position.map_or(Ok(()), |p| check_distance(p, to_scene, &emitter.name))?;
+        let emission = match (described, &emitter.kind) {
+            (None, Kind::Area(area)) => area.radiance,
+            (Some(kind), _) => brightest(kind),
+            (None, _) => continue,
+        };
+        let placed = if let Kind::Spot(spot) = &emitter.kind { spot.frame.normal.is_finite() } else { true };
+        if !(emission.is_finite() && placed) {
+            return Err(BuildError::NotFinite(name()));
+        }
+        let emission = f64::from(emission.max_component());
+        // Intensities are in scene units here, radiances are the same in all units.
+        let unit = if position.is_some() { to_scene.scale() * to_scene.scale() } else { 1.0 };
+        if !emitter.power().is_finite() {
+            let most = f64::from(f32::MAX) / (f64::from(emitter.power_factor()) * unit * HEADROOM);
+            return Err(BuildError::TooBright { name: name(), emission, most });
+        }
+        let least = f64::from(f32::MIN_POSITIVE) / unit;
+        if emission > 0.0 && emission < least && position.is_some() {
+            return Err(BuildError::TooDim { name: name(), emission, least });
+        }
+    }
+    Ok(())
+}
+
+/// The largest components of what an emitter emits, in the file's unit.
+fn brightest(kind: &EmitterKind) -> Rgb {
+    match kind {
+        EmitterKind::Point { intensity: c, .. }
+        | EmitterKind::Spot { intensity: c, .. }
+        | EmitterKind::Constant { radiance: c }
+        | EmitterKind::Directional { irradiance: c, .. } => *c,
+        // NaN is no largest of any: a sum has it.
+        EmitterKind::Environment { bitmap, scale, .. } => {
+            let pixels = || bitmap.pixels.iter().map(|&p| p * *scale);
+            if pixels().all(Rgb::is_finite) {
+                Rgb::splat(pixels().fold(0.0, |most, p| p.max_component().max(most)))
+            } else {
+                Rgb::splat(f32::NAN)
+            }
+        }
+    }
+}
+
+/// Whether a light or a camera is so near that its distance from a surface is a number.
+fn check_distance(world: DVec3, to_scene: &Normalisation, name: &str) -> Result<(), BuildError> {
+    if !world.is_finite() {
+        return Err(BuildError::NotFinite(name.to_owned()));
+    }
+    let distance = to_scene.distance(world);
+    if distance < FARTHEST {
+        Ok(())
+    } else {
+        Err(BuildError::TooFar { name: name.to_owned(), times: distance / Normalisation::HALF_SIZE })
+    }
 }
 
 /// Whether a colour may be a share of light: NaN is not.
@@ -108,52 +194,57 @@ pub(super) fn check_material(material: &Material, description: &SceneDescription
     if good { Ok(()) } else { Err(BuildError::BadMaterial(material.name.clone())) }
 }
 
-/// The corners of all surfaces in world units, but of what is left out of the scene: vertices of no triangle that has area. The
-/// origin where there are none.
+/// The corners of a surface in world units, but of what is left out of the scene: vertices of no triangle that has area. Not finite
+/// where any of its points is not.
+pub(super) fn shape_bounds(shape: &ShapeDescription) -> (DVec3, DVec3) {
+    let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let mut finite = true;
+    let mut add = |p: DVec3, is_seen: bool| {
+        finite &= p.is_finite();
+        if is_seen {
+            min = min.min(p);
+            max = max.max(p);
+        }
+    };
+    let scale = shape.to_world.matrix3.x_axis.length();
+    let around = |c: DVec3, r: f64| [c - r, c + r];
+    match &shape.geometry {
+        Geometry::Mesh(mesh) => {
+            let mut is_used = vec![false; mesh.positions.len()];
+            for triangle in mesh.triangles.iter().filter(|t| mesh.has_area(**t)) {
+                triangle.iter().for_each(|&i| is_used[i as usize] = true);
+            }
+            for (&p, is_used) in mesh.positions.iter().zip(is_used) {
+                add(shape.to_world.transform_point3(p), is_used);
+            }
+        }
+        Geometry::Sphere { centre, radius } => {
+            around(shape.to_world.transform_point3(*centre), radius * scale)
+                .into_iter()
+                .for_each(|p| add(p, true));
+        }
+        Geometry::Disc => {
+            around(shape.to_world.translation, scale).into_iter().for_each(|p| add(p, true));
+        }
+        Geometry::Cylinder { from, to, radius } => {
+            for end in [from, to].map(|&p| shape.to_world.transform_point3(p)) {
+                around(end, radius * scale).into_iter().for_each(|p| add(p, true));
+            }
+        }
+    }
+    if finite { (min, max) } else { (DVec3::NAN, DVec3::NAN) }
+}
+
+/// The corners of all surfaces in world units; the origin where there are none.
 pub(super) fn world_bounds(description: &SceneDescription) -> Result<(DVec3, DVec3), BuildError> {
     let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for shape in &description.shapes {
-        let mut finite = true;
-        let mut add = |p: DVec3, is_seen: bool| {
-            finite &= p.is_finite();
-            if is_seen {
-                min = min.min(p);
-                max = max.max(p);
-            }
-        };
-        match &shape.geometry {
-            Geometry::Mesh(mesh) => {
-                let mut is_used = vec![false; mesh.positions.len()];
-                for triangle in mesh.triangles.iter().filter(|t| mesh.has_area(**t)) {
-                    triangle.iter().for_each(|&i| is_used[i as usize] = true);
-                }
-                for (&p, is_used) in mesh.positions.iter().zip(is_used) {
-                    add(shape.to_world.transform_point3(p), is_used);
-                }
-            }
-            Geometry::Sphere { centre, radius } => {
-                let c = shape.to_world.transform_point3(*centre);
-                let r = radius * shape.to_world.matrix3.x_axis.length();
-                add(c - r, true);
-                add(c + r, true);
-            }
-            Geometry::Disc => {
-                let c = shape.to_world.translation;
-                let r = shape.to_world.matrix3.x_axis.length();
-                add(c - r, true);
-                add(c + r, true);
-            }
-            Geometry::Cylinder { from, to, radius } => {
-                let r = radius * shape.to_world.matrix3.x_axis.length();
-                for end in [from, to].map(|&p| shape.to_world.transform_point3(p)) {
-                    add(end - r, true);
-                    add(end + r, true);
-                }
-            }
-        }
-        if !finite {
+        let (low, high) = shape_bounds(shape);
+        if low.is_nan() {
             return Err(BuildError::NotFinite(shape.name.clone()));
         }
+        min = min.min(low);
+        max = max.max(high);
     }
     if min.cmpgt(max).any() { Ok((DVec3::ZERO, DVec3::ZERO)) } else { Ok((min, max)) }
 }

@@ -40,18 +40,20 @@ pub(super) fn unattached_emitter(
     to_scene: &Normalisation,
     (scene, casters): (Ball, Option<Ball>),
 ) -> Emitter {
-    // Irradiance is intensity over squared distance, so intensity grows with the square of the scale.
-    let scale2 = (to_scene.scale() * to_scene.scale()) as f32;
+    // Irradiance is intensity over squared distance, so intensity grows with the square of the scale. That may be no number of
+    // single precision where what it makes of an intensity is one.
+    let scale2 = to_scene.scale() * to_scene.scale();
+    let scaled = |intensity: Rgb| intensity.map(|c| (f64::from(c) * scale2) as f32);
     let kind = match &description.kind {
         EmitterKind::Point { position, intensity } => {
-            Kind::Point { position: to_scene.point(*position), intensity: *intensity * scale2 }
+            Kind::Point { position: to_scene.point(*position), intensity: scaled(*intensity) }
         }
         EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees } => {
             let axis = to_world.matrix3.z_axis.normalize().as_vec3();
             Kind::Spot(Spot {
                 position: to_scene.point(to_world.translation),
                 frame: Frame::from_normal(axis),
-                intensity: *intensity * scale2,
+                intensity: scaled(*intensity),
                 cutoff: cutoff_degrees.to_radians() as f32,
                 beam: beam_degrees.min(*cutoff_degrees).to_radians() as f32,
             })

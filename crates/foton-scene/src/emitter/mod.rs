@@ -78,24 +78,26 @@ impl Emitter {
     /// Power per channel (W).
     #[must_use]
     pub fn power(&self) -> Rgb {
-        match &self.kind {
-            Kind::Area(a) => a.radiance * (PI * a.area),
-            Kind::Point { intensity, .. } => *intensity * (4.0 * PI),
-            Kind::Spot(s) => s.power(),
-            Kind::Constant { radiance, scene } => *radiance * (4.0 * PI * scene.cross_section()),
-            Kind::Directional { irradiance, scene, .. } => *irradiance * scene.cross_section(),
-            Kind::Environment { map, scene } => map.total() * scene.cross_section(),
-        }
+        let emission = match &self.kind {
+            Kind::Area(a) => a.radiance,
+            Kind::Point { intensity, .. } => *intensity,
+            Kind::Spot(s) => s.intensity,
+            Kind::Constant { radiance, .. } => *radiance,
+            Kind::Directional { irradiance, .. } => *irradiance,
+            Kind::Environment { map, .. } => map.total(),
+        };
+        emission * self.power_factor()
     }
 
-    /// Whether its power and place are numbers.
-    pub(crate) fn is_finite(&self) -> bool {
-        let placed = match &self.kind {
-            Kind::Point { position, .. } => position.is_finite(),
-            Kind::Spot(s) => s.position.is_finite() && s.frame.normal.is_finite(),
-            _ => true,
-        };
-        placed && self.power().is_finite()
+    /// Its power for each unit of what it emits; for a map, of its integral.
+    pub(crate) fn power_factor(&self) -> f32 {
+        match &self.kind {
+            Kind::Area(a) => PI * a.area,
+            Kind::Point { .. } => 4.0 * PI,
+            Kind::Spot(s) => s.power_factor(),
+            Kind::Constant { scene, .. } => 4.0 * PI * scene.cross_section(),
+            Kind::Directional { scene, .. } | Kind::Environment { scene, .. } => scene.cross_section(),
+        }
     }
 
     /// Whether light comes from a single point or direction, which rays cannot hit.
@@ -253,7 +255,7 @@ fn from_point(emitter: Vec3, position: Vec3, intensity: Rgb) -> Option<Illuminat
 
 impl Spot {
     /// Relative intensity: 1 inside the beam, falling linearly with the angle to 0 at the cutoff, as in Mitsuba 3.
-    fn falloff(&self, direction: Vec3) -> f32 {
+    pub(crate) fn falloff(&self, direction: Vec3) -> f32 {
         let local = self.frame.to_local(direction);
         let angle = local.x.hypot(local.y).atan2(local.z);
         if angle >= self.cutoff {
@@ -281,10 +283,10 @@ impl Spot {
         Emission { origin: self.position, direction, power: self.intensity * (self.falloff(direction) / pdf) }
     }
 
-    /// ∫ I dω = 2π I (1 − cos b + ∫_b^c (c − θ)/(c − b) sin θ dθ), and the integral is cos b − (sin c − sin b)/(c − b).
-    fn power(&self) -> Rgb {
+    /// ∫ I dω / I = 2π (1 − cos b + ∫_b^c (c − θ)/(c − b) sin θ dθ), and the integral is cos b − (sin c − sin b)/(c − b).
+    fn power_factor(&self) -> f32 {
         let (c, b) = (f64::from(self.cutoff), f64::from(self.beam));
         let fade = if c > b { b.cos() - (c.sin() - b.sin()) / (c - b) } else { 0.0 };
-        self.intensity * (2.0 * std::f64::consts::PI * (1.0 - b.cos() + fade)) as f32
+        (2.0 * std::f64::consts::PI * (1.0 - b.cos() + fade)) as f32
     }
 }

@@ -6,6 +6,7 @@
 mod contacts;
 mod descriptions;
 mod double;
+mod far;
 mod patches;
 mod ray_origins;
 mod reference;

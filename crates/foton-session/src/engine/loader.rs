@@ -8,8 +8,8 @@ use std::thread;
 
 use crossbeam_channel::{Receiver, Sender, bounded};
 use foton_integrator::Settings;
-use foton_scene::Scene;
 use foton_scene::description::SceneDescription;
+use foton_scene::{BuildError, Scene};
 
 use super::command::Source;
 use crate::metadata::SceneIdentity;
@@ -37,6 +37,11 @@ pub trait Loader: Send + Sync + 'static {
     /// # Errors
     /// Everything that is wrong with it, each fault with its place, a line each.
     fn open(&self, source: &Source) -> Result<Loaded, String>;
+
+    /// Why what was opened makes no scene: with its place, where the loader knows it.
+    fn why_not_built(&self, loaded: &Loaded, cause: &BuildError) -> String {
+        format!("{}: {cause}", loaded.identity.name)
+    }
 
     /// Writes a scene as it is after edits to a file, given its [`Loaded::origin`]; returns what there is to know about it.
     ///
@@ -91,7 +96,7 @@ fn open(loader: &dyn Loader, source: Source, sender: &Sender<Result<Box<Ready>, 
 fn open_and_build(loader: &dyn Loader, source: Source) -> Result<Box<Ready>, String> {
     loader.open(&source).and_then(|loaded| {
         let built = Scene::build(&loaded.description);
-        let scene = built.map_err(|cause| format!("{}: {cause}", loaded.identity.name))?;
+        let scene = built.map_err(|cause| loader.why_not_built(&loaded, &cause))?;
         Ok(Box::new(Ready { source, loaded, scene: Arc::new(scene) }))
     })
 }

@@ -395,6 +395,7 @@ impl Worker {
                 }
                 return self.refuse(panic.to_string());
             }
+            Err(PassError::NotFinite(place)) => return self.refuse(place.to_string()),
         };
         self.unseen = true;
         if !render.is_whole() {

@@ -5,9 +5,11 @@
 #[cfg(debug_assertions)]
 mod faults;
 mod refusals;
+mod resuming;
 mod scene_says;
 #[cfg(unix)]
 mod signals;
+mod strict;
 #[cfg(target_os = "linux")]
 mod write_faults;
 
@@ -17,7 +19,7 @@ use std::process::{Command, Output, Stdio};
 use std::sync::Arc;
 
 use foton_film::{Image, LayerData, Metadata, ToneMap, read_exr, write_exr, write_png};
-use foton_integrator::{LayerKind, Settings};
+use foton_integrator::{Alpha, Change, LayerKind, Settings};
 use foton_scene::Scene;
 use foton_session::{Interrupt, Session, StopRule};
 use serde_json::{Value, json};

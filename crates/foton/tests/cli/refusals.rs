@@ -44,6 +44,7 @@ fn bad_usage_exits_with_2_and_writes_nothing() {
         "--threads 0",
         "--every 0",
         "--layers shadow",
+        "--layers direct,direct",
         "--memory much",
         "-D nothing",
         "--integrator bdpt",
@@ -55,6 +56,30 @@ fn bad_usage_exits_with_2_and_writes_nothing() {
         folder.fails(2, &format!("render {arguments}"));
     }
     assert_eq!(folder.images(), [""; 0]);
+}
+
+/// Options that cannot both be had are refused before anything is rendered, and what would help is said.
+#[test]
+fn options_that_contradict_each_other_are_refused_at_once() {
+    let folder = Folder::new("contradictions");
+    let png = "x.png is a PNG, and only an EXR holds layers; write to x.exr instead";
+    for (arguments, named) in [
+        ("-o x.png --layers direct", png),
+        ("-o x.png --layers radius,emission", png),
+        ("-o x.exr --layers direct,direct", "--layers names direct twice"),
+        ("-o x.exr --layers direct,radius,caustic,radius", "--layers names radius twice"),
+        ("-o x.exr --layers shape_id --layers shape_id", "--layers names shape_id twice"),
+        ("-o x.exr --layers direct,error_bias --error off", "--layers error_bias: --error off leaves out"),
+        ("-o x.exr --checkpoint x.exr", "--checkpoint x.exr is the image, too"),
+        ("-o ./x.exr --resume x.exr", "--resume x.exr is the image, too"),
+        ("-o x.exr --checkpoint ./scene.xml", "--checkpoint ./scene.xml is the scene, too"),
+    ] {
+        let said = folder.fails(2, &format!("render scene.xml --passes 1 --photons 500 {arguments}"));
+        assert!(said.contains(named), "{arguments}: {said}");
+    }
+    assert_eq!(folder.images(), [""; 0]);
+    assert_eq!(folder.bytes("scene.xml"), SCENE.as_bytes());
+    folder.done("render scene.xml --passes 1 --photons 500 -o x.exr --layers direct,error_bias,radius");
 }
 
 #[test]

@@ -103,7 +103,7 @@ fn photons_that_are_dropped_are_warned_of_with_their_light() {
     let dropped = done["ledger"]["dropped_photons"].as_u64().expect("a count");
     assert!(dropped > 1000, "{dropped}");
     let line = said.iter().find(|line| line.contains("dropped")).expect("a warning");
-    let start = format!("{dropped} photons were dropped because their power was not finite: ");
+    let start = format!("{dropped} photons or sums of them were dropped because they were not finite: ");
     let places = line.strip_prefix(&start).unwrap_or_else(|| panic!("{line}"));
     let [one, two] = ["one", "two"].map(|id| {
         let before = places.split(", ").find_map(|place| place.strip_suffix(&format!(" at \"{id}\"")));
@@ -133,6 +133,49 @@ fn what_a_scene_cannot_have_in_single_precision_is_said_by_name() {
     assert!(
         said.len() == 1 && said[0].starts_with("--radius is larger than the whole scene and is cut to that")
     );
+}
+
+/// What is wrong with a light or too far away is said with the place of its element.
+#[test]
+fn what_single_precision_does_not_hold_is_said_with_its_place() {
+    let folder = Folder::new("places-of-parts");
+    let end = SCENE.lines().count();
+    let lamp = |emission: &str, position: &str| {
+        format!(
+            "<emitter type=\"point\" id=\"star\"><point name=\"position\" value=\"{position}\"/>\
+             <rgb name=\"intensity\" value=\"{emission}\"/></emitter>"
+        )
+    };
+    let write =
+        |part: &str| folder.write("scene.xml", &SCENE.replace("</scene>", &format!("  {part}</scene>")));
+    write(&lamp("1e37", "0, 1, 0"));
+    let said = folder.fails(1, "render scene.xml -o x.exr --passes 1");
+    let start =
+        format!("error: scene.xml:{end}:3: \"star\" emits more than single precision holds: of its 1.0e37, ");
+    assert!(said.contains(&start) && said.contains("can take up to about"), "{said}");
+    let output = folder.run("render scene.xml -o x.exr --passes 1 --json");
+    let event = &events(&output.stdout)[0];
+    assert_eq!(
+        (&event["event"], &event["line"], &event["column"]),
+        (&json!("error"), &json!(end), &json!(3))
+    );
+    write(&lamp("1", "0, 1e30, 0"));
+    let said = folder.fails(1, "render scene.xml -o x.exr --passes 1");
+    assert!(said.contains(&format!("error: scene.xml:{end}:3: \"star\" is ")), "{said}");
+    assert!(said.contains("bring it nearer"), "{said}");
+    assert_eq!(folder.images(), [""; 0]);
+    write(&lamp("1e8", "0, 1e4, 0"));
+    for command in ["render scene.xml -o x.exr --passes 1 --photons 1000", "info scene.xml"] {
+        let said = text(&folder.done(command).stderr);
+        let start =
+            format!("warning: scene.xml:{end}:3: \"star\" is 2e3 times as far away as the scene is large, ");
+        assert!(said.contains(&start) && said.contains("irradiance \"1"), "{said}");
+    }
+    // An included part has the place of its <include>.
+    folder.write("part.xml", &format!("<scene version=\"3.0.0\">\n\n\n{}</scene>", lamp("1e37", "0, 1, 0")));
+    write("<include filename=\"part.xml\"/>");
+    let said = folder.fails(1, "render scene.xml -o x.exr --passes 1");
+    assert!(said.contains(&format!("error: scene.xml:{end}:3: \"star\"")), "{said}");
 }
 
 #[test]

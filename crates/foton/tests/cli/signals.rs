@@ -56,7 +56,10 @@ fn a_terminated_render_leaves_its_image_and_a_checkpoint_that_goes_on_with_the_s
     assert!(folder.exr("on.exr").0 == folder.exr("straight.exr").0);
     // What does not fit is said, and no image is made of it.
     let said = folder.fails(1, &format!("{render} -o no.exr --resume x.ck --seed 7"));
-    assert!(said.contains("x.ck: the checkpoint is of another scene or of other settings"), "{said}");
+    assert!(
+        said.contains("x.ck: the checkpoint was made with seed 0, not 7, which cannot change on the way"),
+        "{said}"
+    );
     let said = folder.fails(1, &format!("{render} -o no.exr --resume nowhere.ck"));
     assert!(said.contains("nowhere.ck: No such file"), "{said}");
     folder.write("scene.xml", &SCENE.replace("0.7", "0.6"));

@@ -7,6 +7,7 @@ const SCENE: &str = "-p foton-scene --lib";
 const FORMAT: &str = "-p foton-format --lib";
 const MESHES: &str = "-p foton-format --test meshes";
 const PICTURES: &str = "-p foton-format --test pictures";
+const BAD_FILES: &str = "-p foton-format --test bad_files";
 const INTEGRATOR: &str = "-p foton-integrator --lib";
 const ANALYTIC: &str = "-p foton-tests --test analytic";
 const LEDGER: &str = "-p foton-tests --test ledger";
@@ -382,5 +383,101 @@ pub(super) const LIST: &[Mutation] = &[
         to: "s.steps_across < 0.0",
         target: CLI,
         test: "what_a_scene_cannot_have_in_single_precision_is_said_by_name",
+    },
+    Mutation {
+        what: "surfaces that leave the rest without coordinates are named",
+        file: "crates/foton-scene/src/far.rs",
+        from: "let first = (1..reaches.len()).find(|&i| apart(i))?;",
+        to: "let first = (1..reaches.len()).find(|&i| apart(i) && i > reaches.len())?;",
+        target: GEOMETRY,
+        test: "what_leaves_the_rest_without_coordinates_is_named",
+    },
+    Mutation {
+        what: "lights far away are named",
+        file: "crates/foton-scene/src/far.rs",
+        from: "if near || intensity.is_black() {",
+        to: "if near || !intensity.is_black() {",
+        target: GEOMETRY,
+        test: "lights_and_cameras_far_away_are_named_with_the_light_that_would_do",
+    },
+    Mutation {
+        what: "distances have squares",
+        file: "crates/foton-scene/src/build/checks.rs",
+        from: "if distance < FARTHEST {",
+        to: "if distance < f64::INFINITY {",
+        target: GEOMETRY,
+        test: "what_no_number_holds_is_refused_by_name_and_with_what_would_do",
+    },
+    Mutation {
+        what: "intensities are scaled in double precision",
+        file: "crates/foton-scene/src/build/emitters.rs",
+        from: "intensity.map(|c| (f64::from(c) * scale2) as f32);",
+        to: "intensity * (scale2 as f32);",
+        target: ANALYTIC,
+        test: "lights_without_extent_shine_in_any_unit",
+    },
+    Mutation {
+        what: "what makes no scene has its place",
+        file: "crates/foton/src/talk.rs",
+        from: "Self::Build(opened.finding(Severity::Error, scene, cause.part(), cause.to_string()))",
+        to: "Self::Build(opened.finding(Severity::Error, scene, None, cause.to_string()))",
+        target: CLI,
+        test: "what_single_precision_does_not_hold_is_said_with_its_place",
+    },
+    Mutation {
+        what: "options that contradict each other are refused",
+        file: "crates/foton/src/args/together.rs",
+        from: "self.layers_in_vain().or_else(|| self.file_in_two_roles())",
+        to: "self.file_in_two_roles()",
+        target: CLI,
+        test: "options_that_contradict_each_other_are_refused_at_once",
+    },
+    Mutation {
+        what: "sums of photons are finite",
+        file: "crates/foton-integrator/src/gather.rs",
+        from: "if !out.is_finite() {",
+        to: "if false {",
+        target: ANALYTIC,
+        test: "what_all_photons_together_bring_to_a_hit_point",
+    },
+    Mutation {
+        what: "a strict render stops",
+        file: "crates/foton-integrator/src/ppm.rs",
+        from: "if !self.strict {",
+        to: "if self.strict {",
+        target: CLI,
+        test: "the_first_value_that_is_not_finite_ends_a_strict_render_with_its_place",
+    },
+    Mutation {
+        what: "the place is that of the first task",
+        file: "crates/foton-integrator/src/batch.rs",
+        from: "self.left_out = self.left_out.or(chunk.left_out);",
+        to: "self.left_out = chunk.left_out.or(self.left_out);",
+        target: ANALYTIC,
+        test: "a_photon_that_leaves_its_light_with_no_number",
+    },
+    Mutation {
+        what: "options change a resumed render",
+        file: "crates/foton/src/job.rs",
+        from: "session.ppm_mut().change(change);",
+        to: "",
+        target: CLI,
+        test: "alpha_photons_and_presets_change_a_resumed_render_from_the_next_pass_on",
+    },
+    Mutation {
+        what: "what must be the same in a checkpoint is",
+        file: "crates/foton-session/src/checkpoint/fixed.rs",
+        from: "if kept == here {",
+        to: "if kept == here || kept.len() > 1 {",
+        target: CLI,
+        test: "what_cannot_change_on_the_way_is_refused_by_name",
+    },
+    Mutation {
+        what: "versions that are not known are said",
+        file: "crates/foton-format/src/include.rs",
+        from: "if major > NEWEST {",
+        to: "if major == u32::MAX {",
+        target: BAD_FILES,
+        test: "versions_that_are_not_known_are_said",
     },
 ];

@@ -1,0 +1,88 @@
+//! What must be the same in a render that goes on from a checkpoint. It stands in the file by name, so that whoever has changed
+//! something is told what.
+
+use foton_integrator::{DirectLight, Ppm};
+
+use crate::metadata::SceneIdentity;
+
+/// The name of the scene's hash, which no option sets.
+const SCENE: &str = "scene";
+
+/// A line for each: its name, which is that of its option, and its value.
+pub(super) fn of(ppm: &Ppm, scene: &SceneIdentity) -> String {
+    let s = ppm.settings();
+    let sensor = &ppm.scene().sensors()[s.sensor];
+    let radius = match s.radius {
+        Some(radius) => format!("{radius}*{}", s.radius_scale),
+        None => format!("x{}", s.radius_scale),
+    };
+    let direct = if s.direct_light == DirectLight::ShadowRays { "shadow-rays" } else { "photons" };
+    let lines = [
+        (SCENE, format!("{:016x}", scene.hash)),
+        ("sensor", sensor.name.replace('\n', " ")),
+        ("size", format!("{}x{}", sensor.width, sensor.height)),
+        ("seed", s.seed.to_string()),
+        ("spp", s.samples_per_pixel.to_string()),
+        ("radius", radius),
+        ("radius-rule", s.radius_rule.name().to_owned()),
+        ("radius-floor", s.radius_floor.to_string()),
+        ("direct", direct.to_owned()),
+        ("max-depth", Ppm::max_depth(ppm.scene(), s).to_string()),
+        ("kinds of light", (if s.layers { "kept apart" } else { "summed" }).to_owned()),
+        ("error", (if s.error { "estimated" } else { "off" }).to_owned()),
+        ("photons of the first pass", s.first_pass.to_string()),
+        ("hit points a sample", s.hit_points_per_sample.to_string()),
+        ("hit points", ppm.start_report().hit_points.to_string()),
+    ];
+    lines.map(|(name, value)| format!("{name}={value}\n")).concat()
+}
+
+/// What differs between a checkpoint's lines and those of a render, in words; `None` if nothing does.
+pub(super) fn difference(kept: &str, here: &str) -> Option<String> {
+    if kept == here {
+        return None;
+    }
+    let pairs = |text: &str| -> Vec<(String, String)> {
+        let pairs = text.lines().filter_map(|line| line.split_once('='));
+        pairs.map(|(name, value)| (name.to_owned(), value.to_owned())).collect()
+    };
+    let (kept, here) = (pairs(kept), pairs(here));
+    let mut differing = kept.iter().zip(&here).filter(|(kept, here)| kept != here).peekable();
+    match differing.peek() {
+        Some(((name, _), _)) if name == SCENE => {
+            Some("is of another scene: its file, a file that it names, or a parameter is another".to_owned())
+        }
+        // Hit points differ along with anything that makes others of them.
+        Some(_) => {
+            let all: Vec<String> =
+                differing.map(|((name, kept), (_, here))| format!("{name} {kept}, not {here}")).collect();
+            let caused = if all.len() > 1 {
+                all.iter().filter(|d| !d.starts_with("hit points ")).cloned().collect()
+            } else {
+                all
+            };
+            Some(format!("was made with {}, which cannot change on the way", caused.join("; ")))
+        }
+        None => Some("is of another render".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_differs_is_said_by_name() {
+        let kept = "scene=12\nseed=7\nspp=2\nhit points=5\n";
+        let said = |here: &str| difference(kept, here);
+        assert_eq!(said(kept), None);
+        let seed = "was made with seed 7, not 0, which cannot change on the way";
+        assert_eq!(said("scene=12\nseed=0\nspp=2\nhit points=5\n").as_deref(), Some(seed));
+        let both = "was made with seed 7, not 0; spp 2, not 4, which cannot change on the way";
+        assert_eq!(said("scene=12\nseed=0\nspp=4\nhit points=9\n").as_deref(), Some(both));
+        let points = "was made with hit points 5, not 9, which cannot change on the way";
+        assert_eq!(said("scene=12\nseed=7\nspp=2\nhit points=9\n").as_deref(), Some(points));
+        assert!(said("scene=13\nseed=0\nspp=2\nhit points=5\n").is_some_and(|s| s.contains("another scene")));
+        assert_eq!(said("").as_deref(), Some("is of another render"));
+    }
+}
