@@ -128,6 +128,11 @@ impl Scene {
             return Err(BuildError::NotFinite(bad.name.clone()));
         }
         let mut scene = gathered.into_scene(normalisation, bounds);
+        for emitter in &mut emitters {
+            if let Kind::Area(area) = &mut emitter.kind {
+                area.gap = scene.coincidences.gap(area.shape as usize);
+            }
+        }
         scene.shapes = shapes;
         scene.textures = description.textures.iter().map(Sampler::new).collect();
         scene.materials.clone_from(&description.materials);

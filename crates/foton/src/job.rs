@@ -175,6 +175,12 @@ pub(crate) fn build(
             shape.name, shape.steps_across
         ));
     }
+    for [over, under] in scene.hidden_shapes() {
+        let [over, under] = [over, under].map(|shape| &scene.shapes()[shape as usize].name);
+        talk.warning(&format!(
+            "\"{under}\" lies exactly in \"{over}\", which hides it there: of two opaque surfaces the first in the file counts"
+        ));
+    }
     if census.narrow_gloss {
         talk.note("gloss of roughness up to 0.1 is followed in directions chosen once: its noise stays; --spp lowers it");
     }
