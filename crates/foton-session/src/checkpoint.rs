@@ -17,7 +17,7 @@ use crate::metadata::SceneIdentity;
 use crate::session::Session;
 
 const MAGIC: [u8; 8] = *b"fotonPPM";
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 const HEADER: usize = 8 + 4 + 4 * 8;
 const TRAILER: usize = 8;
 

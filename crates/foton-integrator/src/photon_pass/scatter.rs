@@ -131,7 +131,9 @@ impl PhotonPass<'_> {
         }
         chunk.ledger.absorbed += left_out(path.power, weight);
         if correction != 1.0 {
-            chunk.ledger.shading_normals += left_out(scattered, Rgb::splat(correction));
+            let lost = left_out(scattered, Rgb::splat(correction));
+            chunk.ledger.shading_normals += lost;
+            chunk.ledger.shading_gain += (-lost).max(0.0);
         }
         if corrected.is_black() {
             return;
