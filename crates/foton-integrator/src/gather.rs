@@ -287,8 +287,8 @@ fn collect_gloss<const LAYERS: usize, const MOMENTS: u8>(
         let offset = if MOMENTS >= ADAPTIVE { offsets(packet, photon) } else { [[0.0; LANES]; 3] };
         let layer = &mut found.flux[Found::<LAYERS>::layer(photon)];
         for l in (0..LANES).filter(|&l| counts[l] != 0) {
+            let Some(gloss) = gloss[l].as_ref().filter(|g| g.takes(photon)) else { continue };
             found.count[l] += 1;
-            let Some(gloss) = &gloss[l] else { continue };
             let geometric = face.cosine(wi, packet, (gloss.frame.normal / 127.0).to_array(), l).abs() * 127.0;
             let shading = wi.dot(gloss.frame.normal).abs();
             let weighed = photon.power * gloss.eval(wi) * cosine_ratio(shading, geometric);
@@ -409,7 +409,8 @@ impl Face {
         let [nx, ny, nz] = [0, 1, 2].map(|axis| packet.normal[axis][l]);
         let [px, py, pz] = self.stored;
         let in_127ths = 127.0 * 127.0;
-        let off = (nx * in_127ths - px).abs().max((ny * in_127ths - py).abs()).max((nz * in_127ths - pz).abs());
+        let off =
+            (nx * in_127ths - px).abs().max((ny * in_127ths - py).abs()).max((nz * in_127ths - pz).abs());
         let plain = (nx == shading[0]) & (ny == shading[1]) & (nz == shading[2]);
         let own = w.x * nx + w.y * ny + w.z * nz;
         let stored = w.x * self.normal.x + w.y * self.normal.y + w.z * self.normal.z;

@@ -64,6 +64,8 @@ struct Path {
     ray: Ray,
     power: Rgb,
     class: PathClass,
+    /// See [`Photon::is_lone`].
+    lone: bool,
     /// Whether it was stored anywhere.
     stored: bool,
     /// Edges up to the end of `ray`.
@@ -160,6 +162,7 @@ impl PhotonPass<'_> {
             ray: Ray::new(start.origin, start.direction),
             power,
             class: PathClass::Direct,
+            lone: false,
             stored: false,
             edges: 1,
             emitter: emitter as u32,

@@ -214,6 +214,10 @@ impl Census {
             self.followed |= bsdf.follows() || material.opacity.is_some();
             self.refraction |= bsdf.transmits();
             self.narrow_gloss |= bsdf.follows() && bsdf.roughness().is_some();
+            self.single_directions |=
+                bsdf.follows() && bsdf.roughness().is_none() && !matches!(bsdf, Bsdf::Null);
+            self.straight |=
+                material.opacity.is_some() || matches!(bsdf, Bsdf::Null | Bsdf::ThinDielectric { .. });
             self.rough_coats |= matches!(bsdf, Bsdf::Plastic { roughness: Some(_), .. });
             self.kept_gloss |= bsdf.keeps() && !matches!(bsdf, Bsdf::Diffuse { .. });
         }

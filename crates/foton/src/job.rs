@@ -184,9 +184,9 @@ pub(crate) fn build(
     if census.narrow_gloss {
         talk.note("gloss of roughness up to 0.1 is followed in directions chosen once: its noise stays; --spp lowers it");
     }
-    if census.has_narrow_highlights() && census.refraction {
+    if census.has_narrow_caustics() {
         talk.note(
-            "light of points, spots and suns that reaches such gloss through glass is not found by any path",
+            "light of points, spots and suns that mirrors or glass throw on such gloss comes as photons: the narrower, the noisier",
         );
     }
     if census.emitters == 0 {

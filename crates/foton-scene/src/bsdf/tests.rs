@@ -90,7 +90,7 @@ fn weights_are_value_times_cosine_over_density() {
                 let Some(sample) = sample else { continue };
                 assert!((sample.wi.length() - 1.0).abs() < 1e-4 && sample.weight.is_finite(), "{s:?} {wo}");
                 let rough_lobe = s.bsdf.roughness().is_some();
-                let delta = sample.lobe == Lobe::Followed && !rough_lobe;
+                let delta = sample.lobe != Lobe::Kept && !rough_lobe;
                 // Lobes of a smooth coat and its base are weighed apart, and so are those of a thin layer of opacity.
                 if delta || s.opacity < 1.0 || matches!(s.bsdf, Bsdf::Plastic { roughness: None, .. }) {
                     continue;
