@@ -320,6 +320,28 @@ fn light_by_mirrors_and_through_clear_things_shows_on_both_sides_of_the_followed
     }
 }
 
+/// Where there is a point, hit points of narrow lobes are there; they count nothing of a lamp, which followed paths find.
+#[test]
+fn photons_in_narrow_gloss_bring_only_what_followed_paths_cannot() {
+    let scene = |lamp: bool, point: bool| {
+        let s = Sketch::default()
+            .camera(DVec3::new(2.0, 3.0, 0.0), DVec3::ZERO, 16.0, 6)
+            .rectangle(DVec3::ZERO, DVec3::X * 2.0, DVec3::NEG_Z * 2.0, white_metal(0.09), None)
+            .rectangle(DVec3::new(-1.5, 1.5, 0.0), DVec3::NEG_Z * 1.5, DVec3::Y * 1.3, MIRROR, None)
+            .max_depth(8);
+        let s = if point { s.point(DVec3::new(-1.0, 1.2, 0.1), 100.0) } else { s };
+        if !lamp {
+            return s;
+        }
+        let radiance = 100.0 / (4.0 * PI * PI * 0.12 * 0.12);
+        s.sphere(DVec3::new(-1.0, 1.5, 0.0), 0.12, grey(0.0), Some(Rgb::splat(radiance as f32)))
+    };
+    let base = Settings { radius: Some(0.05), ..settings(30_000, 64) };
+    let [a, b, both] = [(true, false), (false, true), (true, true)]
+        .map(|(lamp, point)| seeds(&scene(lamp, point), &base, 2, 4));
+    near("both lights", both, (a.0 + b.0, a.1.hypot(b.1)), 0.02);
+}
+
 /// A lamp so small that it is nearly a point, which followed paths find by themselves: the hit points of narrow lobes, rough glass
 /// among them, add nothing to it, and a true point in its place gives the same light.
 #[test]

@@ -21,7 +21,7 @@ pub(crate) fn share(scene: &Scene, mut ray: Ray, edges: u32, rays: &mut u64) -> 
             return Rgb::BLACK;
         };
         let frame = scene.shading_frame(&surface, shading_normal_towards(&surface, wo));
-        share = share * scattering.straight(frame.to_local(wo));
+        share *= scattering.straight(frame.to_local(wo));
         if share.is_black() {
             return Rgb::BLACK;
         }

@@ -5,12 +5,15 @@ mod emitters;
 mod gather;
 mod memory;
 
+use std::sync::Arc;
+
 use foton_math::Aabb;
 use foton_math::glam::{DAffine3, DMat3, Mat3, Vec3};
 use thiserror::Error;
 
 use crate::bsdf::Coat;
 use crate::census::Census;
+use crate::coincident::Coincidences;
 use crate::description::{Bsdf, Colour, Material, SceneDescription, SensorDescription};
 use crate::emitter::{Emitter, Kind};
 use crate::normalise::Normalisation;
@@ -128,11 +131,6 @@ impl Scene {
             return Err(BuildError::NotFinite(bad.name.clone()));
         }
         let mut scene = gathered.into_scene(normalisation, bounds);
-        for emitter in &mut emitters {
-            if let Kind::Area(area) = &mut emitter.kind {
-                area.gap = scene.coincidences.gap(area.shape as usize);
-            }
-        }
         scene.shapes = shapes;
         scene.textures = description.textures.iter().map(Sampler::new).collect();
         scene.materials.clone_from(&description.materials);
@@ -141,6 +139,12 @@ impl Scene {
         }
         scene.lambertian =
             scene.shapes.iter().map(|s| scene.materials[s.material as usize].lambertian()).collect();
+        scene.coincidences = Arc::new(Coincidences::find(&scene));
+        for emitter in &mut emitters {
+            if let Kind::Area(area) = &mut emitter.kind {
+                area.gap = scene.coincidences.gap(area.shape as usize);
+            }
+        }
         scene.max_depth = description.max_depth;
         scene.picture_bytes = description.picture_bytes();
         scene.sensors = description.sensors.iter().map(|s| Sensor::new(s, &normalisation)).collect();

@@ -178,7 +178,7 @@ pub(crate) fn build(
     for [over, under] in scene.hidden_shapes() {
         let [over, under] = [over, under].map(|shape| &scene.shapes()[shape as usize].name);
         talk.warning(&format!(
-            "\"{under}\" lies exactly in \"{over}\", which hides it there: of two opaque surfaces the first in the file counts"
+            "\"{under}\" lies exactly in \"{over}\", which hides it there: what is opaque counts before masks, then the first in the file"
         ));
     }
     if census.narrow_gloss {

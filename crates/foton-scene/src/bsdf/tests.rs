@@ -264,7 +264,7 @@ fn rough_lobes_become_smooth_ones_as_roughness_vanishes() {
 #[test]
 fn rough_metal_reflects_no_more_than_arrives_whatever_its_shading_normal() {
     let (rings, sectors) = (1200, 256);
-    for distribution in [MicrofacetDistribution::Ggx, MicrofacetDistribution::Beckmann] {
+    for distribution in [Ggx, Beckmann] {
         for alpha in [0.11f32, 0.3, 0.9] {
             let scattering = Scattering {
                 bsdf: Bsdf::Conductor {

@@ -8,7 +8,6 @@ use foton_math::glam::{DAffine3, DMat3, Vec2, Vec3};
 use super::BuildError;
 use crate::accel::Accel;
 use crate::census::Census;
-use crate::coincident::Coincidences;
 use crate::description::{Geometry, Mesh, ShapeDescription};
 use crate::discrete::Discrete;
 use crate::normalise::Normalisation;
@@ -146,12 +145,11 @@ impl Gathered {
 
     pub(super) fn into_scene(self, normalisation: Normalisation, bounds: Aabb) -> Scene {
         let (accel, order) = Accel::build(&self.primitives);
-        let shape_of: Arc<[u32]> = order.iter().map(|&i| self.shape_of[i as usize]).collect();
         let smooth = self.vertex_normals.iter().any(|n| n[0] != Vec3::ZERO);
         let ordered = order.iter().map(|&i| i as usize);
         Scene {
-            coincidences: Arc::new(Coincidences::find(&accel, &shape_of)),
-            shape_of,
+            coincidences: Arc::default(),
+            shape_of: ordered.clone().map(|i| self.shape_of[i]).collect(),
             vertex_uvs: ordered.clone().filter_map(|i| self.vertex_uvs.get(i).copied()).collect(),
             textures: Arc::default(),
             vertex_normals: if smooth {

@@ -141,7 +141,9 @@ fn of_two_opaque_surfaces_the_first_counts_where_it_is_described() {
         for thing in [of(BOTH, decal(place, true)), of(MIRROR, decal(place, false)), of(BOTH, disc(place))] {
             for shapes in [[of(BOTH, floor(place)), thing.clone()], [thing.clone(), of(BOTH, floor(place))]] {
                 let scene = scene(shapes.to_vec());
-                assert_eq!(scene.hidden_shapes().collect::<Vec<_>>(), [[0, 1]]);
+                // What faces the other way may be the bottom of something that stands there.
+                let named = usize::from(thing.material != MIRROR);
+                assert_eq!(scene.hidden_shapes().collect::<Vec<_>>(), [[0, 1]][..named]);
                 for above in [true, false] {
                     met(&scene, place, above, |_, hit| assert_eq!(hit.shape, 0, "{place}"));
                 }
