@@ -251,6 +251,9 @@ fn shadow_rays_see_through_what_photons_pass_straight() {
     }
 }
 
+/// A name, what is added to the scene, whether the sun shines, whether the gloss is a coat.
+type Way<'a> = (&'a str, &'a dyn Fn(Sketch) -> Sketch, bool, bool);
+
 /// Light of a point, a spot or the sun that comes by way of something clear shows in a lobe that is followed as in one that is kept.
 #[test]
 fn light_by_mirrors_and_through_clear_things_shows_on_both_sides_of_the_followed_roughness() {
@@ -302,7 +305,7 @@ fn light_by_mirrors_and_through_clear_things_shows_on_both_sides_of_the_followed
     let by_pane = |s: Sketch| wall(sheet(s, pane()), pane());
     let by_mask = |s: Sketch| masked(sheet(s, grey(0.0)), 0.5, true);
     let by_nothing = |s: Sketch| wall(sheet(s, Bsdf::Null), MIRROR);
-    let ways: [(&str, &dyn Fn(Sketch) -> Sketch, bool, bool); 7] = [
+    let ways: [Way<'_>; 7] = [
         ("mirror", &by_mirror, false, false),
         ("coat by a mirror", &by_mirror, false, true),
         ("sun by a mirror", &by_mirror, true, false),

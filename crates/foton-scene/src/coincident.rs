@@ -22,14 +22,19 @@ const MOST: usize = 8;
 
 /// What a primitive has in common with others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Share {
-    /// Nothing.
-    #[default]
-    None,
-    /// A part of its surface, where it counts from both sides.
-    Counts,
-    /// A part of its surface, where another may count or it is one boundary with another.
-    Unsettled,
+pub(crate) struct Share {
+    /// Whether a part of its surface.
+    pub(crate) any: bool,
+    /// Whether another may count there, or it is one boundary with another, for light from inside and from outside.
+    unsettled: [bool; 2],
+}
+
+impl Share {
+    /// Whether hits from a side are to be settled.
+    #[inline(always)]
+    pub(crate) const fn is_unsettled(self, outward: bool) -> bool {
+        self.unsettled[outward as usize]
+    }
 }
 
 /// The primitives that share a part of their surface with another.
@@ -64,7 +69,7 @@ impl Coincidences {
             return Self::default();
         }
         let count = shape_of.iter().max().map_or(0, |&s| s as usize + 1);
-        let (mut shared, mut gaps) = (vec![Share::None; primitives.len()], vec![0f32; count]);
+        let (mut shared, mut gaps) = (vec![Share::default(); primitives.len()], vec![0f32; count]);
         let mut shapes = Vec::with_capacity(pairs.len());
         for pair in pairs {
             let [a, b] = pair.map(|i| i as usize);
@@ -72,12 +77,10 @@ impl Coincidences {
             let normal = |i: usize| Sheet::of(&primitives[i], primitives[i].bounds().max.as_dvec3()).normal;
             let agree = normal(a).dot(normal(b)) > 0.0;
             for (i, other) in [(a, b), (b, a)] {
-                let counts = scene.always_counts(i, other, agree);
-                shared[i] = match shared[i] {
-                    Share::None if counts => Share::Counts,
-                    known if counts => known,
-                    _ => Share::Unsettled,
-                };
+                shared[i].any = true;
+                for outward in [false, true] {
+                    shared[i].unsettled[usize::from(outward)] |= !scene.counts(i, other, outward, agree);
+                }
                 gaps[shape_of[i] as usize] = gaps[shape_of[i] as usize].max(gap);
             }
             let mut pair = pair.map(|i| shape_of[i as usize]);
@@ -124,7 +127,7 @@ impl Scene {
         self.accel.for_each_near(&Aabb::around(hit.position, reach), |j| {
             let primitive = &primitives[j];
             let is_own = j as u32 == hit.primitive;
-            if !is_own && (self.coincidences.share(j as u32) == Share::None || !meet_at(own, primitive, p)) {
+            if !is_own && (!self.coincidences.share(j as u32).any || !meet_at(own, primitive, p)) {
                 return;
             }
             let sheet = Sheet::of(primitive, p);
@@ -165,16 +168,13 @@ impl Scene {
         }
     }
 
-    /// Whether of two primitives that share a part of a surface the first counts there from both sides, as it is.
-    fn always_counts(&self, first: usize, other: usize, agree: bool) -> bool {
+    /// Whether of two primitives that share a part of a surface the first counts there on a side of its own, as it is.
+    fn counts(&self, first: usize, other: usize, outward: bool, agree: bool) -> bool {
         let [shape, its_shape] = [first, other].map(|i| self.shape_of[i]);
         let fronts = [shape, its_shape].map(|s| self.material(s).front);
         let two_dielectrics = fronts.iter().all(|f| matches!(f, Bsdf::Dielectric { .. }));
-        let counts = |side: bool| {
-            let (rank, its_rank) = (self.rank(shape, side), self.rank(its_shape, side == agree));
-            rank > its_rank || rank == its_rank && (shape, first) < (its_shape, other)
-        };
-        !two_dielectrics && counts(true) && counts(false)
+        let (rank, its_rank) = (self.rank(shape, outward), self.rank(its_shape, outward == agree));
+        !two_dielectrics && (rank > its_rank || rank == its_rank && (shape, first) < (its_shape, other))
     }
 
     /// The indices inside and outside of a dielectric in which others lie, by its own normal.

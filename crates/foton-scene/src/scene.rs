@@ -8,7 +8,7 @@ use foton_math::{Aabb, Frame, Ray, Rgb};
 use crate::accel::{Accel, Hit};
 use crate::bsdf::{Coat, Scattering};
 use crate::census::Census;
-use crate::coincident::{Coincidences, Share};
+use crate::coincident::Coincidences;
 use crate::description::{Bsdf, Colour, Material};
 use crate::discrete::Discrete;
 use crate::emitter::{Emitter, Kind};
@@ -97,12 +97,11 @@ impl Scene {
     #[inline(always)]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
         let mut surface = self.surface_of(hit.primitive, hit.barycentric, ray.at(hit.t));
-        match self.coincidences.share(hit.primitive) {
-            Share::None => {}
-            Share::Counts => {
-                surface.error += surface.normal.abs() * self.coincidences.gap(surface.shape as usize);
-            }
-            Share::Unsettled => self.settle(ray, &mut surface),
+        let share = self.coincidences.share(hit.primitive);
+        if share.is_unsettled(ray.direction.dot(surface.normal) < 0.0) {
+            self.settle(ray, &mut surface);
+        } else if share.any {
+            surface.error += surface.normal.abs() * self.coincidences.gap(surface.shape as usize);
         }
         surface
     }
