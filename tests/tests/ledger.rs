@@ -1,10 +1,12 @@
 //! Where emitted power goes: each event is counted where it happens, and the sum must come out.
 
 use std::num::NonZeroU32;
+use std::sync::Arc;
 
 use foton_integrator::Settings;
 use foton_math::Rgb;
-use foton_math::glam::DVec3;
+use foton_math::glam::{DAffine3, DVec3};
+use foton_scene::description::{Geometry, Mesh};
 use foton_tests::{Sketch, glass, grey};
 
 fn settings() -> Settings {
@@ -66,6 +68,24 @@ fn a_closed_white_room_ends_by_the_depth_cap_and_says_so() {
     let ledger = *sketch.render(few, 1).ledger();
     assert!((ledger.truncated / ledger.emitted - 1.0).abs() < 1e-5, "{ledger:?}");
     assert_eq!(ledger.escaped, 0.0, "a closed room leaks nothing");
+}
+
+/// A tent whose normals lean over: photons gain at some angles and lose at others, and the ledger says both.
+#[test]
+fn what_photons_gain_at_interpolated_normals_is_a_line_of_its_own() {
+    let mut tent = Mesh::rectangle();
+    tent.normals = tent.positions.iter().map(|p| DVec3::new(0.5 * p.x, 0.5 * p.y, 0.5)).collect();
+    let sketch = open_box().shape(
+        Geometry::Mesh(Arc::new(tent)),
+        DAffine3::from_scale(DVec3::splat(0.5)),
+        grey(0.8),
+        None,
+    );
+    let leaning = *sketch.render(settings(), 1).ledger();
+    assert!(leaning.shading_gain > 1e-3 * leaning.emitted, "{leaning:?}");
+    assert!(leaning.shading_normals > -leaning.shading_gain && leaning.imbalance().abs() < ONE_BOUNCE);
+    let flat = *open_box().render(settings(), 1).ledger();
+    assert_eq!((flat.shading_normals, flat.shading_gain), (0.0, 0.0));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Direct light by shadow rays: one a hit point and pass, to an emitter chosen by power.
 //!
-//! Anything in between blocks, glass too: light through glass comes as photons.
+//! What lies in between blocks, but for surfaces that light passes straight through: thin glass, masks, nothing. Those weigh it,
+//! and photons that passed nothing else are direct light, too. Light that is bent on its way comes as photons.
 
 use foton_math::glam::Vec3;
 use foton_math::{Purpose, Ray, Rgb, Stream};
@@ -11,6 +12,7 @@ use crate::hit_point::{HitPoints, Irradiance, ShadowOrigin};
 use crate::not_finite::{LeftOut, Omissions, Quantity, Surface};
 use crate::packet::LANES;
 use crate::photon::PathClass;
+use crate::straight;
 
 /// Shadow rays end this share before a sampled point on a surface, which must not shadow itself.
 pub(crate) const SHORTENED: f32 = 1e-4;
@@ -40,8 +42,12 @@ pub(crate) fn add<const LAYERS: usize>(
                     continue;
                 }
                 let mut stream = Stream::new(seed, Purpose::ShadowRay, pass, slot as u64);
+                if hit_points.gloss(slot).is_some_and(|g| g.narrow) {
+                    continue;
+                }
                 let at = &hit_points.shadow_slots[slot];
-                if let Some((light, from)) = estimate(scene, at, &mut stream, &mut rays) {
+                let budget = packet.budget[slot % LANES] as u32;
+                if let Some((light, from)) = estimate(scene, at, budget, &mut stream, &mut rays) {
                     let value = hit_points.gloss(slot).map_or(Rgb::WHITE, |g| g.eval(from));
                     let term = light * value * photons as f32;
                     // A point light that lies on the surface is infinitely bright there.
@@ -64,8 +70,14 @@ pub(crate) fn add<const LAYERS: usize>(
         .reduce(|| (0, Omissions::default()), |a, b| (a.0 + b.0, a.1.followed_by(b.1)))
 }
 
-/// Irradiance from one sampled point of an emitter, and the direction it comes from.
-fn estimate(scene: &Scene, at: &ShadowOrigin, stream: &mut Stream, rays: &mut u64) -> Option<(Rgb, Vec3)> {
+/// Irradiance from one sampled point of an emitter by at most so many edges, and the direction it comes from.
+fn estimate(
+    scene: &Scene,
+    at: &ShadowOrigin,
+    edges: u32,
+    stream: &mut Stream,
+    rays: &mut u64,
+) -> Option<(Rgb, Vec3)> {
     let (emitter, probability) = scene.choose_emitter(f64::from(stream.next_1d()))?;
     let emitter = &scene.emitters()[emitter];
     let light = emitter.illuminate(at.origin, at.shading_normal, stream.next_1d(), stream.next_2d())?;
@@ -73,12 +85,13 @@ fn estimate(scene: &Scene, at: &ShadowOrigin, stream: &mut Stream, rays: &mut u6
     if cosine <= 0.0 {
         return None;
     }
-    *rays += 1;
     let ray = Ray {
         origin: at.origin,
         direction: light.direction,
         t_min: 0.0,
         t_max: light.distance * (1.0 - SHORTENED),
     };
-    (!scene.occluded(ray)).then(|| (light.radiance_over_pdf * (cosine / probability as f32), light.direction))
+    let passed = straight::share(scene, ray, edges, rays);
+    let light_there = light.radiance_over_pdf * passed * (cosine / probability as f32);
+    (!passed.is_black()).then_some((light_there, light.direction))
 }

@@ -73,6 +73,17 @@ pub(crate) struct EyePass<'a> {
     pub(crate) purpose: Purpose,
 }
 
+/// What a hit point weighs light with.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Part {
+    /// The lobes that spread light.
+    Kept,
+    /// Narrow lobes that the path follows as well, lit from its own side: for photons that it cannot find the light of.
+    Followed,
+    /// The same, lit from the other side, through rough glass.
+    FollowedBehind,
+}
+
 /// An eye path that goes on.
 #[derive(Clone, Copy)]
 struct Branch {
@@ -234,21 +245,29 @@ impl Walk<'_, '_> {
         }
         let distance = branch.distance + (surface.position - branch.ray.origin).length();
         if scattering.bsdf.keeps() {
-            self.store(&branch, &surface, &scattering, distance);
+            self.store(&branch, &surface, &scattering, distance, Part::Kept);
         }
         if scattering.bsdf.follows() || scattering.opacity < 1.0 {
             self.follow_lobes(&branch, &surface, &scattering, distance);
         }
     }
 
-    fn store(&mut self, branch: &Branch, surface: &Surface, scattering: &Scattering, distance: f32) {
+    fn store(
+        &mut self,
+        branch: &Branch,
+        surface: &Surface,
+        scattering: &Scattering,
+        distance: f32,
+        part: Part,
+    ) {
         let wo = -branch.ray.direction;
         let (weight, gloss) = match scattering.lambertian() {
             Some(albedo) => (branch.weight * albedo * FRAC_1_PI, None),
             None => {
                 let normal = shading_normal_towards(surface, wo);
                 let frame = self.pass.scene.shading_frame(surface, normal);
-                let gloss = Gloss { scattering: *scattering, frame, wo: frame.to_local(wo) };
+                let narrow = part != Part::Kept;
+                let gloss = Gloss { scattering: *scattering, frame, wo: frame.to_local(wo), narrow };
                 self.paths.gloss.push(gloss);
                 (branch.weight, Some(self.paths.gloss.len() as u32 - 1))
             }
@@ -256,10 +275,15 @@ impl Walk<'_, '_> {
         if weight.is_black() || !self.is_finite(weight, surface) {
             return;
         }
-        let side = 1f32.copysign(wo.dot(surface.normal));
+        let behind = if part == Part::FollowedBehind { -1.0 } else { 1.0 };
+        let side = behind * 1f32.copysign(wo.dot(surface.normal));
         let normal = surface.normal * side;
-        let (radius2, smallest2) =
-            self.radius.first_and_smallest2(self.solid_angle, distance, wo.dot(normal), surface.position);
+        let (radius2, smallest2) = self.radius.first_and_smallest2(
+            self.solid_angle,
+            distance,
+            wo.dot(normal).abs(),
+            surface.position,
+        );
         self.paths.hit_points.push(HitPoint {
             position: surface.position,
             normal,
@@ -315,9 +339,17 @@ impl Walk<'_, '_> {
             Some(_) => Some(self.facet.take().unwrap_or_else(|| self.stream.next_2d())),
             None => None,
         };
+        if self.pass.scene.census().has_narrow_caustics() && scattering.follows_narrow_lobes() {
+            let lit = Branch { weight, ..*branch };
+            self.store(&lit, surface, scattering, distance, Part::Followed);
+            if scattering.bsdf.transmits() {
+                self.store(&lit, surface, scattering, distance, Part::FollowedBehind);
+            }
+        }
         let looks = self.pass.scene.census().has_narrow_highlights() && facet.is_some();
         if looks {
-            let at = Glossy { scene: self.pass.scene, surface, scattering, frame: &frame, wo: local };
+            let edges = self.pass.max_depth - branch.edges;
+            let at = Glossy { scene: self.pass.scene, surface, scattering, frame: &frame, wo: local, edges };
             let point = self.lamp.take().unwrap_or_else(|| self.stream.next_2d());
             let u = (self.stream.next_1d(), self.stream.next_1d(), point);
             let highlight = weight * at.looked_up(u, &mut self.stream, &mut self.paths.rays);

@@ -77,6 +77,15 @@ pub fn features(scene: &Scene, settings: &Settings) -> Vec<Feature> {
             0,
         ),
         feature(
+            "photons in narrow gloss",
+            census.has_narrow_caustics(),
+            "mirrors and smooth glass may throw light of points, spots and suns on it, where no eye path finds that",
+            "no narrow gloss, no such light, or nothing that throws it there",
+            "a hit point wherever narrow gloss is followed, two in rough glass",
+            size_of::<Option<Gloss>>(),
+            0,
+        ),
+        feature(
             "glossy hit points",
             census.kept_gloss,
             "lobes that are kept and not Lambertian",

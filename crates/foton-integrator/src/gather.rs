@@ -296,14 +296,14 @@ fn collect_gloss<const LAYERS: usize, const MOMENTS: bool>(
             continue;
         }
         let wi = photon.direction();
+        let face = Face::of(photon);
         let distance2 = if MOMENTS { distances2(packet, photon) } else { [0.0; LANES] };
         let offset = if MOMENTS { offsets(packet, photon) } else { [[0.0; LANES]; 3] };
         let layer = &mut found.flux[Found::<LAYERS>::layer(photon)];
         for l in (0..LANES).filter(|&l| counts[l] != 0) {
+            let Some(gloss) = gloss[l].as_ref().filter(|g| g.takes(photon)) else { continue };
             found.count[l] += 1;
-            let Some(gloss) = &gloss[l] else { continue };
-            let normal = Vec3::new(packet.normal[0][l], packet.normal[1][l], packet.normal[2][l]);
-            let geometric = wi.dot(normal).abs() * 127.0;
+            let geometric = face.cosine(wi, packet, (gloss.frame.normal / 127.0).to_array(), l).abs() * 127.0;
             let shading = wi.dot(gloss.frame.normal).abs();
             let weighed = photon.power * gloss.eval(wi) * cosine_ratio(shading, geometric);
             if !weighed.is_finite() {
@@ -389,14 +389,46 @@ fn distances2(packet: &Packet, photon: &Photon) -> [f32; LANES] {
 fn shading_factor(packet: &Packet, shading_normals: &[[f32; LANES]; 3], photon: &Photon) -> [f32; LANES] {
     let w = photon.direction();
     let mut factor = [0.0; LANES];
-    let [nx, ny, nz] = &packet.normal;
+    let face = Face::of(photon);
     let [sx, sy, sz] = shading_normals;
     for l in 0..LANES {
-        let geometric = w.x * nx[l] + w.y * ny[l] + w.z * nz[l];
+        let geometric = face.cosine(w, packet, [sx[l], sy[l], sz[l]], l);
         let shading = w.x * sx[l] + w.y * sy[l] + w.z * sz[l];
         factor[l] = cosine_ratio(shading, geometric);
     }
     factor
+}
+
+/// The face that a photon fell on, which makes it as dense as its own cosine says, not a neighbouring hit point's: where faces
+/// meet at an angle, light along the hit point's own face would count up to a hundred times.
+struct Face {
+    /// In 127ths, as stored.
+    stored: [f32; 3],
+    /// Of unit length.
+    normal: Vec3,
+}
+
+impl Face {
+    #[inline(always)]
+    fn of(photon: &Photon) -> Self {
+        let stored = photon.normal.map(f32::from);
+        Self { stored, normal: Vec3::from_array(stored).normalize_or_zero() }
+    }
+
+    /// |ω·n_g|/127 at the photon: by a hit point's normal, which is exact, where that rounds to the photon's, and where it is the
+    /// shading normal, so that nothing is corrected.
+    #[inline(always)]
+    fn cosine(&self, w: Vec3, packet: &Packet, shading: [f32; 3], l: usize) -> f32 {
+        let [nx, ny, nz] = [0, 1, 2].map(|axis| packet.normal[axis][l]);
+        let [px, py, pz] = self.stored;
+        let in_127ths = 127.0 * 127.0;
+        let off =
+            (nx * in_127ths - px).abs().max((ny * in_127ths - py).abs()).max((nz * in_127ths - pz).abs());
+        let plain = (nx == shading[0]) & (ny == shading[1]) & (nz == shading[2]);
+        let own = w.x * nx + w.y * ny + w.z * nz;
+        let stored = w.x * self.normal.x + w.y * self.normal.y + w.z * self.normal.z;
+        if (off <= 0.51) | plain { own } else { stored.max(SMALLEST_COSINE) * (1.0 / 127.0) }
+    }
 }
 
 /// The quotient of two cosines: zero where their signs differ, never above what a floor of |ω·n_g| allows, and exactly 1 where

@@ -3,7 +3,9 @@
 //! An eye path that follows a rough lobe in one direction meets a sky, often a large lamp, rarely a small one, and a point, a
 //! spot or the sun never. So lights are also looked up from where a rough lobe of a metal or coat is followed: those without
 //! extent all of them, of lamps one. A lamp is then found in two ways, weighted by the balance heuristic [VEA97, §9.2].
-//! What lies in between blocks, glass too: light of points through glass onto narrow gloss is not found by any path.
+//! What lies in between blocks; but what lights without extent send straight through thin glass, masks and nothing is weighed by
+//! those, since no path finds it otherwise. What mirrors and glass bend of such light comes as photons to hit points of such
+//! lobes' own ([`Gloss::narrow`](crate::hit_point::Gloss)).
 
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Frame, Ray, Rgb, Stream};
@@ -11,6 +13,7 @@ use foton_scene::{Scattering, Scene, Surface};
 
 use crate::direct_light::SHORTENED;
 use crate::eye_pass::leaves_wrongly;
+use crate::straight;
 
 /// So many lights without extent are all looked up; of more, so many are chosen by chance.
 const MOST: usize = 16;
@@ -25,6 +28,8 @@ pub(crate) struct Glossy<'a> {
     pub(crate) frame: &'a Frame,
     /// Where the path came from, local.
     pub(crate) wo: Vec3,
+    /// The most edges from here to a light.
+    pub(crate) edges: u32,
 }
 
 impl Glossy<'_> {
@@ -99,12 +104,16 @@ impl Glossy<'_> {
         {
             return Rgb::BLACK;
         }
-        *rays += 1;
         let origin = self.surface.ray_origin(light.direction);
         let t_max = light.distance * (1.0 - SHORTENED);
-        if self.scene.occluded(Ray { origin, direction: light.direction, t_min: 0.0, t_max }) {
-            return Rgb::BLACK;
-        }
-        value * light.radiance_over_pdf * share([light.density, following])
+        let ray = Ray { origin, direction: light.direction, t_min: 0.0, t_max };
+        let passed = if emitter.is_lamp() {
+            // Followed paths find it behind what they pass straight through, and weigh it there by itself.
+            *rays += 1;
+            if self.scene.occluded(ray) { Rgb::BLACK } else { Rgb::WHITE }
+        } else {
+            straight::share(self.scene, ray, self.edges, rays)
+        };
+        value * light.radiance_over_pdf * passed * share([light.density, following])
     }
 }

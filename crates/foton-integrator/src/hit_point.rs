@@ -10,6 +10,7 @@ use foton_scene::Scattering;
 use crate::adaptive::Evidence;
 use crate::not_finite::{LeftOut, Quantity};
 use crate::packet::{self, LANES, Packet};
+use crate::photon::Photon;
 use crate::refine::Statistics;
 
 /// A hit point as the eye pass finds it. Scene units.
@@ -46,12 +47,25 @@ pub(crate) struct Gloss {
     pub(crate) frame: Frame,
     /// Unit direction to the eye in that frame.
     pub(crate) wo: Vec3,
+    /// Whether it stands for lobes that the eye path follows, and weighs what that cannot find.
+    pub(crate) narrow: bool,
 }
 
 impl Gloss {
-    /// The value of the kept lobes for light from the unit direction `wi` (sr⁻¹).
+    /// The value of its lobes for light from the unit direction `wi` (sr⁻¹).
     pub(crate) fn eval(&self, wi: Vec3) -> Rgb {
-        self.scattering.eval_kept(self.wo, self.frame.to_local(wi))
+        let wi = self.frame.to_local(wi);
+        if self.narrow {
+            self.scattering.eval_followed(self.wo, wi)
+        } else {
+            self.scattering.eval_kept(self.wo, wi)
+        }
+    }
+
+    /// Whether it weighs a photon of the place: kept lobes all, followed ones those alone that no eye path could bring.
+    #[inline(always)]
+    pub(crate) const fn takes(&self, photon: &Photon) -> bool {
+        !self.narrow || photon.is_lone()
     }
 }
 

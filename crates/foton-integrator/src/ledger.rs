@@ -21,6 +21,9 @@ pub struct Ledger {
     pub truncated: f64,
     /// Lost less gained where interpolated normals differ from true ones, by their adjoint correction.
     pub shading_normals: f64,
+    /// What of that was gained, counted apart: photons see the adjoint of a BSDF with interpolated normals, which may scatter more
+    /// than arrives. Eye paths, which see the BSDF itself, never gain.
+    pub shading_gain: f64,
     /// What dropped photons still carried when last it was a number.
     pub lost: f64,
     /// Values that were NaN or infinite and were left out: photons, which were not traced on, and light at hit points and pixels.
@@ -61,6 +64,7 @@ impl AddAssign for Ledger {
         self.roulette += o.roulette;
         self.truncated += o.truncated;
         self.shading_normals += o.shading_normals;
+        self.shading_gain += o.shading_gain;
         self.lost += o.lost;
         self.dropped += o.dropped;
     }

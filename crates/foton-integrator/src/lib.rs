@@ -34,6 +34,7 @@ mod settings;
 mod slots;
 mod stage;
 mod state;
+mod straight;
 #[cfg(test)]
 mod test_scene;
 mod variants;

@@ -2,14 +2,15 @@
 
 use foton_math::glam::Vec3;
 use foton_math::{Rgb, octahedral};
+use foton_scene::Lobe;
 
 /// How a photon came to where it was stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum PathClass {
-    /// Straight from an emitter: LD.
+    /// Straight from an emitter, also through what lets it pass as if nothing were there: LD.
     Direct = 0,
-    /// By mirrors, glass and gloss that eye paths follow only: LS⁺D.
+    /// By mirrors, glass and gloss that eye paths follow only, and not straight on by all of them: LS⁺D.
     Caustic = 1,
     /// By at least one surface that spreads light: L(S|D)*DS*D.
     Indirect = 2,
@@ -20,9 +21,10 @@ impl PathClass {
     pub const ALL: [Self; 3] = [Self::Direct, Self::Caustic, Self::Indirect];
 
     /// The class after one more scattering.
-    pub(crate) const fn scattered(self, followed: bool) -> Self {
-        match (self, followed) {
-            (Self::Direct | Self::Caustic, true) => Self::Caustic,
+    pub(crate) const fn scattered(self, lobe: Lobe) -> Self {
+        match (self, lobe) {
+            (_, Lobe::Straight) => self,
+            (Self::Direct | Self::Caustic, Lobe::Single | Lobe::Narrow) => Self::Caustic,
             _ => Self::Indirect,
         }
     }
@@ -34,6 +36,9 @@ const DIRECTION_BITS: u32 = 11;
 
 /// Where in the code the number of the patch begins.
 const PATCH_SHIFT: u32 = 2 * DIRECTION_BITS;
+
+/// The class of caustic photons that came from a light without extent by single directions alone.
+const LONE: u32 = 3;
 
 /// A photon where it met a surface that spreads light.
 #[derive(Clone, Copy, Debug)]
@@ -89,8 +94,23 @@ impl Photon {
         i32::from(self.edges) | patch_mark((self.code >> PATCH_SHIFT) as u8)
     }
 
+    /// The same, marked where nothing but photons can bring it to a narrow lobe: see [`Photon::is_lone`].
+    #[inline]
+    pub(crate) const fn marked(self, lone: bool) -> Self {
+        if lone { Self { code: self.code | LONE << 30, ..self } } else { self }
+    }
+
+    /// Whether it came from a light without extent by mirrors and smooth glass alone, at least one of them: of the light on a
+    /// lobe that eye paths follow they find all but this.
+    #[inline]
+    pub(crate) const fn is_lone(&self) -> bool {
+        self.code >> 30 == LONE
+    }
+
+    #[inline(always)]
     pub(crate) const fn class_index(&self) -> usize {
-        (self.code >> 30) as usize
+        let class = self.code >> 30;
+        if class == LONE { PathClass::Caustic as usize } else { class as usize }
     }
 }
 
@@ -117,16 +137,22 @@ mod tests {
             let p = Photon::new(Vec3::ONE, -Vec3::Z, 0xa5, Some(from), Rgb::WHITE, class, 3);
             assert_eq!((p.class_index(), p.normal, p.edges), (class as usize, [0, 0, -127], 3));
             assert_eq!(p.edges_on_patch(), 3 | patch_mark(0xa5));
-            assert!(p.direction().distance(from) < 2.1e-3);
+            assert!(p.direction().distance(from) < 2.1e-3 && !p.is_lone());
         }
+        let p = Photon::new(Vec3::ONE, Vec3::Z, 0, None, Rgb::WHITE, PathClass::Caustic, 3).marked(true);
+        assert_eq!((p.class_index(), p.is_lone()), (PathClass::Caustic as usize, true));
     }
 
     #[test]
     fn classes_follow_the_path() {
         use PathClass::{Caustic, Direct, Indirect};
-        assert_eq!(Direct.scattered(true), Caustic);
-        assert_eq!(Caustic.scattered(true), Caustic);
-        assert_eq!(Caustic.scattered(false), Indirect);
-        assert_eq!(Direct.scattered(false).scattered(true), Indirect);
+        use foton_scene::Lobe::{Kept, Narrow, Single, Straight};
+        assert_eq!(Direct.scattered(Single), Caustic);
+        assert_eq!(Caustic.scattered(Narrow), Caustic);
+        assert_eq!(Caustic.scattered(Kept), Indirect);
+        assert_eq!(Direct.scattered(Kept).scattered(Single), Indirect);
+        for class in PathClass::ALL {
+            assert_eq!(class.scattered(Straight), class);
+        }
     }
 }

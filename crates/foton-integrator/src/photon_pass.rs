@@ -76,6 +76,8 @@ struct Path {
     ray: Ray,
     power: Rgb,
     class: PathClass,
+    /// See [`Photon::is_lone`].
+    lone: bool,
     /// Whether it was stored anywhere.
     stored: bool,
     /// Edges up to the end of `ray`.
@@ -184,6 +186,7 @@ impl PhotonPass<'_> {
             ray: Ray::new(start.origin, start.direction),
             power,
             class: PathClass::Direct,
+            lone: false,
             stored: false,
             edges: 1,
             emitter: emitter as u32,

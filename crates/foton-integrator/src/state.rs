@@ -114,6 +114,7 @@ impl Ppm {
         let sums = [ledger.emitted, ledger.absorbed, ledger.escaped, ledger.roulette, ledger.truncated];
         sums.into_iter().for_each(|sum| out.f64(sum));
         out.f64(ledger.shading_normals);
+        out.f64(ledger.shading_gain);
         out.f64(ledger.lost);
         out.u64(ledger.dropped);
         out.u64(self.light_use().len() as u64);
@@ -157,9 +158,18 @@ impl Ppm {
         self.settings_mut().alpha = alpha;
         self.settings_mut().photons_per_pass = photons;
         let ledger = self.ledger_mut();
-        let Ledger { emitted, absorbed, escaped, roulette, truncated, shading_normals, lost, dropped } =
-            ledger;
-        for sum in [emitted, absorbed, escaped, roulette, truncated, shading_normals, lost] {
+        let Ledger {
+            emitted,
+            absorbed,
+            escaped,
+            roulette,
+            truncated,
+            shading_normals,
+            shading_gain,
+            lost,
+            dropped,
+        } = ledger;
+        for sum in [emitted, absorbed, escaped, roulette, truncated, shading_normals, shading_gain, lost] {
             *sum = input.finite()?;
         }
         *dropped = input.count()?;

@@ -6,12 +6,15 @@ mod gather;
 mod memory;
 mod patches;
 
+use std::sync::Arc;
+
 use foton_math::Aabb;
 use foton_math::glam::{DAffine3, DMat3, Mat3, Vec3};
 use thiserror::Error;
 
 use crate::bsdf::Coat;
 use crate::census::Census;
+use crate::coincident::Coincidences;
 use crate::description::{Bsdf, Colour, Material, SceneDescription, SensorDescription, ShapeDescription};
 use crate::emitter::{Aim, Emitter, Kind};
 use crate::normalise::Normalisation;
@@ -206,9 +209,18 @@ impl Scene {
         }
         scene.lambertian =
             scene.shapes.iter().map(|s| scene.materials[s.material as usize].lambertian()).collect();
-        let keeps: Vec<bool> =
-            scene.shapes.iter().map(|s| scene.material_of(s).bsdfs().any(Bsdf::keeps)).collect();
+        let keeps: Vec<bool> = scene
+            .shapes
+            .iter()
+            .map(|s| scene.material_of(s).bsdfs().any(|b| b.keeps() || b.roughness().is_some()))
+            .collect();
         scene.patches = patches::find(&scene.accel, |i| keeps[scene.shape_of[i] as usize]).into();
+        scene.coincidences = Arc::new(Coincidences::find(&scene));
+        for emitter in &mut emitters {
+            if let Kind::Area(area) = &mut emitter.kind {
+                area.gap = scene.coincidences.gap(area.shape as usize);
+            }
+        }
         scene.max_depth = description.max_depth;
         scene.picture_bytes = description.picture_bytes();
         scene.sensors = description.sensors.iter().map(|s| Sensor::new(s, &normalisation)).collect();
@@ -283,6 +295,10 @@ impl Census {
             self.followed |= bsdf.follows() || material.opacity.is_some();
             self.refraction |= bsdf.transmits();
             self.narrow_gloss |= bsdf.follows() && bsdf.roughness().is_some();
+            self.single_directions |=
+                bsdf.follows() && bsdf.roughness().is_none() && !matches!(bsdf, Bsdf::Null);
+            self.straight |=
+                material.opacity.is_some() || matches!(bsdf, Bsdf::Null | Bsdf::ThinDielectric { .. });
             self.rough_coats |= matches!(bsdf, Bsdf::Plastic { roughness: Some(_), .. });
             self.kept_gloss |= bsdf.keeps() && !matches!(bsdf, Bsdf::Diffuse { .. });
         }

@@ -21,6 +21,10 @@ pub struct Census {
     pub refraction: bool,
     /// Whether any followed lobe is rough: eye paths follow it in a random direction, which one eye pass freezes.
     pub narrow_gloss: bool,
+    /// Whether any followed lobe is a single direction other than straight on: mirrors, smooth glass and coats.
+    pub single_directions: bool,
+    /// Whether light passes straight through any surface: thin glass, masks, nothing.
+    pub straight: bool,
     /// Whether hit points keep any lobe that is not Lambertian: photons are weighed one by one there.
     pub kept_gloss: bool,
     /// Whether any coat is rough: what gets through it is integrated beforehand.
@@ -44,5 +48,12 @@ impl Census {
     #[must_use]
     pub const fn has_narrow_highlights(&self) -> bool {
         self.narrow_gloss && (self.lights_without_extent || self.lamps)
+    }
+
+    /// Whether mirrors or smooth glass may throw the light of points, spots and suns on lobes that eye paths follow in a random
+    /// direction: no such path meets those lights, so photons are weighed there.
+    #[must_use]
+    pub const fn has_narrow_caustics(&self) -> bool {
+        self.narrow_gloss && self.lights_without_extent && self.single_directions
     }
 }

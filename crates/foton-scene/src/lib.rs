@@ -7,6 +7,7 @@ mod accel;
 pub mod bsdf;
 mod build;
 mod census;
+mod coincident;
 pub mod description;
 mod discrete;
 mod emitter;

@@ -9,7 +9,8 @@ use crate::accel::{Accel, Hit};
 use crate::bsdf::{Coat, Scattering};
 use crate::build::Patch;
 use crate::census::Census;
-use crate::description::{Colour, Material};
+use crate::coincident::Coincidences;
+use crate::description::{Bsdf, Colour, Material};
 use crate::discrete::Discrete;
 use crate::emitter::{Ball, Emitter, Kind};
 use crate::normalise::Normalisation;
@@ -17,6 +18,9 @@ use crate::primitive::Primitive;
 use crate::sensor::Sensor;
 use crate::surface::{Surface, locate};
 use crate::texture::Sampler;
+
+/// The side that a material does not describe.
+const BLACK: Bsdf = Bsdf::Diffuse { reflectance: Colour::Constant(Rgb::BLACK) };
 
 /// A surface's identity in a built scene.
 #[derive(Clone, Debug)]
@@ -44,6 +48,7 @@ pub struct Scene {
     pub(crate) shape_of: Arc<[u32]>,
     /// What each primitive belongs to, in the tree's order.
     pub(crate) patches: Arc<[Patch]>,
+    pub(crate) coincidences: Arc<Coincidences>,
     /// Unit vertex normals of each primitive in the tree's order; zeros where flat. Empty when the scene has none.
     pub(crate) vertex_normals: Arc<[[Vec3; 3]]>,
     /// Texture coordinates of each primitive's vertices in the tree's order. Empty when no material asks for them.
@@ -93,15 +98,35 @@ impl Scene {
         self.accel.nearest(ray)
     }
 
-    /// The point that a ray hits.
+    /// The point that a ray hits. Where surfaces lie in one another, on the one that counts: an emitter before what is opaque,
+    /// that before what is clear, then the first in the file.
     #[must_use]
     #[inline(always)]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
-        let i = hit.primitive as usize;
+        let mut surface = self.surface_of(ray, hit.primitive, hit.barycentric, ray.at(hit.t));
+        let share = self.coincidences.share(hit.primitive);
+        if share.is_unsettled(ray.direction.dot(surface.normal) < 0.0) {
+            self.settle(ray, &mut surface);
+        } else if share.any {
+            surface.error += surface.normal.abs() * self.coincidences.gap(surface.shape as usize);
+        }
+        surface
+    }
+
+    /// The point of a primitive that a ray meets, by its weights or about where on the ray it is.
+    #[inline(always)]
+    pub(crate) fn surface_of(
+        &self,
+        ray: &Ray,
+        primitive: u32,
+        barycentric: Vec2,
+        approximate: Vec3,
+    ) -> Surface {
+        let i = primitive as usize;
         let primitive = &self.accel.primitives()[i];
         let (position, error, normal) = match *primitive {
-            Primitive::Triangle(corners) => self.accel.plane(i).locate_on(ray, corners, hit.barycentric),
-            _ => locate(primitive, hit.barycentric, ray.at(hit.t)),
+            Primitive::Triangle(corners) => self.accel.plane(i).locate_on(ray, corners, barycentric),
+            _ => locate(primitive, barycentric, approximate),
         };
         let mut surface = Surface {
             position,
@@ -112,13 +137,14 @@ impl Scene {
                 || matches!(primitive, Primitive::Sphere { .. } | Primitive::Tube { .. }),
             shape: self.shape_of[i],
             patch: self.patches[i].key,
-            primitive: hit.primitive,
-            barycentric: hit.barycentric,
+            primitive: i as u32,
+            barycentric,
+            interface: None,
         };
         if let Some([a, b, c]) = self.vertex_normals.get(i)
             && *a != Vec3::ZERO
         {
-            let (v, w) = (hit.barycentric.x, hit.barycentric.y);
+            let (v, w) = (barycentric.x, barycentric.y);
             let n = (*a * (1.0 - v - w) + *b * v + *c * w).normalize_or(normal);
             surface.shading_normal = if n.dot(normal) < 0.0 { -n } else { n };
             surface.curved = true;
@@ -127,19 +153,25 @@ impl Scene {
     }
 
     /// How the surface scatters light on the side of `outward` (whether the light's direction is on the normal's side), with
-    /// its colours looked up. `None`: that side is black.
+    /// its colours looked up. `None`: that side is black. A side without a BSDF takes all light that meets it, and where there is
+    /// an opacity the rest passes it all the same.
     #[must_use]
     #[inline(always)]
     pub fn scattering(&self, surface: &Surface, outward: bool) -> Option<Scattering> {
         let material = self.material(surface.shape);
         let front = outward || material.front.transmits();
-        let bsdf = if front { &material.front } else { material.back.as_ref()? };
+        let bsdf = match &material.back {
+            _ if front => &material.front,
+            Some(back) => back,
+            None if material.opacity.is_some() => &BLACK,
+            None => return None,
+        };
         let coats = self.coats.get(self.shapes[surface.shape as usize].material as usize);
         let coat = coats.and_then(|c| c[usize::from(!front)]);
         if !self.census.textures {
             let constant = |c: Colour| if let Colour::Constant(c) = c { c } else { Rgb::BLACK };
             let opacity = material.opacity.map_or(1.0, |c| constant(c).mean());
-            return Some(Scattering { bsdf: bsdf.map(constant), opacity, coat });
+            return Some(Scattering { bsdf: surface.between(*bsdf).map(constant), opacity, coat });
         }
         let mut known = None;
         let mut uv = || *known.get_or_insert_with(|| self.texture_coordinate(surface));
@@ -151,7 +183,7 @@ impl Scene {
             Colour::Constant(c) => c,
             Colour::Texture(t) => self.textures[t].colour(uv()),
         };
-        Some(Scattering { bsdf: bsdf.map(colour), opacity: opacity.clamp(0.0, 1.0), coat })
+        Some(Scattering { bsdf: surface.between(*bsdf).map(colour), opacity: opacity.clamp(0.0, 1.0), coat })
     }
 
     /// The reflectance of a side that is Lambertian and nothing else, its colour looked up: what most photons meet, and with a

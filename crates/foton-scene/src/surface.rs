@@ -39,6 +39,8 @@ pub struct Surface {
     pub(crate) primitive: u32,
     /// Weights of a triangle's second and third vertex.
     pub(crate) barycentric: Vec2,
+    /// Indices of refraction inside and outside where the faces of two dielectrics are one; `None`: the material's own.
+    pub(crate) interface: Option<[f32; 2]>,
 }
 
 impl Surface {

@@ -213,12 +213,18 @@ pub(crate) fn build(
     for far in scene.far_things(sensor) {
         talk.finding(&opened.finding(Severity::Warning, name, Some(&far.name), far.to_string()));
     }
+    for [over, under] in scene.hidden_shapes() {
+        let [over, under] = [over, under].map(|shape| &scene.shapes()[shape as usize].name);
+        talk.warning(&format!(
+            "\"{under}\" lies exactly in \"{over}\", which hides it there: what is opaque counts before masks, then the first in the file"
+        ));
+    }
     if census.narrow_gloss {
         talk.note("gloss of roughness up to 0.1 is followed in directions chosen once: its noise stays; --spp lowers it");
     }
-    if census.has_narrow_highlights() && census.refraction {
+    if census.has_narrow_caustics() {
         talk.note(
-            "light of points, spots and suns that reaches such gloss through glass is not found by any path",
+            "light of points, spots and suns that mirrors or glass throw on such gloss comes as photons: the narrower, the noisier",
         );
     }
     if census.emitters == 0 {

@@ -458,6 +458,7 @@ fn ledger_json(ledger: &Ledger, photons: u64, scale: f64) -> Value {
         "roulette": watts(ledger.roulette),
         "truncated": watts(ledger.truncated),
         "shading_normals": watts(ledger.shading_normals),
+        "shading_normals_gain": watts(ledger.shading_gain),
         "lost": watts(ledger.lost),
         "dropped_photons": ledger.dropped,
         "imbalance": ledger.imbalance(),

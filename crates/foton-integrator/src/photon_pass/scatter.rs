@@ -22,12 +22,10 @@ struct Leaving {
     weight: Rgb,
     /// The shading normal.
     normal: Vec3,
-    /// Whether by a lobe that eye paths follow.
-    followed: bool,
+    /// By which kind of lobe.
+    lobe: Lobe,
     /// Whether on the side that it came from.
     reflects: bool,
-    /// Whether as if there were no surface.
-    straight: bool,
 }
 
 impl PhotonPass<'_> {
@@ -52,9 +50,8 @@ impl PhotonPass<'_> {
             direction: Frame::from_normal(normal).to_outer(wi).normalize(),
             weight: reflectance,
             normal,
-            followed: false,
+            lobe: Lobe::Kept,
             reflects: true,
-            straight: false,
         };
         self.send_on(path, stored, surface, &leaving, draw.survival, chunk, next);
         stored
@@ -75,7 +72,8 @@ impl PhotonPass<'_> {
             chunk.ledger.absorbed += energy(path.power);
             return path.stored;
         };
-        let stored = if scattering.bsdf.keeps() { self.store(path, surface, wo, chunk) } else { path.stored };
+        let counts = scattering.bsdf.keeps() || path.lone && scattering.follows_narrow_lobes();
+        let stored = if counts { self.store(path, surface, wo, chunk) } else { path.stored };
         let normal = shading_normal_towards(surface, wo);
         let frame = self.scene.shading_frame(surface, normal);
         let local = frame.to_local(wo);
@@ -88,9 +86,8 @@ impl PhotonPass<'_> {
             direction: frame.to_outer(sample.wi).normalize(),
             weight: sample.weight,
             normal,
-            followed: sample.lobe == Lobe::Followed,
+            lobe: sample.lobe,
             reflects: sample.wi.z * local.z > 0.0,
-            straight: sample.wi == -local,
         };
         self.send_on(path, stored, surface, &leaving, draw.survival, chunk, next);
         stored
@@ -113,11 +110,12 @@ impl PhotonPass<'_> {
         next: &mut Vec<Path>,
     ) {
         let wo = -path.ray.direction;
-        let &Leaving { direction, weight, normal, followed, reflects, straight } = leaving;
+        let &Leaving { direction, weight, normal, lobe, reflects } = leaving;
+        let followed = lobe != Lobe::Kept;
         let scattered = path.power * weight;
         let correction = if !followed && leaves_wrongly(surface, wo, direction, reflects) {
             0.0
-        } else if straight {
+        } else if lobe == Lobe::Straight {
             1.0
         } else {
             adjoint_correction(surface.normal, normal, wo, direction)
@@ -138,7 +136,9 @@ impl PhotonPass<'_> {
         }
         chunk.ledger.absorbed += left_out(path.power, weight);
         if correction != 1.0 {
-            chunk.ledger.shading_normals += left_out(scattered, Rgb::splat(correction));
+            let lost = left_out(scattered, Rgb::splat(correction));
+            chunk.ledger.shading_normals += lost;
+            chunk.ledger.shading_gain += (-lost).max(0.0);
         }
         if corrected.is_black() {
             return;
@@ -154,12 +154,26 @@ impl PhotonPass<'_> {
         next.push(Path {
             ray: Ray::new(surface.ray_origin(direction), direction),
             power,
-            class: path.class.scattered(followed),
+            class: path.class.scattered(lobe),
+            lone: self.stays_lone(path, lobe),
             stored,
             edges: path.edges + 1,
             emitter: path.emitter,
             stream: path.stream.clone(),
         });
+    }
+
+    /// Whether the photon is one that [`Photon::is_lone`] means after one more lobe.
+    fn stays_lone(&self, path: &Path, lobe: Lobe) -> bool {
+        match lobe {
+            Lobe::Kept | Lobe::Narrow => false,
+            Lobe::Straight => path.lone,
+            Lobe::Single => {
+                path.lone
+                    || path.class == PathClass::Direct
+                        && self.scene.emitters()[path.emitter as usize].is_without_extent()
+            }
+        }
     }
 
     /// Index of the surface's material.
@@ -178,7 +192,10 @@ impl PhotonPass<'_> {
         let (normal, patch) = (surface.normal * 1f32.copysign(outward), surface.patch_towards(outward > 0.0));
         let edges = path.edges.min(255) as u8;
         let from = self.directions.then_some(wo);
-        chunk.photons.push(Photon::new(surface.position, normal, patch, from, path.power, path.class, edges));
+        chunk.photons.push(
+            Photon::new(surface.position, normal, patch, from, path.power, path.class, edges)
+                .marked(path.lone),
+        );
         chunk.cells.push(cell);
         true
     }

@@ -116,6 +116,13 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
                 missing,
                 "Light still under way at the longest path, and photons whose power was no number; --max-depth moves the end",
             );
+            if ledger.shading_gain > 0.0 {
+                row_of(
+                    "gained at normals",
+                    percent(ledger.shading_gain).into(),
+                    "Light that photons gain where interpolated normals differ from true ones, beside what they lose there",
+                );
+            }
         }
     });
     let all: f64 = n.stages.iter().map(|(_, t)| t.as_secs_f64()).sum();

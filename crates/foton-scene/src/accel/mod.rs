@@ -173,6 +173,31 @@ impl Accel {
         false
     }
 
+    /// Calls `visit` with the index of each primitive whose box, or that of its leaf, meets a box.
+    pub(crate) fn for_each_near(&self, near: &Aabb, mut visit: impl FnMut(usize)) {
+        let mut stack = Stack::new();
+        if !self.nodes.is_empty() {
+            stack.push(Place { t: 0.0, child: Child::node(0) });
+        }
+        while let Some(place) = stack.pop() {
+            match place.child.target() {
+                Target::Node(node) => {
+                    let node = &self.nodes[node];
+                    let mut met = node.near(near);
+                    while met != 0 {
+                        stack.push(Place { t: 0.0, child: node.children[slot_of(met)] });
+                        met &= met - 1;
+                    }
+                }
+                Target::Quad(quad) => {
+                    let first = self.quads[quad].first as usize;
+                    (first..first + self.quads[quad].len()).for_each(&mut visit);
+                }
+                Target::Other(other) => visit(other),
+            }
+        }
+    }
+
     /// The primitives in the tree's order.
     pub(crate) fn primitives(&self) -> &[Primitive] {
         &self.primitives

@@ -2,8 +2,8 @@
 //!
 //! Four lanes of single precision are what every machine in question has without asking; wider ones gain little here.
 
-use foton_math::Ray;
 use foton_math::glam::{Vec3, Vec4};
+use foton_math::{Aabb, Ray};
 
 use crate::primitive::ShearedRay;
 
@@ -99,6 +99,18 @@ impl Node {
         ([near0, near1], entered0 | entered1 << 4)
     }
 
+    /// A bit for each child whose box meets another.
+    pub(super) fn near(&self, near: &Aabb) -> u32 {
+        let half = |h: usize| {
+            let meets = |axis: usize| {
+                let (low, high) = (&self.bounds[2 * axis][h], &self.bounds[2 * axis + 1][h]);
+                low.cmple(Vec4::splat(near.max[axis])) & high.cmpge(Vec4::splat(near.min[axis]))
+            };
+            (meets(0) & meets(1) & meets(2)).bitmask()
+        };
+        half(0) | half(1) << 4
+    }
+
     /// The sides by which the ray enters and leaves along an axis.
     #[inline(always)]
     fn pair(&self, axis: usize, ray: &BoxRay) -> [&[Vec4; 2]; 2] {
@@ -152,6 +164,12 @@ impl Quad {
             }
         }
         Self { vertices, first: first as u32 }
+    }
+
+    /// How many triangles there are.
+    pub(super) fn len(&self) -> usize {
+        let x = &self.vertices[0][0];
+        (0..QUAD).filter(|&lane| !x[lane].is_nan()).count()
     }
 
     /// The vertices of one triangle.

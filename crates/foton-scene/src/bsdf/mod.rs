@@ -49,13 +49,17 @@ pub struct FollowedLobe {
 /// Lobes that can be followed at once: reflection, refraction, straight on.
 pub const LOBES: usize = 3;
 
-/// The kind of a lobe that a path took.
+/// The kind of a lobe that a path took. Eye paths follow all but the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lobe {
     /// One that hit points keep.
     Kept,
-    /// One that eye paths follow.
-    Followed,
+    /// A single direction: that of a mirror or of smooth glass.
+    Single,
+    /// A narrow one, or that of rough glass.
+    Narrow,
+    /// Straight on, as if there were no surface.
+    Straight,
 }
 
 /// One direction chosen at random.
@@ -324,6 +328,19 @@ impl Scattering {
         lobes
     }
 
+    /// The share of light from `wo` that passes straight on, as if there were no surface.
+    #[must_use]
+    pub fn straight(&self, wo: Vec3) -> Rgb {
+        let [_, _, straight] = self.followed_lobes(wo, Transport::Importance, Vec2::ZERO);
+        straight.map_or(Rgb::BLACK, |lobe| lobe.weight)
+    }
+
+    /// Whether a followed lobe is rough.
+    #[must_use]
+    pub fn follows_narrow_lobes(&self) -> bool {
+        self.bsdf.follows() && self.bsdf.roughness().is_some()
+    }
+
     /// One followed lobe, chosen by `u_lobe` in [0, 1) with the lobes' chances; its weight is not divided by its chance.
     /// `None` with the chance of lobes that are absent: rough ones that would leave below the surface.
     #[must_use]
@@ -334,13 +351,26 @@ impl Scattering {
         u_lobe: f32,
         u: Vec2,
     ) -> Option<FollowedLobe> {
+        self.choose_among_followed(wo, transport, u_lobe, u).map(|(_, lobe)| lobe)
+    }
+
+    /// The same with its kind.
+    fn choose_among_followed(
+        &self,
+        wo: Vec3,
+        transport: Transport,
+        u_lobe: f32,
+        u: Vec2,
+    ) -> Option<(Lobe, FollowedLobe)> {
         // Chances that sum to 1 but for rounding leave no gap at the end.
         const ROUNDING: f32 = 1e-6;
         let lobes = self.followed_lobes(wo, transport, u);
+        let bent = if self.bsdf.roughness().is_some() { Lobe::Narrow } else { Lobe::Single };
         let mut left = u_lobe;
-        for lobe in lobes.iter().flatten() {
+        for (kind, lobe) in [bent, bent, Lobe::Straight].into_iter().zip(&lobes) {
+            let Some(lobe) = lobe else { continue };
             if left < lobe.probability + ROUNDING {
-                return Some(*lobe).filter(|l| l.probability > 0.0);
+                return Some((kind, *lobe)).filter(|_| lobe.probability > 0.0);
             }
             left -= lobe.probability;
         }
@@ -358,7 +388,7 @@ impl Scattering {
         if u_lobe < self.opacity {
             return whole.sample_surface(wo, transport, u_lobe / self.opacity, u);
         }
-        Some(BsdfSample { wi: -wo, weight: Rgb::WHITE, lobe: Lobe::Followed })
+        Some(BsdfSample { wi: -wo, weight: Rgb::WHITE, lobe: Lobe::Straight })
     }
 
     #[inline(always)]
@@ -373,8 +403,8 @@ impl Scattering {
             }
             Bsdf::Plastic { roughness, .. } => self.sample_plastic(wo, transport, u_lobe, u, roughness),
             _ => {
-                let lobe = self.choose_followed(wo, transport, u_lobe, u)?;
-                Some(BsdfSample { wi: lobe.wi, weight: lobe.weight / lobe.probability, lobe: Lobe::Followed })
+                let (kind, lobe) = self.choose_among_followed(wo, transport, u_lobe, u)?;
+                Some(BsdfSample { wi: lobe.wi, weight: lobe.weight / lobe.probability, lobe: kind })
             }
         }
     }

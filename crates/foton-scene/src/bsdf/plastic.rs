@@ -104,7 +104,8 @@ impl Scattering {
             }
             _ if coat => {
                 let [lobe, ..] = self.followed_lobes(wo, transport, u);
-                lobe.map(|l| BsdfSample { wi: l.wi, weight: l.weight / chance, lobe: Lobe::Followed })
+                let kind = if roughness.is_some() { Lobe::Narrow } else { Lobe::Single };
+                lobe.map(|l| BsdfSample { wi: l.wi, weight: l.weight / chance, lobe: kind })
             }
             _ => {
                 let wi = cosine(wo, u);

@@ -90,7 +90,7 @@ fn weights_are_value_times_cosine_over_density() {
                 let Some(sample) = sample else { continue };
                 assert!((sample.wi.length() - 1.0).abs() < 1e-4 && sample.weight.is_finite(), "{s:?} {wo}");
                 let rough_lobe = s.bsdf.roughness().is_some();
-                let delta = sample.lobe == Lobe::Followed && !rough_lobe;
+                let delta = sample.lobe != Lobe::Kept && !rough_lobe;
                 // Lobes of a smooth coat and its base are weighed apart, and so are those of a thin layer of opacity.
                 if delta || s.opacity < 1.0 || matches!(s.bsdf, Bsdf::Plastic { roughness: None, .. }) {
                     continue;
@@ -254,6 +254,52 @@ fn rough_lobes_become_smooth_ones_as_roughness_vanishes() {
                 }
                 (None, None) => {}
                 _ => panic!("{a:?} {b:?}"),
+            }
+        }
+    }
+}
+
+/// What a white rough metal reflects, by quadrature over its facets, where light comes from the true surface's side alone and that is
+/// tilted against the shading normal: no more than arrives. What photons gain there is their adjoint's.
+#[test]
+fn rough_metal_reflects_no_more_than_arrives_whatever_its_shading_normal() {
+    let (rings, sectors) = (1200, 256);
+    for distribution in [Ggx, Beckmann] {
+        for alpha in [0.11f32, 0.3, 0.9] {
+            let scattering = Scattering {
+                bsdf: Bsdf::Conductor {
+                    eta: Rgb::BLACK,
+                    k: Rgb::WHITE,
+                    specular_reflectance: Rgb::WHITE,
+                    roughness: Some(Microfacets::isotropic(distribution, alpha)),
+                },
+                opacity: 1.0,
+                coat: None,
+            };
+            for wo in [Vec3::Z, Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.96, 0.1, 0.15)].map(Vec3::normalize) {
+                for true_normal in [Vec3::Z, Vec3::new(0.26, 0.0, 0.96), Vec3::new(-0.2, 0.4, 0.9)] {
+                    let mut sum = 0.0;
+                    for i in 0..rings {
+                        let t = (f64::from(i) + 0.5) / f64::from(rings);
+                        let slope = f64::from(alpha) * t / (1.0 - t);
+                        let ring = slope * f64::from(alpha) / (1.0 - t).powi(2) / f64::from(rings);
+                        for j in 0..sectors {
+                            let phi = 2.0 * std::f64::consts::PI * (f64::from(j) + 0.5) / f64::from(sectors);
+                            let h = Vec3::new((-slope * phi.cos()) as f32, (-slope * phi.sin()) as f32, 1.0)
+                                .normalize();
+                            let wi = h * (2.0 * wo.dot(h)) - wo;
+                            if wo.dot(h) <= 0.0 || wi.z <= 0.0 || wi.dot(true_normal) <= 0.0 {
+                                continue;
+                            }
+                            let value = scattering.eval_kept(wo, wi).g * wi.z * 4.0 * wo.dot(h);
+                            // dω of a normal is cos³ of its slopes' area.
+                            let solid = f64::from(h.z).powi(3) * ring * 2.0 * std::f64::consts::PI;
+                            sum += f64::from(value) * solid / f64::from(sectors);
+                        }
+                    }
+                    assert!(sum <= 1.0 + 1e-4, "{distribution:?} {alpha} {wo} {true_normal}: {sum}");
+                    assert!(alpha > 0.2 || true_normal != Vec3::Z || wo.z < 0.5 || sum > 0.98, "{sum}");
+                }
             }
         }
     }

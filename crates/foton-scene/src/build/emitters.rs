@@ -32,6 +32,7 @@ pub(super) fn area_emitter(shape: u32, radiance: Rgb, primitives: &[Primitive]) 
         by_area: Discrete::new(areas().map(f64::from)),
         area: areas().sum(),
         shape,
+        gap: 0.0,
     }
 }
 

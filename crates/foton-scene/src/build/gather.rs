@@ -149,6 +149,7 @@ impl Gathered {
         let smooth = self.vertex_normals.iter().any(|n| n[0] != Vec3::ZERO);
         let ordered = order.iter().map(|&i| i as usize);
         Scene {
+            coincidences: Arc::default(),
             shape_of: ordered.clone().map(|i| self.shape_of[i]).collect(),
             vertex_uvs: ordered.clone().filter_map(|i| self.vertex_uvs.get(i).copied()).collect(),
             textures: Arc::default(),

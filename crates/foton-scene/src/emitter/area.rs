@@ -18,6 +18,8 @@ pub(crate) struct Area {
     pub(crate) by_area: Discrete,
     pub(crate) area: f32,
     pub(crate) shape: u32,
+    /// How far from it another surface may lie that counts as the same: photons start beyond.
+    pub(crate) gap: f32,
 }
 
 impl Area {
@@ -43,7 +45,7 @@ impl Area {
         };
         Surface {
             position,
-            error,
+            error: error + normal.abs() * self.gap,
             normal,
             shading_normal: normal,
             curved: false,
@@ -51,6 +53,7 @@ impl Area {
             patch: 0,
             primitive: 0,
             barycentric: Vec2::ZERO,
+            interface: None,
         }
     }
 

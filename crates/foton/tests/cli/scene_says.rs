@@ -129,6 +129,13 @@ fn what_a_scene_cannot_have_in_single_precision_is_said_by_name() {
     let said =
         with(r#"<shape type="obj"><string name="filename" value="line.obj"/><ref id="white"/></shape>"#);
     assert_eq!(said, ["left out 2 triangles without area"]);
+    let said = with(
+        r#"<shape type="rectangle" id="sign"><transform name="to_world"><translate z="-9"/></transform><ref id="white"/></shape>
+        <shape type="rectangle" id="letter"><transform name="to_world"><scale value="0.5"/><translate z="-9"/></transform>
+        <ref id="white"/></shape>"#,
+    );
+    let expected = "\"letter\" lies exactly in \"sign\", which hides it there: what is opaque counts before masks, then the first in the file";
+    assert_eq!(said, [expected]);
     let said = warnings(&folder, "scene.xml --radius 1e9").0;
     assert!(
         said.len() == 1 && said[0].starts_with("--radius is larger than the whole scene and is cut to that")

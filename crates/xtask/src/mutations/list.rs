@@ -9,6 +9,7 @@ const MESHES: &str = "-p foton-format --test meshes";
 const PICTURES: &str = "-p foton-format --test pictures";
 const BAD_FILES: &str = "-p foton-format --test bad_files";
 const INTEGRATOR: &str = "-p foton-integrator --lib";
+const SURFACES: &str = "-p foton-tests --test surfaces";
 const ANALYTIC: &str = "-p foton-tests --test analytic";
 const LEDGER: &str = "-p foton-tests --test ledger";
 const CHECKPOINTS: &str = "-p foton-tests --test checkpoints";
@@ -183,6 +184,78 @@ pub(super) const LIST: &[Mutation] = &[
         to: "if false {",
         target: PICTURES,
         test: "a_jpeg_that_ends_early_is_read_as_far_as_it_goes_and_that_is_said",
+    },
+    Mutation {
+        what: "hits on surfaces that lie in one another are settled",
+        file: "crates/foton-scene/src/coincident.rs",
+        from: "self.shared.get(primitive as usize).copied().unwrap_or_default()",
+        to: "self.shared.get(primitive as usize).copied().filter(|_| false).unwrap_or_default()",
+        target: GEOMETRY,
+        test: "what_is_opaque_counts_before_what_is_clear_and_rays_leave_both",
+    },
+    Mutation {
+        what: "a face of two dielectrics is one boundary",
+        file: "crates/foton-scene/src/coincident.rs",
+        from: "merged.then_some([inside, outside])",
+        to: "(merged && inside < 0.0).then_some([inside, outside])",
+        target: GEOMETRY,
+        test: "a_face_that_two_dielectrics_state_is_one_boundary_between_them",
+    },
+    Mutation {
+        what: "a lamp's photons start beyond what lies in it",
+        file: "crates/foton-scene/src/emitter/area.rs",
+        from: "error: error + normal.abs() * self.gap,",
+        to: "error,",
+        target: GEOMETRY,
+        test: "of_two_opaque_surfaces_the_first_counts_where_it_is_described",
+    },
+    Mutation {
+        what: "a side without a BSDF has an opacity",
+        file: "crates/foton-scene/src/scene.rs",
+        from: "None if material.opacity.is_some() => &BLACK,",
+        to: "None if material.opacity.is_some() && self.census.spheres == u64::MAX => &BLACK,",
+        target: SURFACES,
+        test: "a_mask_lets_light_through_from_behind_too",
+    },
+    Mutation {
+        what: "photons count by the cosine on their own face",
+        file: "crates/foton-integrator/src/gather.rs",
+        from: "if (off <= 0.51) | plain {",
+        to: "if (off <= f32::INFINITY) | plain {",
+        target: SURFACES,
+        test: "interpolated_normals_reflect_no_more_than_arrives",
+    },
+    Mutation {
+        what: "photons bring light of points to narrow lobes",
+        file: "crates/foton-integrator/src/hit_point.rs",
+        from: "!self.narrow || photon.is_lone()",
+        to: "!self.narrow",
+        target: SURFACES,
+        test: "light_by_mirrors_and_through_clear_things_shows_on_both_sides_of_the_followed_roughness",
+    },
+    Mutation {
+        what: "of narrow lobes photons bring nothing that followed paths find",
+        file: "crates/foton-integrator/src/photon_pass/scatter.rs",
+        from: "&& self.scene.emitters()[path.emitter as usize].is_without_extent()",
+        to: "",
+        target: SURFACES,
+        test: "photons_in_narrow_gloss_bring_only_what_followed_paths_cannot",
+    },
+    Mutation {
+        what: "shadow rays see through what photons pass straight",
+        file: "crates/foton-integrator/src/straight.rs",
+        from: "if !scene.census().straight {",
+        to: "if !scene.census().straight || edges > 0 {",
+        target: SURFACES,
+        test: "shadow_rays_see_through_what_photons_pass_straight",
+    },
+    Mutation {
+        what: "light that passes straight is direct light",
+        file: "crates/foton-integrator/src/photon.rs",
+        from: "(_, Lobe::Straight) => self,",
+        to: "(Self::Direct | Self::Caustic, Lobe::Straight) => Self::Caustic,",
+        target: SURFACES,
+        test: "shadow_rays_see_through_what_photons_pass_straight",
     },
     Mutation {
         what: "N is double precision",

@@ -1,0 +1,385 @@
+//! Surfaces that light passes, that lie in one another, or that are smooth by their normals alone.
+
+use std::f64::consts::PI;
+use std::num::NonZeroU32;
+use std::sync::Arc;
+
+use foton_integrator::{DirectLight, Settings};
+use foton_math::Rgb;
+use foton_math::glam::{DAffine3, DVec3};
+use foton_scene::description::{
+    Bsdf, Colour, EmitterDescription, EmitterKind, Geometry, Mesh, MicrofacetDistribution, Microfacets,
+};
+use foton_tests::{Sketch, glass, grey, mean, seeds};
+
+const WHITE: Colour = Colour::Constant(Rgb::WHITE);
+
+fn settings(photons: u32, samples: u32) -> Settings {
+    Settings {
+        photons_per_pass: NonZeroU32::new(photons).expect("above 0"),
+        first_pass: NonZeroU32::new(photons).expect("above 0"),
+        samples_per_pixel: NonZeroU32::new(samples).expect("above 0"),
+        ..Settings::default()
+    }
+}
+
+/// A metal that reflects all light, in lobes of this roughness.
+fn white_metal(alpha: f32) -> Bsdf {
+    Bsdf::Conductor {
+        eta: Rgb::BLACK,
+        k: Rgb::WHITE,
+        specular_reflectance: WHITE,
+        roughness: Some(Microfacets::isotropic(MicrofacetDistribution::Ggx, alpha)),
+    }
+}
+
+const MIRROR: Bsdf = Bsdf::Mirror { reflectance: WHITE };
+
+fn pane() -> Bsdf {
+    Bsdf::ThinDielectric {
+        int_ior: 1.5,
+        ext_ior: 1.0,
+        specular_reflectance: WHITE,
+        specular_transmittance: WHITE,
+    }
+}
+
+/// Makes a mask of the last material.
+fn masked(mut sketch: Sketch, opacity: f32, both_sides: bool) -> Sketch {
+    let material = sketch.0.materials.last_mut().expect("a material");
+    material.opacity = Some(Colour::Constant(Rgb::splat(opacity)));
+    material.back = both_sides.then_some(material.front);
+    sketch
+}
+
+fn lamp(sketch: Sketch, centre: DVec3, half: f64) -> Sketch {
+    let radiance = Some(Rgb::splat((1.0 / (half * half)) as f32));
+    sketch.rectangle(centre, DVec3::X * half, DVec3::Z * half, grey(0.0), radiance)
+}
+
+fn near(what: &str, a: (f64, f64), b: (f64, f64), bias: f64) {
+    let bound = 4.0 * a.1.hypot(b.1) + bias * b.0;
+    assert!((a.0 - b.0).abs() <= bound, "{what}: {} ± {} and {} ± {}", a.0, a.1, b.0, b.1);
+}
+
+/// A wall behind a one-sided card whose back is turned to the eye.
+#[test]
+fn a_mask_lets_light_through_from_behind_too() {
+    let wall = || {
+        let room = Sketch::default().camera(DVec3::new(0.0, 0.0, 4.0), DVec3::ZERO, 20.0, 8).rectangle(
+            DVec3::NEG_Z,
+            DVec3::X * 2.0,
+            DVec3::Y * 2.0,
+            grey(0.7),
+            None,
+        );
+        lamp(room, DVec3::new(0.0, 1.9, 1.0), 0.3).max_depth(6)
+    };
+    let card = |opacity| {
+        let backwards = wall().rectangle(DVec3::Z * 0.5, DVec3::X, -DVec3::Y, grey(0.5), None);
+        masked(backwards, opacity, false)
+    };
+    let ball = |opacity| {
+        // The eye is inside.
+        masked(wall().sphere(DVec3::new(0.0, 0.0, 4.0), 0.2, grey(0.5), None), opacity, false)
+    };
+    for direct_light in [DirectLight::Photons, DirectLight::ShadowRays] {
+        let base = Settings { direct_light, ..settings(50_000, 1) };
+        let open = seeds(&wall(), &base, 2, 4);
+        for (opacity, share) in [(0.0, 1.0), (0.5, 0.5), (1.0, 0.0)] {
+            let (seen, sigma) = seeds(&ball(opacity), &base, 2, 4);
+            near("ball", (seen, sigma), (share * open.0, share * open.1), 0.01);
+            let (seen, sigma) = seeds(&card(opacity), &base, 2, 4);
+            if opacity == 0.0 {
+                near("card", (seen, sigma), open, 0.01);
+            } else {
+                // The card hides its share of the wall, and throws light of the lamp at it.
+                assert!(
+                    seen >= 0.0 && seen < 0.9 * open.0 && (seen > 0.0) == (share > 0.0),
+                    "{opacity}: {seen}"
+                );
+            }
+        }
+    }
+}
+
+/// A block of glass whose bottom lies in the floor is one without a bottom: floor and glass touch.
+#[test]
+fn glass_that_stands_in_the_plane_of_a_floor_is_one_with_it() {
+    let place = DAffine3::from_rotation_y(0.4) * DAffine3::from_translation(DVec3::new(0.2, 0.0, 0.1));
+    let scene = |block: &dyn Fn(Sketch) -> Sketch, floor_first: bool| {
+        let floor = |s: Sketch| s.rectangle(DVec3::ZERO, DVec3::X * 4.0, DVec3::NEG_Z * 4.0, grey(0.5), None);
+        let s = Sketch::default().camera(DVec3::new(2.0, 4.0, 5.0), DVec3::Y * 0.4, 26.0, 12);
+        let s = if floor_first { block(floor(s)) } else { floor(block(s)) };
+        lamp(s, DVec3::Y * 5.0, 1.0).max_depth(12)
+    };
+    let cube = place * DAffine3::from_translation(DVec3::Y);
+    let whole = |s: Sketch| s.shape(Geometry::Mesh(Arc::new(Mesh::cube())), cube, glass(1.5), None);
+    let open = |s: Sketch| {
+        let mut five = Mesh::cube();
+        five.triangles.retain(|t| t.iter().any(|&i| five.positions[i as usize].y > 0.0));
+        s.shape(Geometry::Mesh(Arc::new(five)), cube, glass(1.5), None)
+    };
+    let base = settings(60_000, 4);
+    let expected = seeds(&scene(&open, true), &base, 3, 4);
+    for floor_first in [true, false] {
+        let got = seeds(&scene(&whole, floor_first), &base, 3, 4);
+        near("the block", got, expected, 0.002);
+    }
+}
+
+/// Water on glass: the face between them stated once, by its two indices, or twice, each in air.
+#[test]
+fn a_face_between_water_and_glass_may_be_stated_once_or_twice() {
+    let between = |int_ior, ext_ior| Bsdf::Dielectric {
+        int_ior,
+        ext_ior,
+        specular_reflectance: WHITE,
+        specular_transmittance: WHITE,
+        roughness: None,
+    };
+    let layer = |s: Sketch, height: f64, up: bool, bsdf| {
+        let y = if up { DVec3::NEG_Z } else { DVec3::Z };
+        s.rectangle(DVec3::Y * height, DVec3::X * 9.0, y * 9.0, bsdf, None)
+    };
+    let scene = |faces: &[(bool, Bsdf)]| {
+        let s = Sketch::default().camera(DVec3::new(0.3, 4.0, 0.2), DVec3::ZERO, 20.0, 6).rectangle(
+            DVec3::NEG_Y,
+            DVec3::X * 4.0,
+            DVec3::NEG_Z * 4.0,
+            grey(0.5),
+            None,
+        );
+        let s = layer(s, 1.0, true, between(1.333, 1.0));
+        let s = faces.iter().fold(s, |s, &(up, bsdf)| layer(s, 0.5, up, bsdf));
+        layer(s, 0.0, false, between(1.5, 1.0)).point(DVec3::Y * 3.0, 50.0).max_depth(16)
+    };
+    let base = settings(100_000, 1);
+    let image = |faces: &[(bool, Bsdf)]| mean(&scene(faces).render(base.clone(), 2).image());
+    let (water, plate) = ((false, between(1.333, 1.0)), (true, between(1.5, 1.0)));
+    let once = image(&[(true, between(1.5, 1.333))]);
+    for twice in [[water, plate], [plate, water]] {
+        let twice = image(&twice);
+        assert!(once > 0.0 && (twice / once - 1.0).abs() < 0.01, "{twice} and {once}");
+    }
+}
+
+/// A ball of a few faces with the normals of a sphere.
+fn coarse_ball() -> Geometry {
+    const AROUND: u32 = 12;
+    const DOWN: u32 = 6;
+    let mut mesh = Mesh::default();
+    for i in 0..=DOWN {
+        for j in 0..AROUND {
+            let (a, b) = (PI * f64::from(i) / f64::from(DOWN), 2.0 * PI * f64::from(j) / f64::from(AROUND));
+            mesh.positions.push(DVec3::new(a.sin() * b.cos(), a.cos(), a.sin() * b.sin()));
+        }
+    }
+    for i in 0..DOWN {
+        for j in 0..AROUND {
+            let at = |i: u32, j: u32| i * AROUND + j % AROUND;
+            let [a, b, c, d] = [at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)];
+            mesh.triangles.extend((i > 0).then_some([a, b, c]));
+            mesh.triangles.extend((i + 1 < DOWN).then_some([a, c, d]));
+        }
+    }
+    mesh.normals.clone_from(&mesh.positions);
+    Geometry::Mesh(Arc::new(mesh))
+}
+
+/// Nothing reflects more light than arrives: under a sky of radiance 1 nothing is brighter than 1, by three standard errors.
+#[test]
+fn interpolated_normals_reflect_no_more_than_arrives() {
+    let coat = Bsdf::Plastic {
+        int_ior: 1.5,
+        ext_ior: 1.0,
+        diffuse_reflectance: WHITE,
+        specular_reflectance: WHITE,
+        nonlinear: true,
+        roughness: Some(Microfacets::isotropic(MicrofacetDistribution::Beckmann, 0.2)),
+    };
+    for material in [grey(1.0), white_metal(0.11), white_metal(0.3), coat] {
+        let mut sketch = Sketch::default().camera(DVec3::new(0.0, 0.3, 4.0), DVec3::ZERO, 13.0, 10).shape(
+            coarse_ball(),
+            DAffine3::IDENTITY,
+            material,
+            None,
+        );
+        sketch.0.emitters.push(EmitterDescription {
+            name: "sky".into(),
+            kind: EmitterKind::Constant { radiance: Rgb::WHITE },
+        });
+        let (seen, sigma) = seeds(&sketch, &settings(40_000, 4), 10, 6);
+        assert!(sigma < 0.01 && seen < 1.0 + 3.0 * sigma, "{material:?}: {seen} ± {sigma}");
+    }
+}
+
+/// Light that passes straight through surfaces is direct light: photons bring it, or shadow rays do.
+#[test]
+fn shadow_rays_see_through_what_photons_pass_straight() {
+    let scene = |between: &dyn Fn(Sketch) -> Sketch, ground: Bsdf, by_point: bool| {
+        let s = Sketch::default().camera(DVec3::new(1.5, 3.0, 2.0), DVec3::ZERO, 14.0, 8).rectangle(
+            DVec3::ZERO,
+            DVec3::X * 2.0,
+            DVec3::NEG_Z * 2.0,
+            ground,
+            None,
+        );
+        let s = between(s).max_depth(8);
+        let above = DVec3::new(-0.5, 2.0, 0.3);
+        if by_point { s.point(above, 60.0) } else { lamp(s, above, 0.3) }
+    };
+    let sheet = |s: Sketch, height: f64, bsdf| {
+        s.rectangle(DVec3::Y * height, DVec3::X * 0.8, DVec3::NEG_Z * 0.8, bsdf, None)
+    };
+    let nothing = |s: Sketch| sheet(s, 1.0, Bsdf::Null);
+    let half = |s: Sketch| masked(sheet(s, 1.0, grey(0.5)), 0.5, true);
+    let one_sided = |s: Sketch| masked(sheet(s, 1.0, grey(0.0)), 0.25, false);
+    let glazed = |s: Sketch| sheet(sheet(s, 1.0, pane()), 1.2, pane());
+    let mirrored = |s: Sketch| masked(sheet(s, 1.0, MIRROR), 0.5, true);
+    let all = |s: Sketch| sheet(half(sheet(s, 1.1, pane())), 0.9, Bsdf::Null);
+    let betweens: [&dyn Fn(Sketch) -> Sketch; 6] = [&nothing, &half, &one_sided, &glazed, &mirrored, &all];
+    for (i, between) in betweens.into_iter().enumerate() {
+        for (ground, by_point) in [(grey(0.5), false), (white_metal(0.3), false), (grey(0.5), true)] {
+            let sketch = scene(between, ground, by_point);
+            let base = Settings { radius: Some(0.05), ..settings(100_000, 1) };
+            let photons = seeds(&sketch, &base, 2, 4);
+            let by_rays = Settings { direct_light: DirectLight::ShadowRays, ..base };
+            let rays = seeds(&sketch, &by_rays, 6, 4);
+            near(&format!("sheet {i}, {ground:?}"), photons, rays, 0.015);
+        }
+    }
+}
+
+/// A name, what is added to the scene, whether the sun shines, whether the gloss is a coat.
+type Way<'a> = (&'a str, &'a dyn Fn(Sketch) -> Sketch, bool, bool);
+
+/// Light of a point, a spot or the sun that comes by way of something clear shows in a lobe that is followed as in one that is kept.
+#[test]
+fn light_by_mirrors_and_through_clear_things_shows_on_both_sides_of_the_followed_roughness() {
+    let lit = |by: &dyn Fn(Sketch) -> Sketch, sun: bool, alpha: f32, coated: bool| {
+        let material = if coated {
+            Bsdf::Plastic {
+                int_ior: 1.5,
+                ext_ior: 1.0,
+                diffuse_reflectance: Colour::Constant(Rgb::BLACK),
+                specular_reflectance: WHITE,
+                nonlinear: false,
+                roughness: Some(Microfacets::isotropic(MicrofacetDistribution::Ggx, alpha)),
+            }
+        } else {
+            white_metal(alpha)
+        };
+        let s = Sketch::default().camera(DVec3::new(4.0, 3.0, 0.0), DVec3::ZERO, 26.0, 12).rectangle(
+            DVec3::ZERO,
+            DVec3::X * 3.0,
+            DVec3::NEG_Z * 3.0,
+            material,
+            None,
+        );
+        let mut s = by(s).max_depth(8);
+        if sun {
+            s.0.emitters.push(EmitterDescription {
+                name: "sun".into(),
+                kind: EmitterKind::Directional {
+                    direction: DVec3::new(-1.0, -0.75, 0.0),
+                    irradiance: Rgb::splat(5.0),
+                },
+            });
+            return s;
+        }
+        s.point(DVec3::new(-2.0, 1.5, 0.0), 120.0)
+    };
+    let wall = |s: Sketch, bsdf| {
+        s.rectangle(DVec3::new(-3.0, 2.0, 0.0), DVec3::NEG_Z * 3.0, DVec3::Y * 3.0, bsdf, None)
+    };
+    let sheet = |s: Sketch, bsdf| {
+        s.rectangle(DVec3::new(-1.6, 1.2, 0.0), DVec3::X * 1.2, DVec3::NEG_Z * 1.2, bsdf, None)
+    };
+    let slab = |s: Sketch| {
+        let at = DAffine3::from_translation(DVec3::new(-1.6, 1.2, 0.0));
+        let flat = DAffine3::from_scale(DVec3::new(1.2, 0.1, 1.2));
+        s.shape(Geometry::Mesh(Arc::new(Mesh::cube())), at * flat, glass(1.5), None)
+    };
+    let by_mirror = |s: Sketch| wall(s, MIRROR);
+    let by_pane = |s: Sketch| wall(sheet(s, pane()), pane());
+    let by_mask = |s: Sketch| masked(sheet(s, grey(0.0)), 0.5, true);
+    let by_nothing = |s: Sketch| wall(sheet(s, Bsdf::Null), MIRROR);
+    let ways: [Way<'_>; 7] = [
+        ("mirror", &by_mirror, false, false),
+        ("coat by a mirror", &by_mirror, false, true),
+        ("sun by a mirror", &by_mirror, true, false),
+        ("panes", &by_pane, false, false),
+        ("mask", &by_mask, false, false),
+        ("nothing and a mirror", &by_nothing, false, false),
+        ("slab", &slab, false, false),
+    ];
+    let base = Settings { radius: Some(0.08), ..settings(60_000, 4) };
+    for (way, by, sun, coated) in ways {
+        let followed = seeds(&lit(by, sun, 0.0999, coated), &base, 3, 4);
+        let kept = seeds(&lit(by, sun, 0.1001, coated), &base, 3, 4);
+        assert!(followed.0 > 0.0 && followed.1 < 0.05 * followed.0, "{way}: {followed:?}");
+        near(way, followed, kept, 0.03);
+    }
+}
+
+/// Where there is a point, hit points of narrow lobes are there; they count nothing of a lamp, which followed paths find.
+#[test]
+fn photons_in_narrow_gloss_bring_only_what_followed_paths_cannot() {
+    let scene = |lamp: bool, point: bool| {
+        let s = Sketch::default()
+            .camera(DVec3::new(2.0, 3.0, 0.0), DVec3::ZERO, 16.0, 6)
+            .rectangle(DVec3::ZERO, DVec3::X * 2.0, DVec3::NEG_Z * 2.0, white_metal(0.09), None)
+            .rectangle(DVec3::new(-1.5, 1.5, 0.0), DVec3::NEG_Z * 1.5, DVec3::Y * 1.3, MIRROR, None)
+            .max_depth(8);
+        let s = if point { s.point(DVec3::new(-1.0, 1.2, 0.1), 100.0) } else { s };
+        if !lamp {
+            return s;
+        }
+        let radiance = 100.0 / (4.0 * PI * PI * 0.12 * 0.12);
+        s.sphere(DVec3::new(-1.0, 1.5, 0.0), 0.12, grey(0.0), Some(Rgb::splat(radiance as f32)))
+    };
+    let base = Settings { radius: Some(0.05), ..settings(30_000, 64) };
+    let [a, b, both] = [(true, false), (false, true), (true, true)]
+        .map(|(lamp, point)| seeds(&scene(lamp, point), &base, 2, 4));
+    near("both lights", both, (a.0 + b.0, a.1.hypot(b.1)), 0.02);
+}
+
+/// A lamp so small that it is nearly a point, which followed paths find by themselves: the hit points of narrow lobes, rough glass
+/// among them, add nothing to it, and a true point in its place gives the same light.
+#[test]
+fn photons_in_narrow_gloss_bring_what_followed_paths_would_of_a_lamp_of_some_size() {
+    let rough_glass = |alpha: f32| Bsdf::Dielectric {
+        int_ior: 1.5,
+        ext_ior: 1.0,
+        specular_reflectance: WHITE,
+        specular_transmittance: WHITE,
+        roughness: Some(Microfacets::isotropic(MicrofacetDistribution::Ggx, alpha)),
+    };
+    let scene = |material, below: bool, point: bool| {
+        let s = Sketch::default()
+            .camera(DVec3::new(2.0, 3.0, 0.0), DVec3::ZERO, 16.0, 6)
+            .rectangle(DVec3::ZERO, DVec3::X * 2.0, DVec3::NEG_Z * 2.0, material, None)
+            .max_depth(8);
+        // A mirror beside the light throws it on the sheet, from above or from below.
+        let side = if below { -1.0 } else { 1.0 };
+        let at = DVec3::new(-1.0, side * 1.5, 0.0);
+        let s =
+            s.rectangle(DVec3::new(-1.5, side * 1.5, 0.0), DVec3::NEG_Z * 1.5, DVec3::Y * 1.3, MIRROR, None);
+        if point {
+            return s.point(at, 100.0);
+        }
+        let radius = 0.12;
+        let radiance = 100.0 / (4.0 * PI * PI * radius * radius);
+        s.sphere(at, radius, grey(0.0), Some(Rgb::splat(radiance as f32)))
+    };
+    for (material, below) in
+        [(white_metal(0.09), false), (rough_glass(0.25), false), (rough_glass(0.25), true)]
+    {
+        let few = Settings { radius: Some(0.05), ..settings(60_000, 16) };
+        let by_point = seeds(&scene(material, below, true), &few, 3, 4);
+        let many = settings(10_000, 256);
+        let by_lamp = seeds(&scene(material, below, false), &many, 1, 4);
+        near(&format!("{material:?} {below}"), by_point, by_lamp, 0.03);
+    }
+}
