@@ -22,12 +22,16 @@ const SEEN: [f32; 5] = [0.75, 1.0 - 1.0 / 16.0, 1.0 - 1.0 / 64.0, 1.0 - 1.0 / 25
 /// Which of them tells whether a scene is wide, and what arrives of an emitter.
 const FOR_THE_MOST_PART: usize = 1;
 
-/// A ball less than this many times as large as the last adds nothing.
+/// A ball that is not smaller than the next larger one by this factor adds nothing.
 const LARGER: f32 = 1.5;
 
-/// Share of the photons that are aimed at all balls together, each ball at half as many as the one before; the others go as
-/// their emitter shines.
-const AIMED: f32 = 0.9;
+/// Shares of the photons that are aimed at what is seen, at what focuses light, and beyond; the others go as their emitter shines.
+const AT_SEEN: f32 = 0.7;
+const AT_CASTERS: f32 = 0.1;
+const BEYOND: f32 = 0.1;
+
+/// Each ball of what is seen has at least this weight among them.
+const LEAST: f32 = 0.02;
 
 /// Beyond what is seen each ball is this many times as large as the last.
 const GROWTH: f32 = 4.0;
@@ -60,25 +64,7 @@ impl Scene {
         if self.emitter_choice.is_empty() || most.radius * WIDE > self.bounds.radius() {
             return as_they_shine;
         }
-        let all = balls[SEEN.len() - 1];
-        let beyond = std::iter::successors(Some(all), |b| Some(Ball { radius: GROWTH * b.radius, ..*b }))
-            .take_while(|ball| ball.radius < self.bounds.radius());
-        let mut kept: Vec<Ball> = Vec::new();
-        for ball in
-            balls[..1].iter().copied().chain(self.casters).chain(balls[1..].iter().copied()).chain(beyond)
-        {
-            let is_larger = kept.iter().all(|other| {
-                let apart = ball.centre.distance(other.centre);
-                ball.radius > LARGER * other.radius || apart > other.radius
-            });
-            if is_larger && ball.radius < 0.5 * self.bounds.radius() {
-                kept.push(ball);
-            }
-        }
-        let halved = |i: usize| 0.5f32.powi(i as i32);
-        let whole: f32 = (0..kept.len()).map(halved).sum();
-        let target = |(i, ball)| Target { ball, share: AIMED * halved(i) / whole };
-        let aim = Aim::new(kept.into_iter().enumerate().map(target).collect());
+        let aim = Aim::new(targets(&balls, self.casters, self.bounds.radius()));
         let arriving =
             self.emitters.iter().map(|e| f64::from(e.power().mean()) * f64::from(arrives(e, &most)));
         let arriving = Discrete::new(arriving);
@@ -139,6 +125,35 @@ fn balls_around(points: &[Vec3]) -> Option<[Ball; SEEN.len()]> {
     Some(SEEN.map(|share| Ball { centre, radius: radius(share) }))
 }
 
+/// What to aim at, and how much: so that across what is seen photons fall as densely as points lie there, and each pixel has its
+/// share.
+fn targets(balls: &[Ball; SEEN.len()], casters: Option<Ball>, scene_radius: f32) -> Vec<Target> {
+    // From the largest in: of balls of about one size it stands for all.
+    let mut kept: Vec<(Ball, f32)> = Vec::new();
+    for (&ball, held) in balls.iter().zip(SEEN).rev() {
+        if kept.last().is_none_or(|(larger, _)| ball.radius * LARGER < larger.radius) {
+            kept.push((ball, held));
+        }
+    }
+    kept.reverse();
+    let area = |i: usize| kept[i].0.radius.powi(2);
+    let density = |i: usize| match (i.checked_sub(1), kept.get(i)) {
+        (_, None) => 0.0,
+        (None, Some((_, held))) => held / area(i),
+        (Some(inner), Some((_, held))) => (held - kept[inner].1) / (area(i) - area(inner)),
+    };
+    let weight = |i: usize| (area(i) * (density(i) - density(i + 1))).max(LEAST);
+    let whole: f32 = (0..kept.len()).map(weight).sum();
+    let seen =
+        kept.iter().enumerate().map(|(i, &(ball, _))| Target { ball, share: AT_SEEN * weight(i) / whole });
+    let all = balls[SEEN.len() - 1];
+    let larger = |b: &Ball| Some(Ball { radius: GROWTH * b.radius, ..*b });
+    let shells = std::iter::successors(larger(&all), larger).take_while(|ball| ball.radius < scene_radius);
+    let share = BEYOND / (shells.clone().count() as f32).max(1.0);
+    let casters = casters.map(|ball| Target { ball, share: AT_CASTERS });
+    seen.chain(casters).chain(shells.map(|ball| Target { ball, share })).collect()
+}
+
 /// About what share of an emitter's power goes to a ball.
 fn arrives(emitter: &Emitter, ball: &Ball) -> f32 {
     let from = |position: Vec3| (ball.radius / position.distance(ball.centre)).powi(2).min(1.0);
@@ -155,6 +170,21 @@ fn arrives(emitter: &Emitter, ball: &Ball) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn photons_fall_as_densely_as_points_lie() {
+        // Three quarters of the points within 1, the rest evenly within 4: one ball of each.
+        let ball = |radius| Ball { centre: Vec3::ZERO, radius };
+        let balls = [ball(1.0), ball(3.7), ball(3.9), ball(4.0), ball(4.0)];
+        let targets = targets(&balls, None, 100.0);
+        let radii: Vec<f32> = targets.iter().map(|t| t.ball.radius).collect();
+        assert_eq!(radii, [1.0, 4.0, 16.0, 64.0]);
+        let per_area = |t: &Target| t.share / t.ball.radius.powi(2);
+        let (inner, outer) = (per_area(&targets[0]) + per_area(&targets[1]), per_area(&targets[1]));
+        assert!((inner / outer / (0.75 / (0.25 / 15.0)) - 1.0).abs() < 1e-3, "{inner} {outer}");
+        let sum: f32 = targets.iter().map(|t| t.share).sum();
+        assert!((sum - AT_SEEN - BEYOND).abs() < 1e-6, "{sum}");
+    }
 
     #[test]
     fn balls_hold_their_shares_of_the_points_around_most_of_them() {
