@@ -91,6 +91,7 @@ mod tests {
             bias: 0.007,
             low: 0.012,
             high: 0.019,
+            focus: 0.0,
             unknown_share: 0.01,
             effective_passes: 20.0,
             mean_luminance: 1.0,

@@ -6,6 +6,7 @@ mod args;
 mod compare;
 mod convert;
 mod embedded;
+mod figure;
 mod info;
 mod job;
 mod measure;

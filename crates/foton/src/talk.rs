@@ -3,10 +3,11 @@
 use std::fmt;
 use std::io::Write;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use foton_film::{ReadError, WriteError};
 use foton_format::{Diagnostic, OpenError, Opened, Severity};
-use foton_integrator::{ClassError, DirectLight, ErrorEstimate, Ledger, NotFinite, Ppm};
+use foton_integrator::{DirectLight, Ledger, NotFinite, Ppm};
 use foton_measure::CompareError;
 use foton_measure::sweep::SweepError;
 use foton_scene::BuildError;
@@ -14,6 +15,8 @@ use foton_session::checkpoint::ResumeError;
 use foton_session::{Panic, Progress, Session, StartError, StopRule};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
+
+use crate::figure::{self, add_error, classes_text, error_text, upper_end_text};
 
 /// Power that is cut off beyond this share of what is emitted is worth a warning.
 const WORTH_A_WARNING: f64 = 1e-3;
@@ -152,11 +155,13 @@ impl From<StartError> for Failure {
 pub(crate) struct Talk {
     json: bool,
     bar: ProgressBar,
+    /// Whether it was said that the error stays above its goal.
+    said_floor: AtomicBool,
 }
 
 impl Talk {
     pub(crate) fn new(json: bool) -> Self {
-        Self { json, bar: ProgressBar::hidden() }
+        Self { json, bar: ProgressBar::hidden(), said_floor: AtomicBool::new(false) }
     }
 
     /// A line on stdout: what was asked for.
@@ -268,6 +273,10 @@ impl Talk {
             add_error(&mut event, error.as_ref());
             self.event(&event);
         }
+        let too_high = rule.error.zip(error).and_then(|(goal, e)| figure::out_of_reach(goal, &e, r, p.ppm));
+        if let Some(why) = too_high.filter(|_| !self.said_floor.swap(true, Ordering::Relaxed)) {
+            self.warning(&why);
+        }
         if let Some(fraction) = rule.fraction(r.pass, p.elapsed, error.as_ref()) {
             self.bar.set_position((fraction * 1000.0) as u64);
         }
@@ -320,11 +329,12 @@ impl Talk {
         ));
         if let Some(error) = ppm.error() {
             self.line(&format!(
-                "{}{}; 90 % confidence {:.2} to {:.2} %, if all blur is that of edges; without what eye samples miss and what no photon has found",
+                "{}{}; 90 % confidence {:.2} to {:.2} %, {}; without what eye samples miss and what no photon has found",
                 error_text(&error),
                 classes_text(&error),
                 100.0 * error.low,
-                100.0 * error.high
+                100.0 * error.high,
+                upper_end_text(&error)
             ));
         }
         for path in outputs {
@@ -390,37 +400,6 @@ impl Talk {
             self.line(&format!("the first of those: {place}; --strict stops there"));
         }
     }
-}
-
-/// Names of the path classes, in their order.
-const CLASSES: [&str; 3] = ["direct", "caustic", "indirect"];
-
-/// What direct, caustic and indirect light have of the error, in a few words.
-fn classes_text(e: &ErrorEstimate) -> String {
-    let parts = e.classes.iter().flat_map(|classes| CLASSES.into_iter().zip(classes));
-    let parts: Vec<String> = parts.map(|(name, c)| format!("{name} {:.2}", 100.0 * c.total())).collect();
-    if parts.is_empty() { String::new() } else { format!("; of it {}", parts.join(", ")) }
-}
-
-/// The error in a few words.
-fn error_text(e: &ErrorEstimate) -> String {
-    let percent = |share: f64| 100.0 * share;
-    format!("error {:.2} % (noise {:.2}, bias {:.2})", percent(e.total), percent(e.noise), percent(e.bias))
-}
-
-/// Adds the error to an event: shares of the mean reflected light; null while nothing is known.
-fn add_error(event: &mut Value, error: Option<&ErrorEstimate>) {
-    let fields = |e: &ErrorEstimate| [e.total, e.noise, e.bias, e.low, e.high, e.unknown_share];
-    let names = ["error", "noise", "bias", "error_low", "error_high", "unknown_share"];
-    for (i, name) in names.into_iter().enumerate() {
-        event[name] = json!(error.map(|e| fields(e)[i]));
-    }
-    event["classes"] = json!(error.and_then(|e| e.classes).map(|classes| {
-        let of = |(name, c): (&str, ClassError)| {
-            (name.to_owned(), json!({ "error": c.total(), "noise": c.noise, "bias": c.bias }))
-        };
-        CLASSES.into_iter().zip(classes).map(of).collect::<serde_json::Map<_, _>>()
-    }));
 }
 
 fn not_finite(place: &NotFinite) -> Value {

@@ -1,6 +1,6 @@
 //! `cargo xtask mutations`: takes protections out, one at a time, and sees whether the test that should notice does.
 //!
-//! The list is in `list.rs`. It works on a copy of the tree in the target folder, whose first build takes some minutes, so that
+//! The list is in `list`. It works on a copy of the tree in the target folder, whose first build takes some minutes, so that
 //! nothing here is ever changed. Not part of `ci`.
 
 mod list;
@@ -10,7 +10,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::tools::{self, Trouble};
-use list::LIST;
 
 /// A protection, how it is taken out, and what must notice.
 struct Mutation {
@@ -39,7 +38,7 @@ impl Mutation {
 
 /// Takes out all protections whose description has `word` in it; each test must pass before, and fail after.
 pub(crate) fn run(word: &str) -> Result<(), Trouble> {
-    let chosen: Vec<&Mutation> = LIST.iter().filter(|m| m.what.contains(word)).collect();
+    let chosen: Vec<&Mutation> = list::all().filter(|m| m.what.contains(word)).collect();
     let tree = tools::target_dir().join("mutations");
     copy_to(&tree).map_err(|cause| Trouble::Failed(format!("{}: {cause}", tree.display())))?;
     let mut faults = 0;
@@ -121,11 +120,11 @@ mod tests {
 
     #[test]
     fn every_protection_of_the_list_is_where_it_says() {
-        for mutation in LIST {
+        for mutation in list::all() {
             let text = read(&tools::root().join(mutation.file)).expect("a file of the repository");
             let changed = mutation.applied_to(&text).expect("there once");
             assert_ne!(changed, text, "{}", mutation.what);
         }
-        assert!(LIST.len() >= 10);
+        assert!(list::all().count() >= 10);
     }
 }

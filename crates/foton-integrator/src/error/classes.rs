@@ -78,11 +78,13 @@ impl Classes {
         }
     }
 
-    /// Splits squares of noise and bias; `None` until each class has been asked for both. `variance` is the sum over pixels of
+    /// Splits squares of noise and bias; `None` until each class has been asked for both. `trust` is the share of what is seen of the
+    /// bias that is not its own noise: for the rest of it the split is that of the noise. `variance` is the sum over pixels of
     /// that of the image: what shadow rays add to it, if they do, is direct light's.
     pub(super) fn split(
         &self,
         (noise2, bias2): (f64, f64),
+        trust: f64,
         shadow_rays: Option<f64>,
         weights: &Weights,
     ) -> Option<[ClassError; CLASSES]> {
@@ -98,7 +100,9 @@ impl Classes {
         let rates = [0, 1, 2].map(|c| (self.bias[c] / self.asked[c]).max(0.0));
         // By chance no class's blur may be seen to have anything in common with all of it: then it is split as the noise is.
         let noise = shares(noise);
-        let bias = if rates == [0.0; CLASSES] { noise } else { shares(rates) };
+        let trust = if rates == [0.0; CLASSES] { 0.0 } else { trust };
+        let seen = shares(rates);
+        let bias = [0, 1, 2].map(|c| trust * seen[c] + (1.0 - trust) * noise[c]);
         Some(
             [0, 1, 2]
                 .map(|c| ClassError { noise: (noise2 * noise[c]).sqrt(), bias: (bias2 * bias[c]).sqrt() }),
@@ -120,4 +124,22 @@ impl Classes {
 fn shares(values: [f64; CLASSES]) -> [f64; CLASSES] {
     let sum: f64 = values.iter().sum();
     values.map(|v| if sum > 0.0 { v / sum } else { 0.0 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Noise of equal parts; all bias is seen in caustics, of which there may be more noise than bias.
+    #[test]
+    fn bias_that_may_be_noise_is_split_as_the_noise_is() {
+        let classes = Classes { rates: [1.0; 3], noise: [1.0; 3], bias: [0.0, 5.0, 0.0], asked: [1.0; 3] };
+        let split = |trust: f64| {
+            let parts = classes.split((3.0, 12.0), trust, None, &Weights::default()).expect("all were asked");
+            parts.map(|c| (c.bias * c.bias).round())
+        };
+        assert_eq!(split(1.0), [0.0, 12.0, 0.0]);
+        assert_eq!(split(0.0), [4.0, 4.0, 4.0]);
+        assert_eq!(split(0.5), [2.0, 8.0, 2.0]);
+    }
 }

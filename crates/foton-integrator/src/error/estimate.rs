@@ -10,9 +10,6 @@ const Z_90: f64 = 1.645;
 /// Laplacian; right on the edge both sides cancel.
 const SEEN_AT_EDGES: f64 = 0.55;
 
-/// On the square of what concentrated light may add: which samples lie within a focus is chance.
-const FOCUS_MARGIN: f64 = 2.0;
-
 /// How far an image is from the one that endless passes over the same eye samples would make.
 ///
 /// All shares are relative to the mean reflected luminance of those pixels that see anything reflect; the error is the root
@@ -32,6 +29,9 @@ pub struct ErrorEstimate {
     /// The error is below this nineteen times in twenty, even if all the bias is that of straight edges, of which the estimate
     /// sees 0.55 alone, and if light is as concentrated within discs as their photons are.
     pub high: f64,
+    /// What light that is concentrated within discs as their photons are would add; edges of light count too. Where it is most of
+    /// [`ErrorEstimate::high`], a few bright pixels decide.
+    pub focus: f64,
     /// Share of pixels that see something reflect and have found no light at all, or behind shadow rays so few photons that one more
     /// would bring more light than is known: unknown, not dark.
     pub unknown_share: f64,
@@ -61,6 +61,15 @@ pub struct TileError {
     pub focus: f64,
     /// Of those pixels, how many have found no light: unknown, not dark.
     pub unknown: u32,
+}
+
+impl ErrorEstimate {
+    /// Whether the upper end goes by light that is narrower than discs (foci, beams) rather than by edges: then a few bright pixels
+    /// may hold most of the error, and how much is uncertain.
+    #[must_use]
+    pub fn is_of_narrow_light(&self) -> bool {
+        self.focus > self.bias / SEEN_AT_EDGES && self.focus > 0.5 * self.total
+    }
 }
 
 impl TileError {
@@ -94,6 +103,8 @@ pub(super) struct Sums {
     pub(super) bias_variance: f64,
     /// Squares of what discs may hide.
     pub(super) focus2: f64,
+    /// Their variance.
+    pub(super) focus_variance: f64,
     /// Squared deviations of the last pass from the mean.
     pub(super) deviation: f64,
     /// Pixels without light.
@@ -113,6 +124,7 @@ impl Sums {
             bias2: self.bias2 + o.bias2,
             bias_variance: self.bias_variance + o.bias_variance,
             focus2: self.focus2 + o.focus2,
+            focus_variance: self.focus_variance + o.focus_variance,
             deviation: self.deviation + o.deviation,
             unknown: self.unknown + o.unknown,
             unknown2: self.unknown2 + o.unknown2,
@@ -138,18 +150,21 @@ impl Sums {
         let of_noise = (1.0 + concentration) * noise2 * noise2 + 2.0 * bias2 * noise2;
         let of_bias = bias_variance * bias_variance + 2.0 * bias2 * bias_variance;
         let effective_passes = 1.0 / concentration;
-        let sigma = (rho2 * (of_noise + of_bias)).sqrt();
+        let of_focus = relative(self.focus_variance) / (self.seen * mean * mean);
+        let sigma = (rho2 * (of_noise + of_bias) + of_focus).sqrt();
         // Student's t in place of the normal's quantile, to first order.
         let t = Z_90 * (1.0 + (Z_90 * Z_90 + 1.0) / (4.0 * (effective_passes - 1.0).max(1.0)));
         let total2 = noise2 + unknown2 + bias2;
         // The most that bias may be: that of edges, or that of light which is concentrated as the photons in the discs are.
-        let most_bias2 = (SEEN_AT_EDGES.powi(-2) * bias2).max(FOCUS_MARGIN * relative(self.focus2));
+        let focus2 = relative(self.focus2);
+        let most_bias2 = (SEEN_AT_EDGES.powi(-2) * bias2).max(focus2);
         Some(ErrorEstimate {
             total: total2.sqrt(),
             noise: (noise2 + unknown2).sqrt(),
             bias: bias2.sqrt(),
             low: (total2 - t * sigma).max(0.0).sqrt(),
             high: (total2 - bias2 + most_bias2 + t * sigma).sqrt(),
+            focus: focus2.sqrt(),
             unknown_share: self.unknown / self.seen,
             effective_passes,
             mean_luminance: mean,

@@ -104,6 +104,8 @@ struct Addend {
     bias: f64,
     /// How far squared light of all passes may be above what discs see (see [`Evidence::focus`](crate::adaptive::Evidence::focus)).
     focus: f64,
+    /// The variance of that: whether a sample lies in a focus is chance.
+    focus_variance: f64,
     /// Of one class: its blur, or a sum of squares.
     answer: f64,
 }
@@ -112,12 +114,15 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
     fn addend(&self, pixel: usize, moment_slots: &[[f32; 2]], per_sample: f64) -> Addend {
         let hit_points = self.hit_points;
         let range = hit_points.pixel_start[pixel] as usize..hit_points.pixel_start[pixel + 1] as usize;
-        let (mut bias, mut answer, mut focus) = (0.0, 0.0, 0.0);
+        let (mut bias, mut answer, mut focus, mut focus_variance) = (0.0, 0.0, 0.0, 0.0);
         for (&slot, &weight) in hit_points.slot_of[range.clone()].iter().zip(&hit_points.weights[range]) {
             let evidence = &hit_points.evidence_slots[slot as usize];
             let excess = evidence.focus();
             if excess > 0.0 {
-                focus += (f64::from(weight.luminance()) * evidence.light()).powi(2) * excess;
+                // One sample in 1 + excess is as bright as the focus: its square has this mean and about this variance.
+                let square = (f64::from(weight.luminance()) * evidence.light()).powi(2) * excess;
+                focus += square;
+                focus_variance += square * square * (1.0 + excess);
             }
             let irradiance: Rgb = self.irradiance_slots[slot as usize].iter().copied().sum();
             let luminance = irradiance.luminance();
@@ -134,8 +139,9 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
         if self.question.noise {
             answer *= answer;
         }
-        let focus = focus * per_sample * per_sample;
-        Addend { light: f64::from(light.luminance()), bias: bias * per_sample, focus, answer }
+        let per_sample2 = per_sample * per_sample;
+        let (focus, focus_variance) = (focus * per_sample2, focus_variance * per_sample2 * per_sample2);
+        Addend { light: f64::from(light.luminance()), bias: bias * per_sample, focus, focus_variance, answer }
     }
 
     /// Luminance per emitted photon that a pixel would gain if each of its hit points that know nothing found one.
@@ -213,6 +219,7 @@ impl ErrorSums {
                     pixel.sum_up(mean, &shares, &mut sums);
                     let focus2 = addend.focus * shares.per_photon * shares.per_photon;
                     sums.focus2 += focus2;
+                    sums.focus_variance += addend.focus_variance * shares.per_photon.powi(4);
                     sums.deviation += (addend.light * per_photon - mean).powi(2);
                     let one_photon = || f64::max(0.0, pass.one_photon(index, samples) / weights.photons);
                     let mut is_unknown = mean <= 0.0;
@@ -245,8 +252,10 @@ impl ErrorSums {
         self.classes.add(pass.question, sums.answer, photons, before);
         self.estimate = sums.estimate(&self.weights, &self.scatter).map(|whole| {
             let squares = (whole.noise * whole.noise, whole.bias * whole.bias);
+            let bias2 = sums.bias2.max(0.0);
+            let trust = if bias2 > 0.0 { bias2 / (bias2 + sums.bias_variance) } else { 0.0 };
             let variance = pass.shadow_rays.then_some(sums.variance);
-            ErrorEstimate { classes: self.classes.split(squares, variance, &self.weights), ..whole }
+            ErrorEstimate { classes: self.classes.split(squares, trust, variance, &self.weights), ..whole }
         });
     }
 

@@ -16,7 +16,7 @@ impl ErrorSums {
         put(&[f64::from(u8::from(e.is_some()))]);
         if let Some(e) = e {
             put(&[e.total, e.noise, e.bias, e.low, e.high]);
-            put(&[e.unknown_share, e.effective_passes, e.mean_luminance]);
+            put(&[e.focus, e.unknown_share, e.effective_passes, e.mean_luminance]);
             put(&[f64::from(u8::from(e.classes.is_some()))]);
             e.classes.iter().flatten().for_each(|c| put(&[c.noise, c.bias]));
         }
@@ -37,7 +37,7 @@ impl ErrorSums {
         let [is_known] = numbers(input)?;
         self.estimate = None;
         if is_known > 0.0 {
-            let [total, noise, bias, low, high, unknown_share, effective_passes, mean_luminance] =
+            let [total, noise, bias, low, high, focus, unknown_share, effective_passes, mean_luminance] =
                 numbers(input)?;
             let [has_classes] = numbers(input)?;
             let class = |[noise, bias]: [f64; 2]| ClassError { noise, bias };
@@ -51,6 +51,7 @@ impl ErrorSums {
                 bias,
                 low,
                 high,
+                focus,
                 unknown_share,
                 effective_passes,
                 mean_luminance,

@@ -60,6 +60,14 @@ pub(super) fn rows(state: &State) -> Vec<(&'static str, String, &'static str)> {
              estimate sees a half",
         ),
     ];
+    if e.is_of_narrow_light() {
+        rows.push((
+            "narrow light",
+            percent(e.focus),
+            "Light narrower than the discs (foci, beams) may add this: a few bright pixels decide, and how much is uncertain. More eye \
+             samples a pixel make the smallest radius smaller",
+        ));
+    }
     for ((name, help), part) in CLASSES.into_iter().zip(e.classes.iter().flatten()) {
         let text = format!("{} ({}, {})", percent(part.total()), percent(part.noise), percent(part.bias));
         rows.push((name, text, help));

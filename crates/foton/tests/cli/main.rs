@@ -179,7 +179,8 @@ fn json_has_a_line_for_each_pass_and_one_for_the_end() {
 #[test]
 fn a_render_stops_at_the_error_asked_for_and_not_before_it_is_known() {
     let folder = Folder::new("error");
-    let output = folder.done("render scene.xml -o x.exr --error 20% --photons 20000 --passes 400 --json");
+    let output = folder
+        .done("render scene.xml -o x.exr --error 20% --radius-floor 0 --photons 20000 --passes 400 --json");
     let events = events(&output.stdout);
     let done = events.last().expect("a line for the end");
     let passes = number(done, "passes");
@@ -190,6 +191,15 @@ fn a_render_stops_at_the_error_asked_for_and_not_before_it_is_known() {
     let part = |class: &str| number(&done["classes"][class], "error").powi(2);
     let parts = part("direct") + part("caustic") + part("indirect");
     assert!((parts.sqrt() / number(done, "error") - 1.0).abs() < 1e-6, "{done}");
+}
+
+#[test]
+fn an_error_that_the_smallest_radii_do_not_allow_is_said_once() {
+    let folder = Folder::new("out-of-reach");
+    let output = folder.done("render scene.xml -o x.exr --error 2% --spp 1 --photons 20000 --passes 40");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(said.matches("will not fall to 2.000 %").count(), 1, "{said}");
+    assert!(said.contains("--spp 4") && said.contains("--radius-floor 0"), "{said}");
 }
 
 #[test]

@@ -1,0 +1,64 @@
+//! The live error in words and in JSON.
+
+use foton_integrator::{ClassError, ErrorEstimate, PassReport, Ppm};
+use serde_json::{Value, json};
+
+/// Passes after which bias at the smallest radii is known.
+const ENOUGH_PASSES: f64 = 16.0;
+
+/// Noise may be this share of the bias that is left.
+const LITTLE: f64 = 0.3;
+
+/// Names of the path classes, in their order.
+const CLASSES: [&str; 3] = ["direct", "caustic", "indirect"];
+
+/// What direct, caustic and indirect light have of the error, in a few words.
+pub(crate) fn classes_text(e: &ErrorEstimate) -> String {
+    let parts = e.classes.iter().flat_map(|classes| CLASSES.into_iter().zip(classes));
+    let parts: Vec<String> = parts.map(|(name, c)| format!("{name} {:.2}", 100.0 * c.total())).collect();
+    if parts.is_empty() { String::new() } else { format!("; of it {}", parts.join(", ")) }
+}
+
+/// What the upper end of the error takes for granted.
+pub(crate) fn upper_end_text(e: &ErrorEstimate) -> &'static str {
+    if e.is_of_narrow_light() {
+        "uncertain because light is narrower than the discs (foci, beams), so that a few bright pixels decide"
+    } else {
+        "if all bias is at edges"
+    }
+}
+
+/// The error in a few words.
+pub(crate) fn error_text(e: &ErrorEstimate) -> String {
+    let percent = |share: f64| 100.0 * share;
+    format!("error {:.2} % (noise {:.2}, bias {:.2})", percent(e.total), percent(e.noise), percent(e.bias))
+}
+
+/// Adds the error to an event: shares of the mean reflected light; null while nothing is known.
+pub(crate) fn add_error(event: &mut Value, error: Option<&ErrorEstimate>) {
+    let fields = |e: &ErrorEstimate| [e.total, e.noise, e.bias, e.low, e.high, e.focus, e.unknown_share];
+    let names = ["error", "noise", "bias", "error_low", "error_high", "error_focus", "unknown_share"];
+    for (i, name) in names.into_iter().enumerate() {
+        event[name] = json!(error.map(|e| fields(e)[i]));
+    }
+    event["classes"] = json!(error.and_then(|e| e.classes).map(|classes| {
+        let of = |(name, c): (&str, ClassError)| {
+            (name.to_owned(), json!({ "error": c.total(), "noise": c.noise, "bias": c.bias }))
+        };
+        CLASSES.into_iter().zip(classes).map(of).collect::<serde_json::Map<_, _>>()
+    }));
+}
+
+/// Why the error will not fall to a goal however long the render goes on, if that is so: bias that the smallest radii leave.
+pub(crate) fn out_of_reach(goal: f64, e: &ErrorEstimate, report: &PassReport, ppm: &Ppm) -> Option<String> {
+    let is_floor = e.bias > goal && e.noise < LITTLE * e.bias && report.floored > 0;
+    (is_floor && e.effective_passes >= ENOUGH_PASSES).then(|| {
+        format!(
+            "the error will not fall to {:.3} %: the smallest radii leave a bias of about {:.1} %; more eye samples (--spp {}) or \
+             --radius-floor 0 lower it",
+            100.0 * goal,
+            100.0 * e.bias,
+            4 * ppm.settings().samples_per_pixel.get()
+        )
+    })
+}
