@@ -37,6 +37,10 @@ impl Share {
     }
 }
 
+/// Of the primitives near another, so many are looked at, and so many kept: a heap of thousands in one place must not take for ever.
+const MOST_NEAR: usize = 512;
+const MOST_PARTNERS: usize = 16;
+
 /// The primitives that share a part of their surface with another.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Coincidences {
@@ -53,18 +57,21 @@ impl Coincidences {
     pub(crate) fn find(scene: &Scene) -> Self {
         let (accel, shape_of) = (&scene.accel, &scene.shape_of);
         let primitives = accel.primitives();
-        let pairs: Vec<[u32; 2]> = (0..primitives.len())
+        let mut pairs: Vec<[u32; 2]> = (0..primitives.len())
             .into_par_iter()
             .flat_map_iter(|i| {
                 let mut partners = Vec::new();
-                accel.for_each_near(&primitives[i].bounds(), |j| {
-                    if j > i && coincide(&primitives[i], &primitives[j]) {
-                        partners.push([i as u32, j as u32]);
+                // A small face on a large floor is found from its own side, whatever else lies near the floor.
+                accel.for_each_near(&primitives[i].bounds(), MOST_NEAR, |j| {
+                    if j != i && partners.len() < MOST_PARTNERS && coincide(&primitives[i], &primitives[j]) {
+                        partners.push([i.min(j) as u32, i.max(j) as u32]);
                     }
                 });
                 partners
             })
             .collect();
+        pairs.par_sort_unstable();
+        pairs.dedup();
         if pairs.is_empty() {
             return Self::default();
         }
@@ -124,7 +131,7 @@ impl Scene {
         let mut found = [None; MOST];
         let mut count = 0;
         let reach = hit.error.max_element() + 2.0 * self.coincidences.gap(hit.shape as usize);
-        self.accel.for_each_near(&Aabb::around(hit.position, reach), |j| {
+        self.accel.for_each_near(&Aabb::around(hit.position, reach), MOST_NEAR, |j| {
             let primitive = &primitives[j];
             let is_own = j as u32 == hit.primitive;
             if !is_own && (!self.coincidences.share(j as u32).any || !meet_at(own, primitive, p)) {

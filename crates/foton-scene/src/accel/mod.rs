@@ -173,13 +173,15 @@ impl Accel {
         false
     }
 
-    /// Calls `visit` with the index of each primitive whose box, or that of its leaf, meets a box.
-    pub(crate) fn for_each_near(&self, near: &Aabb, mut visit: impl FnMut(usize)) {
+    /// Calls `visit` with the index of each primitive whose box, or that of its leaf, meets a box, until about `most` were visited:
+    /// where very many lie in one place, looking at all from each would never end.
+    pub(crate) fn for_each_near(&self, near: &Aabb, most: usize, mut visit: impl FnMut(usize)) {
+        let mut left = most;
         let mut stack = Stack::new();
         if !self.nodes.is_empty() {
             stack.push(Place { t: 0.0, child: Child::node(0) });
         }
-        while let Some(place) = stack.pop() {
+        while let Some(place) = stack.pop().filter(|_| left > 0) {
             match place.child.target() {
                 Target::Node(node) => {
                     let node = &self.nodes[node];
@@ -191,9 +193,13 @@ impl Accel {
                 }
                 Target::Quad(quad) => {
                     let first = self.quads[quad].first as usize;
+                    left = left.saturating_sub(self.quads[quad].len());
                     (first..first + self.quads[quad].len()).for_each(&mut visit);
                 }
-                Target::Other(other) => visit(other),
+                Target::Other(other) => {
+                    left -= 1;
+                    visit(other);
+                }
             }
         }
     }

@@ -8,12 +8,12 @@
 //! Triangles with equal vertices are joined at once. What then still has a free edge is probed: a ray just beyond the edge finds
 //! what lies flush with it.
 
-use foton_math::glam::{DVec3, Vec3};
+use foton_math::glam::{DVec3, Vec2, Vec3};
 use foton_math::{Aabb, Frame, Ray};
 use rayon::prelude::*;
 
 use crate::accel::Accel;
-use crate::primitive::Primitive;
+use crate::primitive::{Primitive, ShearedRay};
 use crate::surface::locate;
 
 /// Surfaces continue each other where their normals, turned to the same side, have at least this cosine: what the gather asks
@@ -28,6 +28,9 @@ const PROBED_STEPS: f32 = 16.0;
 
 /// Of more triangles at one edge, each is compared with so many only.
 const MOST_AT_AN_EDGE: usize = 16;
+
+/// Of the primitives near an edge so many are looked at.
+const MOST_NEAR: usize = 32;
 
 /// Numbers of patches, beside 0 for surfaces that keep no photon.
 const NUMBERS: usize = 127;
@@ -220,13 +223,21 @@ impl Rim {
         let Self { point, outward, normal, step } = *self;
         let height = 4.0 * step;
         let cosine_along = |origin: Vec3, direction: Vec3| {
-            let hit = accel.nearest(Ray { origin, direction, t_min: 0.0, t_max: 2.0 * height })?;
-            let index = hit.primitive as usize;
-            let at = origin + direction * hit.t;
-            let (_, _, other) = locate(&accel.primitives()[index], hit.barycentric, at);
-            let cosine = normal.dot(other);
-            let counts = keeps(index) && f64::from(cosine.abs()) > SMALLEST_COSINE;
-            counts.then_some((hit.primitive, cosine))
+            let ray = Ray { origin, direction, t_min: 0.0, t_max: 2.0 * height };
+            let sheared = ShearedRay::new(ray);
+            let near = Aabb::EMPTY.with(origin).with(ray.at(ray.t_max));
+            let mut nearest: Option<(f32, u32, f32)> = None;
+            accel.for_each_near(&near, MOST_NEAR, |index| {
+                let primitive = &accel.primitives()[index];
+                let farthest = nearest.map_or(ray.t_max, |(t, ..)| t);
+                let Some(t) = sheared.hit_other(primitive, farthest).filter(|_| keeps(index)) else { return };
+                let (_, _, other) = locate(primitive, Vec2::ZERO, ray.at(t));
+                let cosine = normal.dot(other);
+                if f64::from(cosine.abs()) > SMALLEST_COSINE {
+                    nearest = Some((t, index as u32, cosine));
+                }
+            });
+            nearest.map(|(_, index, cosine)| (index, cosine))
         };
         let (other, cosine) = cosine_along(point + outward * step + normal * height, -normal)?;
         let inside = point - outward * (2.0 * step);
