@@ -14,7 +14,7 @@ use crate::error::{ErrorSums, Question};
 use crate::eye_pass::EyePass;
 use crate::gather::{Rule, Tally};
 use crate::grid::Grid;
-use crate::hit_point::HitPoints;
+use crate::hit_point::{HitPoint, HitPoints};
 use crate::ledger::{Ledger, Loss};
 use crate::light::Light;
 use crate::light_use::LightUse;
@@ -126,7 +126,8 @@ impl Ppm {
         let hit_points = if asks { hit_points.with_evidence() } else { hit_points };
         let start = Start { hit_points: hit_points.len() as u64, eye_rays: eye.rays, dropped: eye.dropped };
         let step = (eye.hit_points.len() / LOOKED_AT).max(1);
-        let seen: Vec<Vec3> = eye.hit_points.iter().step_by(step).map(|h| h.position).collect();
+        let disc = |h: &HitPoint| (h.position, h.radius2.sqrt());
+        let seen: Vec<(Vec3, f32)> = eye.hit_points.iter().step_by(step).map(disc).collect();
         let sources = scene.sources(&seen);
         let not_finite = eye.left_out.map(|left_out| NotFinite::new(&scene, 0, left_out));
         drop((eye.hit_points, eye.gloss));

@@ -51,9 +51,9 @@ pub struct Sources {
 }
 
 impl Scene {
-    /// Where photons start, for an eye that sees `points` (scene units).
+    /// Where photons start, for an eye that sees these points, about which photons count within a radius each (scene units).
     #[must_use]
-    pub fn sources(&self, points: &[Vec3]) -> Sources {
+    pub fn sources(&self, points: &[(Vec3, f32)]) -> Sources {
         let as_they_shine = Sources {
             emitters: Arc::clone(&self.emitters),
             choice: self.emitter_choice.clone(),
@@ -106,9 +106,9 @@ impl Sources {
 }
 
 /// Balls around the middle of the points that hold the shares [`SEEN`] of them; `None` without points.
-fn balls_around(points: &[Vec3]) -> Option<[Ball; SEEN.len()]> {
+fn balls_around(points: &[(Vec3, f32)]) -> Option<[Ball; SEEN.len()]> {
     let median = |axis: usize| {
-        let mut of_axis: Vec<f32> = points.iter().map(|p| p[axis]).collect();
+        let mut of_axis: Vec<f32> = points.iter().map(|(p, _)| p[axis]).collect();
         let middle = of_axis.len() / 2;
         *of_axis.select_nth_unstable_by(middle, f32::total_cmp).1
     };
@@ -116,7 +116,7 @@ fn balls_around(points: &[Vec3]) -> Option<[Ball; SEEN.len()]> {
         return None;
     }
     let centre = Vec3::new(median(0), median(1), median(2));
-    let mut distances: Vec<f32> = points.iter().map(|p| p.distance(centre)).collect();
+    let mut distances: Vec<f32> = points.iter().map(|(p, radius)| p.distance(centre) + radius).collect();
     distances.sort_unstable_by(f32::total_cmp);
     let radius = |share: f32| {
         let last = (share * distances.len() as f32).ceil() as usize;
@@ -189,11 +189,11 @@ mod tests {
     #[test]
     fn balls_hold_their_shares_of_the_points_around_most_of_them() {
         // A ground seen to the horizon: a thousand points near, a few far off.
-        let points: Vec<Vec3> =
-            (0..1024u32).map(|i| Vec3::X * 2f32.powf((i.leading_zeros() as f32 - 21.0) * 3.0)).collect();
+        let far = |i: u32| Vec3::X * 2f32.powf((i.leading_zeros() as f32 - 21.0) * 3.0);
+        let points: Vec<(Vec3, f32)> = (0..1024u32).map(|i| (far(i), 1e-4)).collect();
         let balls = balls_around(&points).expect("points");
         for (ball, share) in balls.iter().zip(SEEN) {
-            let within = points.iter().filter(|p| p.distance(ball.centre) <= ball.radius).count();
+            let within = points.iter().filter(|(p, r)| p.distance(ball.centre) + r <= ball.radius).count();
             assert!(within as f32 >= share * 1024.0, "{share}: {within}");
         }
         assert!(balls[0].radius < 1e-3 * balls[4].radius, "{balls:?}");
