@@ -36,9 +36,11 @@ impl Mutation {
     }
 }
 
-/// Takes out all protections whose description has `word` in it; each test must pass before, and fail after.
-pub(crate) fn run(word: &str) -> Result<(), Trouble> {
-    let chosen: Vec<&Mutation> = list::all().filter(|m| m.what.contains(word)).collect();
+/// Takes out all protections whose description has one of `words`, divided by commas, in it; each test must pass before, and fail
+/// after.
+pub(crate) fn run(words: &str) -> Result<(), Trouble> {
+    let chosen: Vec<&Mutation> =
+        list::all().filter(|m| words.split(',').any(|word| m.what.contains(word))).collect();
     let tree = tools::target_dir().join("mutations");
     copy_to(&tree).map_err(|cause| Trouble::Failed(format!("{}: {cause}", tree.display())))?;
     let mut faults = 0;

@@ -22,8 +22,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "foton info is held to the limit",
         file: "crates/foton/src/info.rs",
-        from: "build(opened, &name, (None, args.memory), talk)?",
-        to: "build(opened, &name, (None, None), talk)?",
+        from: "build(opened, &name, sensor, (None, args.memory), talk)?",
+        to: "build(opened, &name, sensor, (None, None), talk)?",
         target: CLI,
         test: "scenes_that_cannot_be_read_or_built_in_the_memory_given_are_refused",
     },

@@ -14,7 +14,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "scenes are scaled to one size",
         file: "crates/foton-scene/src/normalise.rs",
-        from: "2f64.powi(HALF_SIZE_EXPONENT - half.log2().ceil() as i32)",
+        from: "2f64.powi(HALF_SIZE_EXPONENT - exponent)",
         to: "2f64.powi(HALF_SIZE_EXPONENT)",
         target: GEOMETRY,
         test: "a_scene_scaled_by_a_power_of_two_has_the_same_hits_bit_for_bit",
@@ -142,9 +142,9 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "what emitters and skies emit is finite",
-        file: "crates/foton-scene/src/build.rs",
-        from: "emitters.iter().find(|e| !e.is_finite())",
-        to: "emitters.iter().find(|_| false)",
+        file: "crates/foton-scene/src/build/checks.rs",
+        from: "if !(emission.is_finite() && placed) {",
+        to: "if !placed {",
         target: ANALYTIC,
         test: "environments_with_a_pixel_that_is_not_a_number_are_refused_by_name",
     },
