@@ -100,10 +100,14 @@ impl Evidence {
         if self.light <= 0.0 || self.variance <= 0.0 {
             return 0.0;
         }
+        let inverse = 1.0 / self.light;
+        let middle2 = self.offset.iter().map(|o| o * o).sum::<f64>() * inverse * inverse;
+        let spread = self.laplacian * (inverse / 6.0) + 0.5 - middle2;
+        if spread >= 0.5 {
+            return 0.0;
+        }
         // As many equal photons as would be as noisy.
         let photons = self.light * self.light / self.variance;
-        let middle2 = self.offset.iter().map(|o| o * o).sum::<f64>() / (self.light * self.light);
-        let spread = self.laplacian / (6.0 * self.light) + 0.5 - middle2;
         let unbiased = spread * photons / (photons - 1.0).max(f64::MIN_POSITIVE);
         // A few photons tell of no circle that is smaller than their share of the disc.
         let ratio = (0.5 / unbiased.max(f64::MIN_POSITIVE)).min(photons);

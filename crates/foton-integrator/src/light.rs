@@ -113,7 +113,7 @@ impl Light {
         error: &mut ErrorSums,
         hit_points: &HitPoints,
         (photons, power): (u64, f64),
-        (question, shadow_rays): (Question, bool),
+        (question, shadow_rays, before): (Question, bool, u64),
     ) {
         each!(self, s => error.add(&error::Pass {
             hit_points,
@@ -123,6 +123,7 @@ impl Light {
             power,
             question,
             shadow_rays,
+            before,
         }));
     }
 

@@ -285,7 +285,7 @@ impl Ppm {
         let power = self.mean_power();
         if let Some(error) = &mut self.error {
             let by_shadow_rays = self.settings.direct_light == DirectLight::ShadowRays;
-            let asked = (Question::after(self.passes), by_shadow_rays);
+            let asked = (Question::after(self.passes), by_shadow_rays, self.passes);
             self.light.add_error(error, &self.hit_points, (photons, power), asked);
         }
         self.last_photons = photons;

@@ -16,16 +16,16 @@ use crate::bsdf::Coat;
 use crate::census::Census;
 use crate::coincident::Coincidences;
 use crate::description::{Bsdf, Colour, Material, SceneDescription, SensorDescription, ShapeDescription};
-use crate::emitter::{Aim, Emitter, Kind};
+use crate::emitter::{Aim, Area, Emitter, Kind};
 use crate::normalise::Normalisation;
-use crate::scene::{Scene, Shape};
+use crate::scene::{Part, Scene, Shape};
 use crate::sensor::Sensor;
 use crate::texture::Sampler;
 use checks::{
     check_described_emitters, check_emitters, check_material, check_sensors, check_textures, shape_bounds,
     world_bounds,
 };
-use emitters::{area_emitter, ball, emitter_choice, unattached_emitter};
+use emitters::{ball, emitter_choice, unattached_emitter};
 use gather::Gathered;
 pub(crate) use patches::Patch;
 
@@ -174,7 +174,7 @@ impl Scene {
                 casters = gathered.primitives[first..].iter().fold(casters, |b, p| b.union(p.bounds()));
             }
             let emitter = shape.radiance.filter(|r| !r.is_black()).map(|radiance| {
-                let area = area_emitter(i as u32, radiance, &gathered.primitives[first..]);
+                let area = Area::new(i as u32, radiance, &gathered.primitives[first..]);
                 emitters.push(Emitter {
                     name: shape.name.clone(),
                     kind: Kind::Area(area),
@@ -214,8 +214,12 @@ impl Scene {
             .iter()
             .map(|s| scene.material_of(s).bsdfs().any(|b| b.keeps() || b.roughness().is_some()))
             .collect();
-        scene.patches = patches::find(&scene.accel, |i| keeps[scene.shape_of[i] as usize]).into();
-        scene.coincidences = Arc::new(Coincidences::find(&scene));
+        let patches = patches::find(&scene.accel, |i| keeps[scene.shape_of(i) as usize]);
+        let coincidences = Coincidences::find(&scene);
+        for (i, (part, patch)) in Arc::make_mut(&mut scene.parts).iter_mut().zip(patches).enumerate() {
+            *part = Part { patch, coincides: coincidences.share(i as u32).any, ..*part };
+        }
+        scene.coincidences = Arc::new(coincidences);
         for emitter in &mut emitters {
             if let Kind::Area(area) = &mut emitter.kind {
                 area.gap = scene.coincidences.gap(area.shape as usize);

@@ -55,8 +55,8 @@ pub(crate) struct Coincidences {
 impl Coincidences {
     /// Finds all pairs.
     pub(crate) fn find(scene: &Scene) -> Self {
-        let (accel, shape_of) = (&scene.accel, &scene.shape_of);
-        let primitives = accel.primitives();
+        let accel = &scene.accel;
+        let (primitives, shape_of) = (accel.primitives(), |i: usize| scene.shape_of(i));
         let mut pairs: Vec<[u32; 2]> = (0..primitives.len())
             .into_par_iter()
             .flat_map_iter(|i| {
@@ -75,7 +75,7 @@ impl Coincidences {
         if pairs.is_empty() {
             return Self::default();
         }
-        let count = shape_of.iter().max().map_or(0, |&s| s as usize + 1);
+        let count = scene.shapes.len();
         let (mut shared, mut gaps) = (vec![Share::default(); primitives.len()], vec![0f32; count]);
         let mut shapes = Vec::with_capacity(pairs.len());
         for pair in pairs {
@@ -88,9 +88,9 @@ impl Coincidences {
                 for outward in [false, true] {
                     shared[i].unsettled[usize::from(outward)] |= !scene.counts(i, other, outward, agree);
                 }
-                gaps[shape_of[i] as usize] = gaps[shape_of[i] as usize].max(gap);
+                gaps[shape_of(i) as usize] = gaps[shape_of(i) as usize].max(gap);
             }
-            let mut pair = pair.map(|i| shape_of[i as usize]);
+            let mut pair = pair.map(|i| shape_of(i as usize));
             pair.sort_unstable();
             shapes.push((pair, agree));
         }
@@ -138,7 +138,7 @@ impl Scene {
                 return;
             }
             let sheet = Sheet::of(primitive, p);
-            let (shape, gap) = (self.shape_of[j], sheet.distance.abs() + tolerance(own, primitive));
+            let (shape, gap) = (self.shape_of(j), sheet.distance.abs() + tolerance(own, primitive));
             let rank = self.rank(shape, -ray.direction.as_dvec3().dot(sheet.normal) > 0.0);
             // Two triangles of one shape share a diagonal.
             let known = found[..count]
@@ -177,7 +177,7 @@ impl Scene {
 
     /// Whether of two primitives that share a part of a surface the first counts there on a side of its own, as it is.
     fn counts(&self, first: usize, other: usize, outward: bool, agree: bool) -> bool {
-        let [shape, its_shape] = [first, other].map(|i| self.shape_of[i]);
+        let [shape, its_shape] = [first, other].map(|i| self.shape_of(i));
         let fronts = [shape, its_shape].map(|s| self.material(s).front);
         let two_dielectrics = fronts.iter().all(|f| matches!(f, Bsdf::Dielectric { .. }));
         let (rank, its_rank) = (self.rank(shape, outward), self.rank(its_shape, outward == agree));

@@ -40,14 +40,22 @@ pub struct Shape {
     pub(crate) to_object: Mat3,
 }
 
+/// What a primitive belongs to: together, since each hit asks for all of it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Part {
+    /// Index of the shape.
+    pub(crate) shape: u32,
+    pub(crate) patch: Patch,
+    /// Whether it lies in another's surface somewhere.
+    pub(crate) coincides: bool,
+}
+
 /// An immutable scene, in scene units (see [`Normalisation`]). What is large is shared by its clones.
 #[derive(Clone)]
 pub struct Scene {
     pub(crate) accel: Arc<Accel>,
-    /// Shape of each primitive, in the tree's order.
-    pub(crate) shape_of: Arc<[u32]>,
     /// What each primitive belongs to, in the tree's order.
-    pub(crate) patches: Arc<[Patch]>,
+    pub(crate) parts: Arc<[Part]>,
     pub(crate) coincidences: Arc<Coincidences>,
     /// Unit vertex normals of each primitive in the tree's order; zeros where flat. Empty when the scene has none.
     pub(crate) vertex_normals: Arc<[[Vec3; 3]]>,
@@ -104,10 +112,13 @@ impl Scene {
     #[inline(always)]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
         let mut surface = self.surface_of(ray, hit.primitive, hit.barycentric, ray.at(hit.t));
+        if !self.parts[hit.primitive as usize].coincides {
+            return surface;
+        }
         let share = self.coincidences.share(hit.primitive);
         if share.is_unsettled(ray.direction.dot(surface.normal) < 0.0) {
             self.settle(ray, &mut surface);
-        } else if share.any {
+        } else {
             surface.error += surface.normal.abs() * self.coincidences.gap(surface.shape as usize);
         }
         surface
@@ -123,7 +134,7 @@ impl Scene {
         approximate: Vec3,
     ) -> Surface {
         let i = primitive as usize;
-        let primitive = &self.accel.primitives()[i];
+        let (part, primitive) = (self.parts[i], &self.accel.primitives()[i]);
         let (position, error, normal) = match *primitive {
             Primitive::Triangle(corners) => self.accel.plane(i).locate_on(ray, corners, barycentric),
             _ => locate(primitive, barycentric, approximate),
@@ -133,10 +144,10 @@ impl Scene {
             error,
             normal,
             shading_normal: normal,
-            curved: self.patches[i].curved
+            curved: part.patch.curved
                 || matches!(primitive, Primitive::Sphere { .. } | Primitive::Tube { .. }),
-            shape: self.shape_of[i],
-            patch: self.patches[i].key,
+            shape: part.shape,
+            patch: part.patch.key,
             primitive: i as u32,
             barycentric,
             interface: None,
@@ -258,6 +269,11 @@ impl Scene {
         }
     }
 
+    /// The shape of a primitive, by its index in the tree's order.
+    pub(crate) fn shape_of(&self, primitive: usize) -> u32 {
+        self.parts[primitive].shape
+    }
+
     /// The material of a shape.
     #[must_use]
     #[inline]
@@ -374,8 +390,7 @@ impl Scene {
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.accel.bytes()
-            + self.shape_of.len() * size_of::<u32>()
-            + self.patches.len() * size_of::<Patch>()
+            + self.parts.len() * size_of::<Part>()
             + self.vertex_normals.len() * size_of::<[Vec3; 3]>()
             + self.vertex_uvs.len() * size_of::<[Vec2; 3]>()
             + self.picture_bytes

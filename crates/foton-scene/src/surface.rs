@@ -3,6 +3,7 @@
 use foton_math::Ray;
 use foton_math::glam::{DVec3, Vec2, Vec3};
 
+use crate::normalise::Normalisation;
 use crate::primitive::{Primitive, triangle_normal};
 
 /// Bound on the relative rounding error of a point in a triangle, which is interpolated in double precision: it is rounded
@@ -107,6 +108,11 @@ pub(crate) struct Plane {
 }
 
 impl Plane {
+    /// That of a triangle; whatever for another primitive.
+    pub(crate) fn of(primitive: &Primitive) -> Self {
+        if let Primitive::Triangle(corners) = primitive { Self::new(*corners) } else { Self::default() }
+    }
+
     /// That of a triangle.
     pub(crate) fn new(corners: [Vec3; 3]) -> Self {
         let [a, b, c] = corners.map(Vec3::as_dvec3);
@@ -132,10 +138,26 @@ impl Plane {
     /// its point's coordinates they place it too coarsely, and the ray itself says better.
     #[inline(always)]
     pub(crate) fn locate_on(&self, ray: &Ray, corners: [Vec3; 3], barycentric: Vec2) -> (Vec3, Vec3, Vec3) {
+        let found = self.locate(corners, barycentric);
+        // No corner is farther out than the scene is large.
+        let out = found.0.abs().max_element() * COARSE;
+        if out > Normalisation::HALF_SIZE as f32 {
+            return found;
+        }
+        self.locate_finely(ray, corners, found, out)
+    }
+
+    /// The rest of [`Plane::locate_on`], for the few points near the middle of the scene.
+    #[inline(never)]
+    fn locate_finely(
+        &self,
+        ray: &Ray,
+        corners: [Vec3; 3],
+        found: (Vec3, Vec3, Vec3),
+        out: f32,
+    ) -> (Vec3, Vec3, Vec3) {
         let largest = corners.into_iter().fold(Vec3::ZERO, |l, p| l.max(p.abs())).max_element();
-        let (v, w) = (f64::from(barycentric.x), f64::from(barycentric.y));
-        let found = self.point(corners, v, w, f64::from(self.least));
-        if found.0.abs().max_element() * COARSE > largest {
+        if out > largest {
             return found;
         }
         let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());

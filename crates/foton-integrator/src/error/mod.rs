@@ -71,6 +71,8 @@ pub(crate) struct ErrorSums {
     weights: Weights,
     scatter: Scatter,
     classes: Classes,
+    /// What discs may hide, and the variance of that, when it was last looked at.
+    foci: [f64; 2],
     estimate: Option<ErrorEstimate>,
 }
 
@@ -87,6 +89,8 @@ pub(crate) struct Pass<'a, const LAYERS: usize> {
     pub(crate) question: Question,
     /// Whether direct light came by shadow rays.
     pub(crate) shadow_rays: bool,
+    /// How many were before it.
+    pub(crate) before: u64,
 }
 
 /// What the pixels of a tile add to it in a pass.
@@ -111,14 +115,21 @@ struct Addend {
 }
 
 impl<const LAYERS: usize> Pass<'_, LAYERS> {
+    /// Whether it is looked at what discs may hide: not in every pass, since it hardly changes and is a thirtieth of the time.
+    const fn looks_for_foci(&self) -> bool {
+        self.before < 3 || self.before % 4 == 3
+    }
+
     fn addend(&self, pixel: usize, moment_slots: &[[f32; 2]], per_sample: f64) -> Addend {
-        let hit_points = self.hit_points;
+        let (hit_points, looks) = (self.hit_points, self.looks_for_foci());
         let range = hit_points.pixel_start[pixel] as usize..hit_points.pixel_start[pixel + 1] as usize;
         let (mut bias, mut answer, mut focus, mut focus_variance) = (0.0, 0.0, 0.0, 0.0);
         for (&slot, &weight) in hit_points.slot_of[range.clone()].iter().zip(&hit_points.weights[range]) {
-            let evidence = &hit_points.evidence_slots[slot as usize];
-            let excess = evidence.focus();
-            if excess > 0.0 {
+            if looks
+                && let evidence = &hit_points.evidence_slots[slot as usize]
+                && let excess = evidence.focus()
+                && excess > 0.0
+            {
                 // One sample in 1 + excess is as bright as the focus: its square has this mean and about this variance.
                 let square = (f64::from(weight.luminance()) * evidence.light()).powi(2) * excess;
                 focus += square;
@@ -177,6 +188,7 @@ impl ErrorSums {
             weights: Weights::default(),
             scatter: Scatter::default(),
             classes: Classes::default(),
+            foci: [0.0; 2],
             estimate: None,
         }
     }
@@ -239,12 +251,20 @@ impl ErrorSums {
                 for (tile, of_tile) in tiles.iter_mut().zip(addends) {
                     tile.light.add(of_tile.light, photons);
                     tile.bias.add(of_tile.bias, photons);
-                    (tile.focus2, tile.unknown) = (of_tile.focus2, of_tile.unknown);
+                    tile.unknown = of_tile.unknown;
+                    if pass.looks_for_foci() {
+                        tile.focus2 = of_tile.focus2;
+                    }
                 }
                 sums
             })
             .collect();
-        let sums = sums.into_iter().fold(Sums::default(), Sums::plus);
+        let mut sums = sums.into_iter().fold(Sums::default(), Sums::plus);
+        if pass.looks_for_foci() {
+            self.foci = [sums.focus2, sums.focus_variance];
+        } else {
+            [sums.focus2, sums.focus_variance] = self.foci;
+        }
         let share = photons / self.weights.photons;
         if share < 1.0 && sums.seen > 0.0 {
             self.scatter.add(photons * sums.deviation / sums.seen / (1.0 - share));

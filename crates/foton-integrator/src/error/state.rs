@@ -12,6 +12,7 @@ impl ErrorSums {
         put(&self.weights.numbers());
         put(&self.scatter.numbers());
         put(&self.classes.numbers());
+        put(&self.foci);
         let e = self.estimate;
         put(&[f64::from(u8::from(e.is_some()))]);
         if let Some(e) = e {
@@ -34,6 +35,7 @@ impl ErrorSums {
         self.weights = Weights::of(numbers(input)?);
         self.scatter = Scatter::of(numbers(input)?);
         self.classes = Classes::of(numbers(input)?);
+        self.foci = numbers(input)?;
         let [is_known] = numbers(input)?;
         self.estimate = None;
         if is_known > 0.0 {

@@ -73,11 +73,7 @@ impl Accel {
         let tree = build_bvh2(&boxes, one_a_leaf, &mut Default::default());
         let collapsed = collapse::collapse(&tree, primitives);
         let ordered: Vec<Primitive> = collapsed.order.iter().map(|&i| primitives[i as usize]).collect();
-        let plane = |p: &Primitive| match *p {
-            Primitive::Triangle(corners) => Plane::new(corners),
-            _ => Plane::default(),
-        };
-        let planes = ordered.par_iter().map(plane).collect();
+        let planes = ordered.par_iter().map(Plane::of).collect();
         let accel = Self { nodes: collapsed.nodes, quads: collapsed.quads, primitives: ordered, planes };
         (accel, collapsed.order)
     }

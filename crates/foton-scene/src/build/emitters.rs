@@ -6,10 +6,9 @@ use foton_math::{Aabb, Frame, Rgb};
 use super::orientation;
 use crate::description::{EmitterDescription, EmitterKind};
 use crate::discrete::Discrete;
-use crate::emitter::{Aim, Area, Ball, Emitter, Kind, Spot, Target};
+use crate::emitter::{Aim, Ball, Emitter, Kind, Spot, Target};
 use crate::environment::Environment;
 use crate::normalise::Normalisation;
-use crate::primitive::Primitive;
 
 /// Share of photons spread evenly over emitters, whatever their power (δ of theory's many lights).
 const DEFENSIVE_SHARE: f64 = 0.1;
@@ -22,18 +21,6 @@ pub(super) fn ball(b: &Aabb) -> Ball {
 /// Half of the light from infinity is aimed at what focuses it, where that saves most of the photons.
 pub(super) fn aim_at_casters(casters: Option<Ball>) -> Aim {
     Aim::new(casters.map(|ball| Target { ball, share: 0.5 }).into_iter().collect())
-}
-
-pub(super) fn area_emitter(shape: u32, radiance: Rgb, primitives: &[Primitive]) -> Area {
-    let areas = || primitives.iter().map(Primitive::area);
-    Area {
-        radiance,
-        primitives: primitives.to_vec(),
-        by_area: Discrete::new(areas().map(f64::from)),
-        area: areas().sum(),
-        shape,
-        gap: 0.0,
-    }
 }
 
 pub(super) fn unattached_emitter(

@@ -12,7 +12,7 @@ use crate::description::{Geometry, Mesh, ShapeDescription};
 use crate::discrete::Discrete;
 use crate::normalise::Normalisation;
 use crate::primitive::{Primitive, triangle_normal};
-use crate::scene::Scene;
+use crate::scene::{Part, Scene};
 
 /// How far a transform's axes may be from equal length and right angles and still keep a sphere round.
 const ROUNDNESS: f64 = 1e-4;
@@ -150,10 +150,9 @@ impl Gathered {
         let ordered = order.iter().map(|&i| i as usize);
         Scene {
             coincidences: Arc::default(),
-            shape_of: ordered.clone().map(|i| self.shape_of[i]).collect(),
+            parts: ordered.clone().map(|i| Part { shape: self.shape_of[i], ..Part::default() }).collect(),
             vertex_uvs: ordered.clone().filter_map(|i| self.vertex_uvs.get(i).copied()).collect(),
             textures: Arc::default(),
-            patches: Arc::default(),
             vertex_normals: if smooth {
                 ordered.map(|i| self.vertex_normals[i]).collect()
             } else {

@@ -8,13 +8,15 @@ use foton_math::{Aabb, Frame, Rgb, warp};
 use super::Illumination;
 use crate::discrete::Discrete;
 use crate::primitive::Primitive;
-use crate::surface::{Surface, locate};
+use crate::surface::{Plane, Surface, locate};
 
 /// A surface that emits on the side its normal points to.
 #[derive(Clone, Debug)]
 pub(crate) struct Area {
     pub(crate) radiance: Rgb,
     pub(crate) primitives: Vec<Primitive>,
+    /// Those of triangles; whatever for other primitives.
+    planes: Vec<Plane>,
     pub(crate) by_area: Discrete,
     pub(crate) area: f32,
     pub(crate) shape: u32,
@@ -23,11 +25,26 @@ pub(crate) struct Area {
 }
 
 impl Area {
+    /// A shape's surface that emits.
+    pub(crate) fn new(shape: u32, radiance: Rgb, primitives: &[Primitive]) -> Self {
+        let areas = || primitives.iter().map(Primitive::area);
+        Self {
+            radiance,
+            primitives: primitives.to_vec(),
+            planes: primitives.iter().map(Plane::of).collect(),
+            by_area: Discrete::new(areas().map(f64::from)),
+            area: areas().sum(),
+            shape,
+            gap: 0.0,
+        }
+    }
+
     /// A point uniform by area.
     pub(super) fn sample(&self, u_part: f32, u: Vec2) -> Surface {
-        let primitive = &self.primitives[self.by_area.choose(f64::from(u_part))];
+        let part = self.by_area.choose(f64::from(u_part));
+        let primitive = &self.primitives[part];
         let (position, error, normal) = match *primitive {
-            Primitive::Triangle(_) => locate(primitive, warp::square_to_triangle(u), Vec3::ZERO),
+            Primitive::Triangle(corners) => self.planes[part].locate(corners, warp::square_to_triangle(u)),
             Primitive::Sphere { centre, radius, .. } => {
                 locate(primitive, Vec2::ZERO, centre + warp::square_to_sphere(u) * radius)
             }

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::description::Bitmap;
-use crate::discrete::Discrete;
 use crate::primitive::Primitive;
 use foton_math::glam::Mat3;
 use foton_math::{Purpose, Stream};
@@ -12,10 +11,7 @@ fn emitter(kind: Kind) -> Emitter {
 }
 
 fn area(primitives: Vec<Primitive>) -> Emitter {
-    let areas: Vec<f32> = primitives.iter().map(Primitive::area).collect();
-    let by_area = Discrete::new(areas.iter().map(|&a| f64::from(a)));
-    let area = areas.iter().sum();
-    emitter(Kind::Area(Area { radiance: Rgb::splat(2.0), primitives, by_area, area, shape: 0, gap: 0.0 }))
+    emitter(Kind::Area(Area::new(0, Rgb::splat(2.0), &primitives)))
 }
 
 /// Each kind as it shines, aimed at one ball, and at three of which some are near and some far.

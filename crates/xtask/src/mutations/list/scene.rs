@@ -223,8 +223,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "points on a large ground are where the ray meets it",
         file: "crates/foton-scene/src/surface.rs",
-        from: "if found.0.abs().max_element() * COARSE > largest {",
-        to: "if found.0.abs().max_element() * COARSE >= 0.0 * largest {",
+        from: "        if out > largest {",
+        to: "        if out >= 0.0 * largest {",
         target: ANALYTIC,
         test: "a_ground_of_any_size_is_lit_as_one_of_a_thousand",
     },
