@@ -31,6 +31,7 @@ pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
         samples_per_pixel: args.spp,
         radius,
         radius_scale,
+        radius_floor: args.radius_floor,
         radius_rule: args.radius_rule.into(),
         direct_light: args.direct.into(),
         max_depth: args.max_depth,

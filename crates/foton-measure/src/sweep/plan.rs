@@ -3,7 +3,7 @@
 use std::fmt;
 use std::num::NonZeroU32;
 
-use foton_integrator::{Alpha, DirectLight, RadiusRule, RadiusScale, Settings};
+use foton_integrator::{Alpha, DirectLight, RadiusFloor, RadiusRule, RadiusScale, Settings};
 
 use crate::plot::short;
 
@@ -25,6 +25,8 @@ pub struct Configuration {
     pub photons: NonZeroU32,
     /// Factor on first radii.
     pub radius_scale: RadiusScale,
+    /// How far radii shrink.
+    pub radius_floor: RadiusFloor,
     /// How radii shrink.
     pub radius_rule: RadiusRule,
     /// How direct light is estimated.
@@ -39,6 +41,7 @@ impl Configuration {
             alpha: settings.alpha,
             photons: settings.photons_per_pass,
             radius_scale: settings.radius_scale,
+            radius_floor: settings.radius_floor,
             radius_rule: settings.radius_rule,
             direct_light: settings.direct_light,
         }
@@ -51,6 +54,7 @@ impl Configuration {
             alpha: self.alpha,
             photons_per_pass: self.photons,
             radius_scale: self.radius_scale,
+            radius_floor: self.radius_floor,
             radius_rule: self.radius_rule,
             direct_light: self.direct_light,
             ..base.clone()
@@ -64,6 +68,9 @@ impl Configuration {
             format!("--alpha {} --photons {}", (self.alpha.get() * 1e4).round() / 1e4, self.photons);
         if self.radius_scale != RadiusScale::default() {
             options += &format!(" --radius x{}", self.radius_scale);
+        }
+        if self.radius_floor != RadiusFloor::default() {
+            options += &format!(" --radius-floor {}", self.radius_floor);
         }
         if self.radius_rule != RadiusRule::default() {
             options += &format!(" --radius-rule {}", self.radius_rule.name());
@@ -84,6 +91,9 @@ impl fmt::Display for Configuration {
             count(self.photons.get().into()),
             scale(self.radius_scale.get())
         )?;
+        if self.radius_floor != RadiusFloor::default() {
+            write!(f, " down to {} spacings of the eye samples", self.radius_floor)?;
+        }
         match self.radius_rule {
             RadiusRule::Local => write!(f, " shrinking each by its photons")?,
             RadiusRule::Global => write!(f, " shrinking together")?,

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::fmt::Write;
 use std::num::NonZeroU32;
 
-use foton_integrator::{Alpha, DirectLight, RadiusRule, RadiusScale, Stage};
+use foton_integrator::{Alpha, DirectLight, RadiusFloor, RadiusRule, RadiusScale, Stage};
 
 use super::judge::{Spread, Squares};
 use super::plan::Configuration;
@@ -13,7 +13,7 @@ use super::run::{Finished, Gathered, Row};
 /// Parts of the image in the names of columns.
 const MASKS: [&str; 3] = ["seen", "smooth", "edge"];
 const CLASSES: [&str; 3] = ["direct", "caustic", "indirect"];
-const CONFIGURATION: &str = "alpha,photons_per_pass,radius_scale,radius_rule,direct";
+const CONFIGURATION: &str = "alpha,photons_per_pass,radius_scale,radius_floor,radius_rule,direct";
 
 /// One configuration at one pass: means over seeds.
 #[derive(Clone, Debug, PartialEq)]
@@ -167,7 +167,7 @@ fn configuration(c: &Configuration) -> String {
         DirectLight::Photons => "photons",
         DirectLight::ShadowRays => "shadow-rays",
     };
-    format!("{},{},{},{rule},{direct}", c.alpha, c.photons, c.radius_scale)
+    format!("{},{},{},{},{rule},{direct}", c.alpha, c.photons, c.radius_scale, c.radius_floor)
 }
 
 /// Reads a [`summary`] with its heading; `None` if it is none.
@@ -201,6 +201,7 @@ fn read_point(fields: &HashMap<&str, &str>) -> Option<Point> {
             alpha: Alpha::new(number("alpha")?)?,
             photons: NonZeroU32::new(u32::try_from(whole("photons_per_pass")?).ok()?)?,
             radius_scale: RadiusScale::new(number("radius_scale")?)?,
+            radius_floor: RadiusFloor::new(number("radius_floor")?)?,
             radius_rule: RadiusRule::from_name(fields.get("radius_rule")?)?,
             direct_light: match *fields.get("direct")? {
                 "photons" => DirectLight::Photons,

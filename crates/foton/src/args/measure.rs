@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::Args as ClapArgs;
-use foton_integrator::{Alpha, Settings};
+use foton_integrator::{Alpha, RadiusFloor, Settings};
 
-use super::{Direct, Radius, Rule, Size, alpha, define, duration, exr, radius};
+use super::{Direct, Radius, Rule, Size, alpha, define, duration, exr, radius, radius_floor};
 
 /// `foton measure`.
 #[derive(Debug, ClapArgs)]
@@ -35,6 +35,9 @@ pub(crate) struct Measure {
     /// First radius at the star's centre: in world units, or x0.5 for half of what the pixel's footprint gives
     #[arg(long, value_name = "R|xF", value_parser = radius)]
     pub(crate) radius: Option<Radius>,
+    /// Smallest radius in spacings of the eye samples; 0 for none
+    #[arg(long, value_name = "N", value_parser = radius_floor, default_value_t = Settings::default().radius_floor)]
+    pub(crate) radius_floor: RadiusFloor,
     /// How radii shrink at the star's centre
     #[arg(long, value_name = "RULE", value_enum, default_value_t = Settings::default().radius_rule.into())]
     pub(crate) radius_rule: Rule,
