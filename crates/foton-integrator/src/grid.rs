@@ -106,6 +106,8 @@ impl Grid {
         let place = |p: Vec3| growth.map_or(p, |g| g.place(p));
         let (origin, size) = (place(bounds.min), place(bounds.max) - place(bounds.min));
         let mut cell = CELL_IN_RADII * median_radius(packets) * growth.map_or(1.0, |g| g.inverse_scale);
+        // No cell is smaller than a row of all cells allows: from there the loop ends soon, whatever the sizes are.
+        cell = cell.max(size.max_element() / MOST_CELLS as f32).max(f32::MIN_POSITIVE);
         let count = |cell: f32| (size / cell).floor() + 1.0;
         while count(cell).element_product() > MOST_CELLS as f32 {
             cell *= 1.02;
@@ -294,6 +296,29 @@ mod tests {
                     assert!(number < grid.touched() && runs.iter().any(|r| r.contains(&number)), "{p}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn a_line_that_is_longer_than_numbers_are_fine_has_a_grid() {
+        let of = |radius: f32, length: f32| {
+            let hit = |x: f32| HitPoint {
+                position: Vec3::new(x, 0.0, 0.0),
+                normal: Vec3::Z,
+                shading_normal: Vec3::Z,
+                origin: Vec3::ZERO,
+                weight: Rgb::WHITE,
+                gloss: None,
+                radius2: radius * radius,
+                slab2: 1.0,
+                smallest2: 0.0,
+                budget: 9,
+                patch: 0,
+            };
+            Packet::new([hit(0.0), hit(length)].iter())
+        };
+        for (radius, length) in [(1e-30, 1e30), (0.0, 1.0), (1e-20, 3e38), (1e18, 1e18)] {
+            assert!(Grid::new(&[of(radius, length)]).touched() > 0, "{radius} {length}");
         }
     }
 
