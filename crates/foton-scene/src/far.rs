@@ -14,7 +14,7 @@ use crate::scene::{Scene, Shape};
 /// What lies so many times as far from the camera as all that is nearer leaves that with a dozen steps of single precision.
 const APART: f32 = 3e6;
 
-/// Lamps beyond all else that reach so many times as far send hardly a millionth of their photons there.
+/// Of lamps beyond all else that reach so many times as far, hardly a millionth of the surface is near the rest.
 const LAMP_APART: f32 = 1e3;
 
 /// A camera or light so many half-diagonals of the scene away sees or meets it by steps of a hundredth of its size.
@@ -43,7 +43,7 @@ pub struct Far {
 pub enum FarKind {
     /// A surface and so many others.
     Surfaces(usize),
-    /// A surface that emits: the rest has its shape beside it, but hardly any of its photons.
+    /// A surface that emits: the rest has its shape beside it, but few of its photons.
     Lamp,
     /// A camera.
     Camera,
@@ -146,8 +146,8 @@ impl fmt::Display for Far {
             }
             FarKind::Lamp => write!(
                 f,
-                " reaches {times:.0e} times as far from the camera as everything else, and hardly any of its photons come near \
-                 that. Make it smaller or bring it nearer; {FROM_FAR}"
+                " reaches {times:.0e} times as far from the camera as everything else, and few of its photons start where they \
+                 matter: its light is noisy. Make it smaller or bring it nearer; {FROM_FAR}"
             ),
             FarKind::Camera => write!(
                 f,

@@ -2,7 +2,7 @@
 //! how fast noise and bias fall, and what radii that adapt are worth.
 //!
 //! `cargo run --release -p foton-tests --example calibrate` prints the tables of docs/error.md and writes its plot; `stops`,
-//! `slopes`, `rules`, `floors` and `kernels` print the others. Names of assets, `seeds=4`, `truth=1024` (its passes) and `rule=local` may be given. The
+//! `slopes`, `rules`, `floors` and `kernels` print the others. Names of assets, `seeds=4`, `truth=1024` (its passes), `rule=local` and `floor=0` may be given. The
 //! truth has the same eye samples and photons of its own, small discs of two radii, and direct light by shadow rays.
 #![allow(clippy::print_stdout, reason = "a program that prints a table")]
 
@@ -17,7 +17,7 @@ use std::num::NonZeroU32;
 use std::path::Path;
 use std::sync::Arc;
 
-use foton_integrator::{Ppm, RadiusRule, Settings, TileError};
+use foton_integrator::{Ppm, RadiusFloor, RadiusRule, Settings, TileError};
 use foton_measure::plot::{Plot, Series, colour};
 use foton_scene::Scene;
 use foton_tests::slopes;
@@ -85,7 +85,9 @@ fn main() {
         _ => {
             let rule = arguments.iter().find_map(|a| a.strip_prefix("rule="));
             let rule = rule.map(|name| RadiusRule::from_name(name).expect("local, global or adaptive"));
-            coverage(&named, (seeds, passes), rule.unwrap_or_default());
+            let floor = arguments.iter().find_map(|a| a.strip_prefix("floor=")?.parse().ok());
+            let floor = floor.map(|f| RadiusFloor::new(f).expect("0 or more"));
+            coverage(&named, (seeds, passes), (rule.unwrap_or_default(), floor.unwrap_or_default()));
         }
     }
 }
@@ -109,7 +111,7 @@ fn print_slopes(seeds: u64) {
     }
 }
 
-fn coverage(named: &[&str], (seeds, passes): (u64, u64), rule: RadiusRule) {
+fn coverage(named: &[&str], (seeds, passes): (u64, u64), radii: (RadiusRule, RadiusFloor)) {
     println!(
         "| scene | passes | true % | estimated % (noise, bias) | estimated/true | true within low..high | smooth tiles: 50 90 99 % | other tiles: 50 90 99 % | unknown tiles, of lit ones |"
     );
@@ -118,7 +120,7 @@ fn coverage(named: &[&str], (seeds, passes): (u64, u64), rule: RadiusRule) {
     let mut classes = String::new();
     for name in if named.is_empty() { ASSETS.to_vec() } else { named.to_vec() } {
         let scene = open(name, SIDE);
-        let runs: Vec<Vec<Found>> = (0..seeds).map(|seed| run(&scene, (seed, rule), passes)).collect();
+        let runs: Vec<Vec<Found>> = (0..seeds).map(|seed| run(&scene, (seed, radii), passes)).collect();
         for (i, passes) in CHECKPOINTS.iter().enumerate() {
             row(name, *passes, &runs.iter().map(|run| &run[i]).collect::<Vec<_>>());
         }
@@ -172,8 +174,13 @@ fn plot(plotted: &[(&str, Vec<Vec<Found>>)]) {
     }
 }
 
-fn run(scene: &Arc<Scene>, (seed, radius_rule): (u64, RadiusRule), passes: u64) -> Vec<Found> {
-    let settings = Settings { error: true, layers: true, radius_rule, ..settings(PHOTONS, seed) };
+fn run(
+    scene: &Arc<Scene>,
+    (seed, (radius_rule, radius_floor)): (u64, (RadiusRule, RadiusFloor)),
+    passes: u64,
+) -> Vec<Found> {
+    let settings =
+        Settings { error: true, layers: true, radius_floor, radius_rule, ..settings(PHOTONS, seed) };
     let truth = Truth::render(scene, &settings, passes);
     eprintln!(
         "noise of the truth {:.1} %, smooth {:.0} %",

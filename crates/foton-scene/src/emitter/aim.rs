@@ -91,7 +91,7 @@ impl Aim {
 
     /// A direction for light from a point, and its density (sr⁻¹), where `own` chooses directions of `own_density` as the emitter
     /// shines.
-    pub(super) fn from_point(
+    pub(super) fn divergent(
         &self,
         point: Vec3,
         u: Vec2,

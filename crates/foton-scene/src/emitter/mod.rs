@@ -165,7 +165,7 @@ impl Emitter {
                 }
                 let cosine = |direction: Vec3| direction.dot(surface.normal).max(0.0);
                 let (direction, pdf) =
-                    self.aim.from_point(origin, u_direction, own, |direction| cosine(direction) / PI);
+                    self.aim.divergent(origin, u_direction, own, |direction| cosine(direction) / PI);
                 Emission { origin, direction, power: a.radiance * (a.area * cosine(direction) / pdf) }
             }
             Kind::Point { position, intensity } => {
@@ -175,7 +175,7 @@ impl Emitter {
                 }
                 let uniform = |_| warp::square_to_sphere_pdf();
                 let (direction, pdf) =
-                    self.aim.from_point(*position, u_direction, warp::square_to_sphere, uniform);
+                    self.aim.divergent(*position, u_direction, warp::square_to_sphere, uniform);
                 Emission { origin: *position, direction, power: *intensity / pdf }
             }
             Kind::Spot(s) => s.emit(&self.aim, u_direction),
@@ -278,7 +278,7 @@ impl Spot {
         let (direction, pdf) = if aim.is_empty() {
             (own(u), uniform)
         } else {
-            aim.from_point(self.position, u, own, |d| if self.falloff(d) > 0.0 { uniform } else { 0.0 })
+            aim.divergent(self.position, u, own, |d| if self.falloff(d) > 0.0 { uniform } else { 0.0 })
         };
         Emission { origin: self.position, direction, power: self.intensity * (self.falloff(direction) / pdf) }
     }
