@@ -55,6 +55,10 @@ pub(crate) struct Evidence {
     laplacian: f64,
     /// Σ Φ d/(π r³).
     offset: [f64; 3],
+    /// Σ |d − d̄|²/r², d̄ the mean of a pass, over as many equal photons as would be as noisy; and how many more than one those
+    /// were in each pass.
+    spread: f64,
+    freedom: f64,
 }
 
 impl Evidence {
@@ -72,8 +76,18 @@ impl Evidence {
         self.variance += f64::from(squares) * per_area * per_area;
         self.laplacian += (6.0 * moment / radius2 - 3.0 * flux) * per_area;
         let per_length = per_area / radius2.sqrt();
+        let mut offset2 = 0.0;
         for (sum, offset) in self.offset.iter_mut().zip(&shape.offset) {
-            *sum += f64::from(offset[lane]) * per_length;
+            let offset = f64::from(offset[lane]);
+            *sum += offset * per_length;
+            offset2 += offset * offset;
+        }
+        let per_photon = flux / f64::from(squares);
+        let freedom = flux * per_photon - 1.0;
+        // Of one photon there is no spread, and rounding must not make one.
+        if freedom > 1e-3 {
+            self.spread += (moment - offset2 / flux).max(0.0) * per_photon / radius2;
+            self.freedom += freedom;
         }
     }
 
@@ -97,20 +111,13 @@ impl Evidence {
     /// That is the mean squared error over the disc, whose points are within the circle or beside it: of a focus finer than the disc,
     /// and of a shadow's edge through it, where it is 0.56. The Laplacian sees neither for what it is.
     pub(crate) fn focus(&self) -> f64 {
-        if self.light <= 0.0 || self.variance <= 0.0 {
+        // Each pass about its own middle: with another radius that is elsewhere in the disc.
+        let (spread, photons) = (self.spread, self.freedom);
+        if spread >= 0.5 * photons || self.light <= 0.0 {
             return 0.0;
         }
-        let inverse = 1.0 / self.light;
-        let middle2 = self.offset.iter().map(|o| o * o).sum::<f64>() * inverse * inverse;
-        let spread = self.laplacian * (inverse / 6.0) + 0.5 - middle2;
-        if spread >= 0.5 {
-            return 0.0;
-        }
-        // As many equal photons as would be as noisy.
-        let photons = self.light * self.light / self.variance;
-        let unbiased = spread * photons / (photons - 1.0).max(f64::MIN_POSITIVE);
         // A few photons tell of no circle that is smaller than their share of the disc.
-        let ratio = (0.5 / unbiased.max(f64::MIN_POSITIVE)).min(photons);
+        let ratio = (0.5 * photons / spread.max(f64::MIN_POSITIVE)).min(photons);
         let by_chance = BY_CHANCE / photons.sqrt();
         // A quotient of what is no finite number is none.
         if ratio.is_finite() { (ratio - 1.0 - by_chance).max(0.0) } else { 0.0 }
@@ -128,8 +135,8 @@ impl Evidence {
     }
 
     pub(crate) fn write(&self, out: &mut Writer) {
-        let Self { light, variance, laplacian, offset: [x, y, z] } = *self;
-        [light, variance, laplacian, x, y, z].into_iter().for_each(|n| out.f64(n));
+        let Self { light, variance, laplacian, offset: [x, y, z], spread, freedom } = *self;
+        [light, variance, laplacian, x, y, z, spread, freedom].into_iter().for_each(|n| out.f64(n));
     }
 
     pub(crate) fn read(input: &mut Reader<'_>) -> Result<Self, StateError> {
@@ -139,6 +146,8 @@ impl Evidence {
             variance: next()?,
             laplacian: next()?,
             offset: [next()?, next()?, next()?],
+            spread: next()?,
+            freedom: next()?,
         })
     }
 }
@@ -162,6 +171,9 @@ mod tests {
             e.offset[0] += x * light;
             e.offset[1] += y * light;
         }
+        let middle2 = (e.offset[0].powi(2) + e.offset[1].powi(2)) / e.light.powi(2);
+        e.freedom = e.light * PI - 1.0;
+        e.spread = (e.laplacian / (6.0 * e.light) + 0.5 - middle2) * e.freedom;
         e
     }
 

@@ -93,3 +93,25 @@ fn the_error_of_a_beam_that_is_smeared_over_its_surroundings_is_claimed() {
         assert!(truth2 < high2 && high2 < 16.0 * truth2, "{radius_rule:?}: {truth2} {high2}");
     }
 }
+
+/// A beam of a thirteenth of the spacing is met by hardly any sample: of what the error then is on average over places, a hundred times
+/// what discs see, their photons tell.
+#[test]
+fn the_error_counts_on_beams_that_hardly_a_sample_meets() {
+    let degrees = 0.02f64;
+    for radius_rule in RadiusRule::ALL {
+        let base = Settings { samples_per_pixel: number(4), error: true, radius_rule, ..settings(2000, 3) };
+        for i in 0..4u32 {
+            let place = |k: u32| pixel() * (f64::from(k) / 2.0 + 0.13);
+            let ppm = spot(degrees, place(i % 2), place(i / 2)).render(base.clone(), 24);
+            let error = ppm.error().expect("passes");
+            // In pixels; of four samples each that the beam meets makes its pixel a quarter as bright as the beam.
+            let area = std::f64::consts::PI * (3.0 * degrees.to_radians().tan() / pixel()).powi(2);
+            let beam = 0.5 / std::f64::consts::PI / 9.0;
+            let truth2 = area * beam * beam / 4.0 / 256.0 / error.mean_luminance.powi(2);
+            let share = error.high.powi(2) / truth2;
+            assert!((0.8..20.0).contains(&share), "{radius_rule:?}, place {i}: {share}, {error:?}");
+            assert!(error.is_of_narrow_light(), "{error:?}");
+        }
+    }
+}

@@ -185,7 +185,7 @@ pub(super) const LIST: &[Mutation] = &[
         from: "bias2).max(focus2)",
         to: "bias2).max(0.0 * focus2)",
         target: ANALYTIC,
-        test: "the_error_of_a_beam_that_is_smeared_over_its_surroundings_is_claimed",
+        test: "the_error_counts_on_beams_that_hardly_a_sample_meets",
     },
     Mutation {
         what: "behind shadow rays what no photon has found is unknown",
