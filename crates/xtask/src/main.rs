@@ -25,7 +25,7 @@ cargo xtask ci                      formatting, lints, documentation, then the t
 cargo xtask conformance [--quick]   the whole comparison with Mitsuba 3 (20 minutes and more), or the small one
 cargo xtask versus [--seconds N]    foton, Mitsuba 3 and LuxCore on one scene for N (30) seconds each, as a table and pictures
 cargo xtask calibrate [WHAT]        whether the live error can be believed; stops: where --error does; slopes: how fast noise and bias fall;
-                                    rules: what radii that adapt are worth; kernels: what others than the box would be (many minutes)
+                                    rules: what radii that adapt are worth; floors: what the smallest radius costs; kernels: what others than the box would be (many minutes)
 cargo xtask assets                  writes the generated meshes in assets/ again
 cargo xtask pictures [--window]     renders every scene in assets/ to docs/pictures, and the window (some minutes); or it alone
 cargo xtask bench [WHAT]            how fast, on a quiet machine: whole (the benchmark box, stage by stage), parts (by criterion), scaling,
@@ -34,7 +34,7 @@ cargo xtask monkey [--minutes N]    random clicks and keys in the window for N (
 cargo xtask soak [MINUTES]          one small render for MINUTES (20): no memory that grows, no drift of the mean, no NaN
 cargo xtask kills [N]               kills N (200) renders at random moments: all checkpoints open, no file is half of one
 cargo xtask limits                  renders in as little memory as --memory accepts, under a hard limit of the system
-cargo xtask mutations [WORD]        takes protections out of a copy of the tree, one by one: does their test notice? (many minutes)";
+cargo xtask mutations [WORD,…]      takes protections out of a copy of the tree, one by one: does their test notice? (many minutes)";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
