@@ -182,8 +182,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "what discs hide widens the error's upper end",
         file: "crates/foton-integrator/src/error/estimate.rs",
-        from: "bias2).max(focus2)",
-        to: "bias2).max(0.0 * focus2)",
+        from: "let focus2 = relative(self.focus2);",
+        to: "let focus2 = 0.0 * relative(self.focus2);",
         target: ANALYTIC,
         test: "the_error_counts_on_beams_that_hardly_a_sample_meets",
     },
