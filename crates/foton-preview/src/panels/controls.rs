@@ -4,7 +4,7 @@ use std::num::NonZeroU32;
 use std::time::Duration;
 
 use foton_session::engine::{Command, Configuration, Gesture};
-use foton_session::{Alpha, Change, DirectLight, RadiusRule, Settings, StopRule};
+use foton_session::{Alpha, Change, DirectLight, RadiusFloor, RadiusRule, Settings, StopRule};
 
 use super::{heading, slider};
 use crate::state::State;
@@ -137,6 +137,17 @@ fn anew(ui: &mut egui::Ui, state: &mut State, settings: &Settings, threads: Opti
         let value = value.labelled_by(label.id);
         hold(&value);
         draft.radius = own.then_some(radius);
+    });
+    ui.horizontal(|ui| {
+        let label = ui.label("Smallest radius");
+        let mut spacings = draft.radius_floor.get();
+        let field = egui::DragValue::new(&mut spacings).range(0.0..=100.0).speed(0.01).suffix(" spacings");
+        let value = ui.add(field).labelled_by(label.id);
+        hold(&value);
+        value.on_hover_text(
+            "In spacings of the eye samples: light narrower than that falls between them. 0: radii shrink for ever",
+        );
+        draft.radius_floor = RadiusFloor::new(spacings).unwrap_or(draft.radius_floor);
     });
     ui.horizontal(|ui| {
         let label = ui.label("Seed");

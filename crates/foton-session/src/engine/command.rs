@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use foton_integrator::{DirectLight, RadiusRule, Settings};
+use foton_integrator::{DirectLight, RadiusFloor, RadiusRule, Settings};
 
 use crate::edit::{DragMode, FieldId, Value};
 use crate::stop::StopRule;
@@ -21,6 +21,8 @@ pub enum Source {
 pub struct Configuration {
     /// First radius in world units; `None`: from the pixel's footprint.
     pub radius: Option<f64>,
+    /// How far radii shrink.
+    pub radius_floor: RadiusFloor,
     /// How radii shrink.
     pub radius_rule: RadiusRule,
     /// How direct light is estimated.
@@ -45,6 +47,7 @@ impl Configuration {
     pub fn of(settings: &Settings, threads: Option<usize>) -> Self {
         Self {
             radius: settings.radius,
+            radius_floor: settings.radius_floor,
             radius_rule: settings.radius_rule,
             direct_light: settings.direct_light,
             samples_per_pixel: settings.samples_per_pixel,
@@ -59,6 +62,7 @@ impl Configuration {
     /// Settings with this configuration.
     pub(super) fn apply(&self, settings: &mut Settings) {
         settings.radius = self.radius;
+        settings.radius_floor = self.radius_floor;
         settings.radius_rule = self.radius_rule;
         settings.direct_light = self.direct_light;
         settings.samples_per_pixel = self.samples_per_pixel;

@@ -19,7 +19,7 @@ use foton_session::engine::{
     Activity, Command, Configuration, Event, Frame, Numbers, Picture, SceneFacts, Selection, SensorFacts,
     Shown, Source,
 };
-use foton_session::{Alpha, Change, DirectLight, Ledger, RadiusRule, Settings, StopRule};
+use foton_session::{Alpha, Change, DirectLight, Ledger, RadiusFloor, RadiusRule, Settings, StopRule};
 
 use crate::preferences::Preferences;
 use crate::state::State;
@@ -308,6 +308,11 @@ fn what_starts_anew_says_so_and_is_sent_once_it_is_let_go() {
     assert_eq!(asked(&mut harness), [""; 0]);
     harness.key_press(egui::Key::Enter);
     assert_asked(&mut harness, &Command::Configure(Configuration { seed: 12, ..now }));
+    type_into(&mut harness, "Smallest radius", "0.5");
+    assert_eq!(asked(&mut harness), [""; 0]);
+    harness.key_press(egui::Key::Enter);
+    let radius_floor = RadiusFloor::new(0.5).expect("not below 0");
+    assert_asked(&mut harness, &Command::Configure(Configuration { radius_floor, ..now }));
 
     click(&mut harness, Role::CheckBox, "first radius");
     assert!(asked(&mut harness)[0].contains("radius: Some("));
