@@ -123,7 +123,7 @@ impl Evidence {
         if ratio.is_finite() { (ratio - 1.0 - by_chance).max(0.0) } else { 0.0 }
     }
 
-    /// Mean light per emitted photon is over how many photons they are: Σ Φ/(π r²) in luminance.
+    /// Σ Φ/(π r²) in luminance over all passes: irradiance, once it is divided by the photons emitted.
     pub(crate) const fn light(&self) -> f64 {
         self.light
     }

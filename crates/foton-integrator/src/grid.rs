@@ -230,6 +230,22 @@ mod tests {
     use crate::hit_point::HitPoint;
     use foton_math::{Purpose, Rgb, Stream, warp};
 
+    const fn hit_point(position: Vec3, radius: f32) -> HitPoint {
+        HitPoint {
+            position,
+            normal: Vec3::Z,
+            shading_normal: Vec3::Z,
+            origin: Vec3::ZERO,
+            weight: Rgb::WHITE,
+            gloss: None,
+            radius2: radius * radius,
+            slab2: 1.0,
+            smallest2: 0.0,
+            budget: 9,
+            patch: 0,
+        }
+    }
+
     /// Discs on a sphere, or on a ground that is seen to its horizon.
     fn packets(ground: bool) -> Vec<Packet> {
         let found: Vec<HitPoint> = (0..3000)
@@ -243,19 +259,7 @@ mod tests {
                 } else {
                     (warp::square_to_sphere(s.next_2d()) * 300.0, radius)
                 };
-                HitPoint {
-                    position,
-                    normal: Vec3::Z,
-                    shading_normal: Vec3::Z,
-                    origin: Vec3::ZERO,
-                    weight: Rgb::WHITE,
-                    gloss: None,
-                    radius2: radius * radius,
-                    slab2: 1.0,
-                    budget: 9,
-                    patch: 0,
-                    smallest2: 0.0,
-                }
+                hit_point(position, radius)
             })
             .collect();
         crate::packet::group(&found, |_| true)
@@ -302,19 +306,7 @@ mod tests {
     #[test]
     fn a_line_that_is_longer_than_numbers_are_fine_has_a_grid() {
         let of = |radius: f32, length: f32| {
-            let hit = |x: f32| HitPoint {
-                position: Vec3::new(x, 0.0, 0.0),
-                normal: Vec3::Z,
-                shading_normal: Vec3::Z,
-                origin: Vec3::ZERO,
-                weight: Rgb::WHITE,
-                gloss: None,
-                radius2: radius * radius,
-                slab2: 1.0,
-                smallest2: 0.0,
-                budget: 9,
-                patch: 0,
-            };
+            let hit = |x: f32| hit_point(Vec3::X * x, radius);
             Packet::new([hit(0.0), hit(length)].iter())
         };
         for (radius, length) in [(1e-30, 1e30), (0.0, 1.0), (1e-20, 3e38), (1e18, 1e18)] {

@@ -161,8 +161,7 @@ impl PhotonPass<'_> {
         // Stratified over the pass: each emitter gets its share of photons up to one.
         let u = (index as f64 + f64::from(numbers.next_1d())) / self.photons as f64;
         let Some((emitter, probability)) = self.sources.choose(u) else { return };
-        let start =
-            self.sources.emitters()[emitter].emit(numbers.next_1d(), numbers.next_2d(), numbers.next_2d());
+        let start = self.sources.emit(emitter, numbers.next_1d(), numbers.next_2d(), numbers.next_2d());
         let power = start.power / probability as f32;
         if !power.is_finite() {
             chunk.ledger.dropped += 1;

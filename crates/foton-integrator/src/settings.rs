@@ -183,7 +183,8 @@ pub struct Settings {
     pub hit_points_per_sample: NonZeroU32,
     /// Whether direct, caustic and indirect light are kept apart (costs 24 to 72 bytes a hit point and pixel).
     pub layers: bool,
-    /// Whether the error is estimated pass by pass (costs 8 bytes a hit point, 32 a pixel and some time).
+    /// Whether the error is estimated pass by pass (costs 8 bytes a hit point, 64 more where radii do not adapt, 32 a pixel and
+    /// some time).
     pub error: bool,
 }
 

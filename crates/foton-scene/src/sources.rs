@@ -7,10 +7,10 @@
 
 use std::sync::Arc;
 
-use foton_math::glam::Vec3;
+use foton_math::glam::{Vec2, Vec3};
 
 use crate::discrete::Discrete;
-use crate::emitter::{Aim, Ball, Emitter, Kind, Target};
+use crate::emitter::{Aim, Ball, Emission, Emitter, Kind, Target};
 use crate::scene::Scene;
 
 /// A scene is wide if its radius is this many times that of what is seen for the most part.
@@ -47,18 +47,16 @@ const DEFENSIVE_SHARE: f64 = 0.1;
 pub struct Sources {
     emitters: Arc<[Emitter]>,
     choice: Discrete,
-    is_aimed: bool,
+    /// What all of them are aimed at, in place of what each aims at by itself.
+    aim: Option<Aim>,
 }
 
 impl Scene {
     /// Where photons start, for an eye that sees these points, about which photons count within a radius each (scene units).
     #[must_use]
     pub fn sources(&self, points: &[(Vec3, f32)]) -> Sources {
-        let as_they_shine = Sources {
-            emitters: Arc::clone(&self.emitters),
-            choice: self.emitter_choice.clone(),
-            is_aimed: false,
-        };
+        let as_they_shine =
+            Sources { emitters: Arc::clone(&self.emitters), choice: self.emitter_choice.clone(), aim: None };
         let Some(balls) = balls_around(points) else { return as_they_shine };
         let most = balls[FOR_THE_MOST_PART];
         if self.emitter_choice.is_empty() || most.radius * WIDE > self.bounds.radius() {
@@ -76,16 +74,16 @@ impl Scene {
                 + DEFENSIVE_SHARE * self.emitter_choice.probability(i)
                 + DEFENSIVE_SHARE * even
         }));
-        let emitters = self.emitters.iter().map(|e| Emitter { aim: aim.clone(), ..e.clone() }).collect();
-        Sources { emitters, choice, is_aimed: true }
+        Sources { choice, aim: Some(aim), ..as_they_shine }
     }
 }
 
 impl Sources {
-    /// All emitters, in the order of the scene's.
+    /// Starts a photon from the emitter of that index, as [`Emitter::emit`].
     #[must_use]
-    pub fn emitters(&self) -> &[Emitter] {
-        &self.emitters
+    pub fn emit(&self, index: usize, u_part: f32, u_position: Vec2, u_direction: Vec2) -> Emission {
+        let emitter = &self.emitters[index];
+        emitter.emit_aimed(self.aim.as_ref().unwrap_or(&emitter.aim), u_part, u_position, u_direction)
     }
 
     /// Chooses an emitter by `u` in [0, 1); returns its index and the chance of it. `None` when nothing emits.
@@ -101,7 +99,7 @@ impl Sources {
     /// Whether photons are aimed at what is seen.
     #[must_use]
     pub const fn is_aimed(&self) -> bool {
-        self.is_aimed
+        self.aim.is_some()
     }
 }
 

@@ -233,11 +233,10 @@ impl ErrorSums {
                     sums.focus2 += focus2;
                     sums.focus_variance += addend.focus_variance * shares.per_photon.powi(4);
                     sums.deviation += (addend.light * per_photon - mean).powi(2);
-                    let one_photon = || f64::max(0.0, pass.one_photon(index, samples) / weights.photons);
                     let mut is_unknown = mean <= 0.0;
                     if is_unknown || pass.shadow_rays {
                         // Shadow rays know nothing of indirect light.
-                        let one_photon = one_photon();
+                        let one_photon = pass.one_photon(index, samples) / weights.photons;
                         is_unknown |= one_photon > mean;
                         sums.unknown2 += one_photon.powi(2);
                     }

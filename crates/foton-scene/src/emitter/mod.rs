@@ -150,13 +150,18 @@ impl Emitter {
     /// `u_direction`.
     #[must_use]
     pub fn emit(&self, u_part: f32, u_position: Vec2, u_direction: Vec2) -> Emission {
+        self.emit_aimed(&self.aim, u_part, u_position, u_direction)
+    }
+
+    /// The same, aimed at something else.
+    pub(crate) fn emit_aimed(&self, aim: &Aim, u_part: f32, u_position: Vec2, u_direction: Vec2) -> Emission {
         match &self.kind {
             Kind::Area(a) => {
                 let surface = a.sample(u_part, u_position);
                 let frame = Frame::from_normal(surface.normal);
                 let own = |u| frame.to_outer(warp::square_to_cosine_hemisphere(u));
                 let origin = surface.ray_origin(surface.normal);
-                if self.aim.is_empty() {
+                if aim.is_empty() {
                     return Emission {
                         origin,
                         direction: own(u_direction),
@@ -165,27 +170,26 @@ impl Emitter {
                 }
                 let cosine = |direction: Vec3| direction.dot(surface.normal).max(0.0);
                 let (direction, pdf) =
-                    self.aim.divergent(origin, u_direction, own, |direction| cosine(direction) / PI);
+                    aim.divergent(origin, u_direction, own, |direction| cosine(direction) / PI);
                 Emission { origin, direction, power: a.radiance * (a.area * cosine(direction) / pdf) }
             }
             Kind::Point { position, intensity } => {
-                if self.aim.is_empty() {
+                if aim.is_empty() {
                     let direction = warp::square_to_sphere(u_direction);
                     return Emission { origin: *position, direction, power: *intensity * (4.0 * PI) };
                 }
                 let uniform = |_| warp::square_to_sphere_pdf();
-                let (direction, pdf) =
-                    self.aim.divergent(*position, u_direction, warp::square_to_sphere, uniform);
+                let (direction, pdf) = aim.divergent(*position, u_direction, warp::square_to_sphere, uniform);
                 Emission { origin: *position, direction, power: *intensity / pdf }
             }
-            Kind::Spot(s) => s.emit(&self.aim, u_direction),
+            Kind::Spot(s) => s.emit(aim, u_direction),
             Kind::Constant { radiance, scene } => {
                 let direction = warp::square_to_sphere(u_direction);
-                let (origin, pdf) = self.aim.parallel(scene, direction, u_part, u_position);
+                let (origin, pdf) = aim.parallel(scene, direction, u_part, u_position);
                 Emission { origin, direction, power: *radiance / (pdf * warp::square_to_sphere_pdf()) }
             }
             Kind::Directional { direction, irradiance, scene } => {
-                let (origin, pdf) = self.aim.parallel(scene, *direction, u_part, u_position);
+                let (origin, pdf) = aim.parallel(scene, *direction, u_part, u_position);
                 Emission { origin, direction: *direction, power: *irradiance / pdf }
             }
             Kind::Environment { map, scene } => {
@@ -193,7 +197,7 @@ impl Emitter {
                     return Emission { origin: scene.centre, direction: Vec3::Z, power: Rgb::BLACK };
                 };
                 let direction = -sample.direction;
-                let (origin, pdf) = self.aim.parallel(scene, direction, u_part, u_position);
+                let (origin, pdf) = aim.parallel(scene, direction, u_part, u_position);
                 Emission { origin, direction, power: sample.radiance / (pdf * sample.pdf) }
             }
         }
