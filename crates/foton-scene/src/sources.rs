@@ -81,6 +81,7 @@ impl Scene {
 impl Sources {
     /// Starts a photon from the emitter of that index, as [`Emitter::emit`].
     #[must_use]
+    #[inline]
     pub fn emit(&self, index: usize, u_part: f32, u_position: Vec2, u_direction: Vec2) -> Emission {
         let emitter = &self.emitters[index];
         emitter.emit_aimed(self.aim.as_ref().unwrap_or(&emitter.aim), u_part, u_position, u_direction)

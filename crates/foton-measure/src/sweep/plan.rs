@@ -91,7 +91,9 @@ impl fmt::Display for Configuration {
             count(self.photons.get().into()),
             scale(self.radius_scale.get())
         )?;
-        if self.radius_floor != RadiusFloor::default() {
+        if self.radius_floor == RadiusFloor::NONE {
+            write!(f, " with no smallest radius")?;
+        } else if self.radius_floor != RadiusFloor::default() {
             write!(f, " down to {} spacings of the eye samples", self.radius_floor)?;
         }
         match self.radius_rule {
