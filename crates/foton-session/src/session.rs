@@ -162,7 +162,7 @@ impl Session {
             }
             let before = self.elapsed;
             let report = self.advance(interrupt.cancel());
-            last = self.elapsed - before;
+            last = self.elapsed.saturating_sub(before);
             let report = match report {
                 Ok(report) => report,
                 Err(PassError::Cancelled(_)) => return StopCause::Interrupted,
@@ -202,13 +202,13 @@ impl Session {
             let outcome = contained(|| self.pool.install(|| ppm.advance(&mut watch, cancel)));
             outcome.map_err(|message| Panic { stage: clock.stage(), message })
         };
-        self.elapsed += begin.elapsed();
+        self.elapsed = self.elapsed.saturating_add(begin.elapsed());
         let report = report.inspect_err(|panic| self.panic = Some(panic.clone()))?;
         if let Err(Halt::NotFinite(place)) = &report {
             self.not_finite = Some(place.clone());
         }
         let report = report?;
-        self.rays += report.rays;
+        self.rays = self.rays.saturating_add(report.rays);
         Ok(report)
     }
 

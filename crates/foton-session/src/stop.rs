@@ -46,7 +46,7 @@ impl StopRule {
     ) -> bool {
         passes > 0
             && (self.passes.is_some_and(|limit| passes >= limit)
-                || self.time.is_some_and(|limit| elapsed + next > limit)
+                || self.time.is_some_and(|limit| elapsed.saturating_add(next) > limit)
                 || self.error.is_some_and(|limit| error.is_some_and(|e| is_certainly_below(e, limit))))
     }
 

@@ -156,7 +156,7 @@ impl<'a> Keeper<'a> {
     }
 
     fn is_due(&self, elapsed: Duration) -> bool {
-        self.path.is_some() && elapsed - self.last >= self.every
+        self.path.is_some() && elapsed.saturating_sub(self.last) >= self.every
     }
 
     /// Writes one, if they were asked for. One that cannot be written is a warning: the render goes on.

@@ -1,5 +1,5 @@
 //! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `versus`, `assets`, `pictures`, `bench`, `monkey`, `soak`, `kills`,
-//! `limits`, `mutations`.
+//! `limits`, `loaded`, `mutations`.
 //!
 //! Nothing here is part of the program; what a task does is in the module of its name.
 #![allow(clippy::print_stdout, reason = "these tasks talk to the person who started them")]
@@ -7,6 +7,7 @@
 mod assets;
 mod ci;
 mod conformance;
+mod loaded;
 mod mutations;
 mod pictures;
 mod program;
@@ -34,6 +35,7 @@ cargo xtask monkey [--minutes N]    random clicks and keys in the window for N (
 cargo xtask soak [MINUTES]          one small render for MINUTES (20): no memory that grows, no drift of the mean, no NaN
 cargo xtask kills [N]               kills N (200) renders at random moments: all checkpoints open, no file is half of one
 cargo xtask limits                  renders in as little memory as --memory accepts, under a hard limit of the system
+cargo xtask loaded                  tests of threads and windows ten times, then all tests, beside eight busy loops (an hour and more)
 cargo xtask mutations [WORD,…]      takes protections out of a copy of the tree, one by one: does their test notice? (many minutes)";
 
 fn main() -> ExitCode {
@@ -62,6 +64,8 @@ fn main() -> ExitCode {
         ["kills"] => program::kills("200"),
         ["kills", count] => program::kills(count),
         ["limits"] => program::limits(),
+        ["loaded"] => loaded::all(),
+        ["busy"] => loaded::busy(),
         ["mutations"] => mutations::run(""),
         ["mutations", word] => mutations::run(word),
         ["soak", minutes @ ..] if minutes.len() <= 1 => tools::run(

@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use crate::conformance;
 use crate::tools::{self, Trouble};
+use crate::{conformance, program};
 
 /// One part of the tests.
 struct Step {
@@ -53,6 +53,6 @@ pub(crate) fn all(install: bool) -> Result<(), Trouble> {
 
 /// Unit tests, integration tests and the examples in the documentation, all in the optimised dev profile.
 fn cargo_test() -> Result<(), Trouble> {
-    let program = tools::target_dir().join("debug/foton").with_extension(std::env::consts::EXE_EXTENSION);
-    tools::run(tools::cargo(&["test", "--workspace", "--no-fail-fast"]).env("FOTON_PROGRAM", program))
+    let all = ["test", "--workspace", "--no-fail-fast"];
+    tools::run(tools::cargo(&all).env("FOTON_PROGRAM", program::foton("debug")))
 }

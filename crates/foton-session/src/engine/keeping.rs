@@ -52,7 +52,10 @@ impl Worker {
     /// Writes what is kept when it is due.
     pub(super) fn keep_up(&mut self) {
         let elapsed = self.elapsed();
-        let Some(kept) = self.kept.as_mut().filter(|kept| elapsed >= kept.written + EVERY) else { return };
+        let Some(kept) = self.kept.as_mut().filter(|kept| elapsed.saturating_sub(kept.written) >= EVERY)
+        else {
+            return;
+        };
         kept.written = elapsed;
         let (path, scene) = (kept.path.clone(), kept.scene.clone());
         if let Err(message) = self.write_checkpoint(&path, &scene) {
@@ -87,7 +90,7 @@ impl Worker {
         self.settings.alpha = settings.alpha;
         self.settings.photons_per_pass = settings.photons_per_pass;
         self.event(Event::Notice(format!("Going on after {} passes", render.ppm().passes())));
-        Some(render)
+        Some(render.resumed())
     }
 
     /// What is rendered, if the hash of its file says so.

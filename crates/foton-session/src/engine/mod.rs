@@ -8,6 +8,7 @@ mod frame;
 mod keeping;
 mod loader;
 mod probe;
+mod rates;
 mod render;
 mod slot;
 mod stage;

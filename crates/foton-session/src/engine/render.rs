@@ -13,6 +13,7 @@ use rayon::ThreadPool;
 
 use super::command::{ErrorPart, Shown};
 use super::frame::{Numbers, Picture};
+use super::rates::{Mark, Rates};
 use crate::session::{PassError, Session, StartError};
 
 /// How much of the whole picture is rendered.
@@ -66,9 +67,6 @@ impl Level {
 /// Passes that a small picture gets while a person holds still in the middle of a move.
 const SMALL_PASSES: u64 = 8;
 
-/// Rates are those of the passes of about this long.
-const RATE_SPAN: Duration = Duration::from_secs(2);
-
 /// Radii are sorted at most this often: with millions of hit points that takes a while.
 const RADII_EVERY: Duration = Duration::from_millis(500);
 
@@ -76,17 +74,10 @@ const RADII_EVERY: Duration = Duration::from_millis(500);
 pub(super) struct Render {
     session: Session,
     level: Level,
-    marks: Vec<Mark>,
+    rates: Rates,
     no_photon_share: f64,
     photons_in_pass: u64,
     radii: Option<(Instant, Radii)>,
-}
-
-/// How far a render was at some time.
-struct Mark {
-    elapsed: Duration,
-    photons: u64,
-    rays: u64,
 }
 
 impl Render {
@@ -122,8 +113,13 @@ impl Render {
     }
 
     fn over(session: Session, level: Level) -> Self {
-        let marks = vec![Mark { elapsed: session.elapsed(), photons: 0, rays: 0 }];
-        Self { session, level, marks, no_photon_share: 1.0, photons_in_pass: 0, radii: None }
+        let rates = Rates::since(Mark::of(&session));
+        Self { session, level, rates, no_photon_share: 1.0, photons_in_pass: 0, radii: None }
+    }
+
+    /// The render once its session has resumed a checkpoint: clocks, photons and rays are then the checkpoint's.
+    pub(super) fn resumed(self) -> Self {
+        Self::over(self.session, self.level)
     }
 
     pub(super) fn is_whole(&self) -> bool {
@@ -162,12 +158,8 @@ impl Render {
         let report = self.session.advance(cancel)?;
         self.no_photon_share = report.no_photon_share;
         self.photons_in_pass = report.photons_in_pass;
-        let (elapsed, rays) = (self.session.elapsed(), self.session.rays());
-        self.marks.push(Mark { elapsed, photons: report.photons, rays });
-        let old = self.marks.partition_point(|m| m.elapsed + RATE_SPAN < elapsed);
-        // One from before the span stays, for passes may take longer.
-        self.marks.drain(..old.saturating_sub(1));
-        Ok(elapsed - before)
+        self.rates.add(Mark::of(&self.session));
+        Ok(self.session.elapsed().saturating_sub(before))
     }
 
     pub(super) fn numbers(&mut self) -> Numbers {
@@ -176,7 +168,7 @@ impl Render {
             Some(fresh) if fresh.0.elapsed() < RADII_EVERY => fresh,
             _ => *self.radii.insert((Instant::now(), ppm.radii())),
         };
-        let (photons_per_s, rays_per_s) = self.rates();
+        let (photons_per_s, rays_per_s) = self.rates.per_second();
         Numbers {
             passes: ppm.passes(),
             photons: ppm.photons_emitted(),
@@ -192,14 +184,6 @@ impl Render {
             radii,
             bytes: ppm.bytes(),
         }
-    }
-
-    /// Photons and rays a second.
-    fn rates(&self) -> (f64, f64) {
-        let (Some(first), Some(last)) = (self.marks.first(), self.marks.last()) else { return (0.0, 0.0) };
-        let seconds = (last.elapsed - first.elapsed).as_secs_f64();
-        let rate = |n: u64| if seconds > 0.0 { n as f64 / seconds } else { 0.0 };
-        (rate(last.photons - first.photons), rate(last.rays - first.rays))
     }
 
     /// The picture as it stands; radiance where what is asked for is not kept.

@@ -1,5 +1,7 @@
 //! A render that is kept in a file goes on from there, in another window or in none.
 
+use std::time::Duration;
+
 use foton_session::edit::DragMode;
 use foton_session::engine::{Change, Command, Event, Frame, Gesture};
 use foton_session::{StopRule, checkpoint};
@@ -41,6 +43,28 @@ fn what_is_kept_is_taken_up_with_the_same_bits_and_written_at_the_end() {
     let straight = headless(5, settings(), |_, _| ());
     assert_eq!(*image(&after), straight.ppm().image());
     assert_eq!(after.numbers.photons, straight.ppm().photons_emitted());
+}
+
+/// Rates and stop rules go by the checkpoint's clock, which may show less than the eye pass has just taken, or much more.
+#[test]
+fn a_checkpoint_of_any_age_is_resumed() {
+    let folder = Folder::new("age");
+    let path = folder.0.join("room.checkpoint");
+    let two = headless(2, settings(), |_, _| ());
+    for elapsed in [Duration::ZERO, Duration::from_nanos(1), Duration::MAX] {
+        checkpoint::write(&path, two.ppm(), elapsed, 0, &identity()).expect("written");
+        let (rig, first) = Rig::at_pass(1);
+        rig.send(Command::StopAt(StopRule::passes(9)));
+        rig.send(Command::TakeUpCheckpoint(path.clone()));
+        let after = rig.until("the rest", |f| f.render != first.render && f.numbers.passes == 9);
+        assert_eq!(*image(&after), headless(9, settings(), |_, _| ()).ppm().image());
+        // What the checkpoint brings was not made in this window.
+        let made = after.numbers.photons - two.ppm().photons_emitted();
+        let seconds = after.numbers.elapsed.saturating_sub(elapsed).as_secs_f64();
+        if elapsed < Duration::from_secs(1) {
+            assert!(after.numbers.photons_per_s * seconds <= 1.001 * made as f64, "{:?}", after.numbers);
+        }
+    }
 }
 
 #[test]

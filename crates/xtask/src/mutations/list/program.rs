@@ -107,4 +107,12 @@ pub(super) const LIST: &[Mutation] = &[
         target: CLI,
         test: "what_cannot_change_on_the_way_is_refused_by_name",
     },
+    Mutation {
+        what: "durations saturate",
+        file: "crates/foton-session/src/engine/rates.rs",
+        from: "last.elapsed.saturating_sub(first.elapsed).as_secs_f64()",
+        to: "(last.elapsed - first.elapsed).as_secs_f64()",
+        target: "-p foton-session --lib",
+        test: "clocks_that_go_backwards_give_no_rate_rather_than_a_panic",
+    },
 ];
