@@ -14,7 +14,8 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("foton-scene", &["foton-math"]),
     ("foton-film", &["foton-math"]),
     ("foton-format", &["foton-math", "foton-scene", "foton-film"]),
-    ("foton-integrator", &["foton-math", "foton-scene", "foton-film"]),
+    ("foton-transport", &["foton-math", "foton-scene"]),
+    ("foton-integrator", &["foton-math", "foton-scene", "foton-film", "foton-transport"]),
     ("foton-session", &["foton-math", "foton-scene", "foton-integrator", "foton-film"]),
     ("foton-preview", &["foton-math", "foton-film", "foton-session"]),
     ("foton-measure", &["foton-math", "foton-scene", "foton-film", "foton-integrator"]),
@@ -53,7 +54,7 @@ const OWNED: &[(&str, &str)] = &[
 ];
 
 /// These compute and nothing else: no files, no clocks, no network.
-const PURE: &[&str] = &["foton-integrator", "foton-scene"];
+const PURE: &[&str] = &["foton-integrator", "foton-scene", "foton-transport"];
 
 #[test]
 fn crates_depend_on_lower_layers_only() {

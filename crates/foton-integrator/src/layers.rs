@@ -1,10 +1,5 @@
 //! What can be put beside the image, pixel by pixel.
 
-use foton_film::{Image, Layer, LayerData, Plane};
-
-use crate::photon::PathClass;
-use crate::ppm::Ppm;
-
 /// A layer of output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LayerKind {
@@ -78,38 +73,5 @@ impl LayerKind {
     #[must_use]
     pub const fn needs_error(self) -> bool {
         matches!(self, Self::ErrorNoise | Self::ErrorBias | Self::ErrorTotal)
-    }
-}
-
-impl Ppm {
-    /// A layer beside the image; `None` for a path class when [`Settings::layers`](crate::Settings::layers) is off.
-    #[must_use]
-    pub fn layer(&self, kind: LayerKind) -> Option<Layer> {
-        let rgb = |kind| self.colour_layer(kind).map(LayerData::Rgb);
-        let (width, height) = self.size();
-        let channels = match kind {
-            LayerKind::Direct | LayerKind::Caustic | LayerKind::Indirect | LayerKind::Emission => rgb(kind)?,
-            LayerKind::Radius => LayerData::F32(Plane { width, height, values: self.mean_radii() }),
-            LayerKind::PhotonCount => LayerData::U32(Plane { width, height, values: self.photons_found() }),
-            LayerKind::ShapeId => LayerData::U32(Plane { width, height, values: self.shapes().to_vec() }),
-            LayerKind::ErrorNoise | LayerKind::ErrorBias | LayerKind::ErrorTotal => {
-                LayerData::F32(Plane { width, height, values: self.error_plane(kind)? })
-            }
-        };
-        Some(Layer { name: kind.name().to_owned(), channels })
-    }
-
-    /// A layer of light; `None` for one that is not kept, or no light.
-    #[must_use]
-    pub fn colour_layer(&self, kind: LayerKind) -> Option<Image> {
-        let class = |class| self.light().class(class, self.photons_emitted());
-        let pixels = match kind {
-            LayerKind::Direct => class(PathClass::Direct)?,
-            LayerKind::Caustic => class(PathClass::Caustic)?,
-            LayerKind::Indirect => class(PathClass::Indirect)?,
-            LayerKind::Emission => self.light().emission().to_vec(),
-            _ => return None,
-        };
-        Some(self.as_image(pixels))
     }
 }

@@ -8,8 +8,9 @@
 //!
 //! Both give shares of the figures for the whole image, whose squares then add up to the whole.
 
+use foton_transport::photon_map::PathClass;
+
 use super::moments::Weights;
-use crate::photon::PathClass;
 
 const CLASSES: usize = PathClass::ALL.len();
 

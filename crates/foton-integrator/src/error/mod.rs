@@ -23,13 +23,10 @@ pub use classes::ClassError;
 pub(crate) use classes::Question;
 pub use estimate::{ErrorEstimate, TileError};
 
-use crate::hit_point::{HitPoints, Irradiance};
-use crate::layers::LayerKind;
-use crate::packet::LANES;
-use crate::ppm::Ppm;
-use crate::radiance::Radiance;
+use crate::ppm::{HitPoints, Irradiance, Radiance};
 use classes::Classes;
 use estimate::Sums;
+use foton_transport::photon_map::LANES;
 use moments::{Moments, Scatter, Shares, Weights};
 
 /// Pixels along the side of a tile.
@@ -106,7 +103,7 @@ struct OfTile {
 struct Addend {
     light: f64,
     bias: f64,
-    /// How far squared light of all passes may be above what discs see (see [`Evidence::focus`](crate::adaptive::Evidence::focus)).
+    /// How far squared light of all passes may be above what discs see (see [`Evidence::focus`](crate::ppm::adaptive::Evidence::focus)).
     focus: f64,
     /// The variance of that: whether a sample lies in a focus is chance.
     focus_variance: f64,
@@ -325,7 +322,7 @@ impl ErrorSums {
     }
 
     /// The estimated blur of each pixel.
-    fn blur(&self) -> Vec<f64> {
+    pub(crate) fn blur(&self) -> Vec<f64> {
         let per_photon = self.weights.shares().per_photon;
         self.pixels.iter().map(|pixel| pixel.bias * per_photon).collect()
     }
@@ -341,39 +338,6 @@ impl ErrorSums {
     pub(crate) const BYTES_PER_HIT_POINT: usize = size_of::<[f32; 2]>();
     /// Bytes held per pixel, without the tiles' two.
     pub(crate) const BYTES_PER_PIXEL: usize = size_of::<Pixel>();
-}
-
-impl Ppm {
-    /// How wrong the image still is; `None` without [`Settings::error`](crate::Settings::error), in the first passes, and in the dark.
-    #[must_use]
-    pub fn error(&self) -> Option<ErrorEstimate> {
-        self.error_sums()?.estimate()
-    }
-
-    /// The means of all squares of 8 × 8 pixels with their errors, row by row; none without [`Settings::error`](crate::Settings::error).
-    #[must_use]
-    pub fn error_tiles(&self) -> Vec<TileError> {
-        self.error_sums().map_or_else(Vec::new, ErrorSums::tiles)
-    }
-
-    /// What blur by the radius has added to each pixel's luminance, as estimated (W/m²/sr): with its sign, and √3 times as noisy as the
-    /// pixel. `None` without [`Settings::error`](crate::Settings::error).
-    #[must_use]
-    pub fn blur(&self) -> Option<Vec<f64>> {
-        Some(self.error_sums()?.blur())
-    }
-
-    /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`Settings::error`](crate::Settings::error).
-    #[must_use]
-    pub fn error_plane(&self, kind: LayerKind) -> Option<Vec<f32>> {
-        let (noise, bias) = self.light().error_planes(self.error_sums()?);
-        match kind {
-            LayerKind::ErrorNoise => Some(noise),
-            LayerKind::ErrorBias => Some(bias),
-            LayerKind::ErrorTotal => Some(noise.iter().zip(&bias).map(|(n, b)| n.hypot(*b)).collect()),
-            _ => None,
-        }
-    }
 }
 
 impl Pixel {

@@ -1,10 +1,11 @@
 //! The sums behind the error as numbers, for checkpoints.
 
+use foton_transport::codec::{Reader, StateError, Writer};
+
 use super::classes::{ClassError, Classes};
 use super::estimate::ErrorEstimate;
 use super::moments::{Moments, Scatter, Weights};
 use super::{ErrorSums, Pixel, Tile};
-use crate::state::{Reader, StateError, Writer};
 
 impl ErrorSums {
     pub(crate) fn write(&self, out: &mut Writer) {

@@ -1,11 +1,11 @@
 //! Protections of the integrator.
 
-use super::{ANALYTIC, CLI, INTEGRATOR, LEDGER, Mutation, SURFACES};
+use super::{ANALYTIC, CLI, INTEGRATOR, LEDGER, Mutation, SURFACES, TRANSPORT};
 
 pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "photons count by the cosine on their own face",
-        file: "crates/foton-integrator/src/gather.rs",
+        file: "crates/foton-integrator/src/ppm/lanes.rs",
         from: "if (off <= 0.51) | plain {",
         to: "if (off <= f32::INFINITY) | plain {",
         target: SURFACES,
@@ -13,15 +13,15 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "photons bring light of points to narrow lobes",
-        file: "crates/foton-integrator/src/hit_point.rs",
-        from: "!self.narrow || photon.is_lone()",
-        to: "!self.narrow",
+        file: "crates/foton-integrator/src/ppm/gather.rs",
+        from: "!g.narrow || photon.is_lone()",
+        to: "!g.narrow",
         target: SURFACES,
         test: "light_by_mirrors_and_through_clear_things_shows_on_both_sides_of_the_followed_roughness",
     },
     Mutation {
         what: "of narrow lobes photons bring nothing that followed paths find",
-        file: "crates/foton-integrator/src/photon_pass/scatter.rs",
+        file: "crates/foton-transport/src/light_paths/scatter.rs",
         from: "&& self.scene.emitters()[path.emitter as usize].is_without_extent()",
         to: "",
         target: SURFACES,
@@ -29,7 +29,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "shadow rays see through what photons pass straight",
-        file: "crates/foton-integrator/src/straight.rs",
+        file: "crates/foton-transport/src/straight.rs",
         from: "if !scene.census().straight {",
         to: "if !scene.census().straight || edges > 0 {",
         target: SURFACES,
@@ -37,7 +37,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "light that passes straight is direct light",
-        file: "crates/foton-integrator/src/photon.rs",
+        file: "crates/foton-transport/src/photon_map/photon.rs",
         from: "(_, Lobe::Straight) => self,",
         to: "(Self::Direct | Self::Caustic, Lobe::Straight) => Self::Caustic,",
         target: SURFACES,
@@ -45,7 +45,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "N is double precision",
-        file: "crates/foton-integrator/src/refine.rs",
+        file: "crates/foton-integrator/src/ppm/statistics.rs",
         from: "self.kept = n + alpha * m;",
         to: "self.kept = f64::from((n + alpha * m) as f32);",
         target: INTEGRATOR,
@@ -53,7 +53,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "the share that shrinks r² is double precision",
-        file: "crates/foton-integrator/src/refine.rs",
+        file: "crates/foton-integrator/src/ppm/statistics.rs",
         from: "1.0 - (1.0 - alpha) * m / (n + m) };",
         to: "f64::from((1.0 - (1.0 - alpha) * m / (n + m)) as f32) };",
         target: INTEGRATOR,
@@ -61,7 +61,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "what earlier batches say of radii is added",
-        file: "crates/foton-integrator/src/slots.rs",
+        file: "crates/foton-integrator/src/ppm/slots.rs",
         from: "found.shape.squares[l] += squares;",
         to: "",
         target: INTEGRATOR,
@@ -69,7 +69,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "radii go by numbers alone",
-        file: "crates/foton-integrator/src/adaptive.rs",
+        file: "crates/foton-integrator/src/ppm/adaptive.rs",
         from: "if !(squares + moment).is_finite() {",
         to: "if squares < 0.0 {",
         target: INTEGRATOR,
@@ -77,7 +77,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "radii stop at 8 steps",
-        file: "crates/foton-integrator/src/refine.rs",
+        file: "crates/foton-integrator/src/ppm/statistics.rs",
         from: "let floored = shrunk < smallest2;",
         to: "let floored = shrunk < 0.0 * smallest2;",
         target: INTEGRATOR,
@@ -93,7 +93,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "photons of infinite power are dropped where they start",
-        file: "crates/foton-integrator/src/photon_pass.rs",
+        file: "crates/foton-transport/src/light_paths/trace.rs",
         from: "if !power.is_finite() {",
         to: "if power.r.is_nan() {",
         target: ANALYTIC,
@@ -101,7 +101,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "radii are cut to the scene",
-        file: "crates/foton-integrator/src/radius.rs",
+        file: "crates/foton-transport/src/camera_paths/radius.rs",
         from: "scene.normalisation().length(r).min(2.0 * scene.bounds().radius())",
         to: "scene.normalisation().length(r)",
         target: ANALYTIC,
@@ -109,7 +109,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "truncated power is counted at its material",
-        file: "crates/foton-integrator/src/photon_pass/scatter.rs",
+        file: "crates/foton-transport/src/light_paths/scatter.rs",
         from: "chunk.losses[self.material(surface)].truncated += energy(corrected);",
         to: "",
         target: LEDGER,
@@ -117,7 +117,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "restored states must be finite",
-        file: "crates/foton-integrator/src/state.rs",
+        file: "crates/foton-transport/src/codec.rs",
         from: "self.f64().and_then(|x| if x.is_finite() { Ok(x) } else { Err(StateError::Impossible) })",
         to: "self.f64()",
         target: ANALYTIC,
@@ -125,7 +125,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "renders beyond the limit are refused with numbers that hold",
-        file: "crates/foton-integrator/src/memory.rs",
+        file: "crates/foton-integrator/src/ppm/memory.rs",
         from: "Self::PROGRAM_BYTES + lasting + self.photon_bytes.max(self.layout_bytes)",
         to: "Self::PROGRAM_BYTES + lasting + self.photon_bytes.min(self.layout_bytes)",
         target: CLI,
@@ -133,7 +133,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "the sort's counters are in the estimate",
-        file: "crates/foton-integrator/src/photon_map.rs",
+        file: "crates/foton-transport/src/photon_map/map.rs",
         from: "(parts + 1) * cells as u64 * size_of::<u32>() as u64",
         to: "2 * cells as u64 * size_of::<u32>() as u64 + 0 * parts",
         target: CLI,
@@ -141,7 +141,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "sums of photons are finite",
-        file: "crates/foton-integrator/src/gather.rs",
+        file: "crates/foton-integrator/src/ppm/refine.rs",
         from: "if !out.is_finite() {",
         to: "if false {",
         target: ANALYTIC,
@@ -149,7 +149,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "a strict render stops",
-        file: "crates/foton-integrator/src/ppm.rs",
+        file: "crates/foton-integrator/src/ppm/steps.rs",
         from: "if !self.strict {",
         to: "if self.strict {",
         target: CLI,
@@ -157,7 +157,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "the place is that of the first task",
-        file: "crates/foton-integrator/src/batch.rs",
+        file: "crates/foton-integrator/src/ppm/counts.rs",
         from: "self.left_out = self.left_out.or(chunk.left_out);",
         to: "self.left_out = chunk.left_out.or(self.left_out);",
         target: ANALYTIC,
@@ -165,7 +165,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "photons of another surface do not count",
-        file: "crates/foton-integrator/src/gather.rs",
+        file: "crates/foton-integrator/src/ppm/lanes.rs",
         from: "edges ^ packet.patch[l] <= packet.budget[l]",
         to: "(edges & 255) <= packet.budget[l]",
         target: ANALYTIC,
@@ -173,7 +173,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "radii stop at the spacing of eye samples",
-        file: "crates/foton-integrator/src/radius.rs",
+        file: "crates/foton-transport/src/camera_paths/radius.rs",
         from: "(self.floor * area.sqrt()).clamp(resolved, first)",
         to: "(0.0 * self.floor * area.sqrt()).clamp(resolved, first)",
         target: ANALYTIC,
@@ -205,15 +205,15 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "cells grow where discs do",
-        file: "crates/foton-integrator/src/grid.rs",
+        file: "crates/foton-transport/src/photon_map/grid.rs",
         from: "(farthest > FAR * scale && scale > 0.0)",
         to: "(farthest > 1e30 * FAR * scale && scale > 0.0)",
-        target: INTEGRATOR,
+        target: TRANSPORT,
         test: "cells_grow_where_discs_do",
     },
     Mutation {
         what: "coordinates are as fine as where they are",
-        file: "crates/foton-integrator/src/radius.rs",
+        file: "crates/foton-transport/src/camera_paths/radius.rs",
         from: "smallest_radius(position.abs().max_element())",
         to: "smallest_radius(2048.0 + 0.0 * position.x)",
         target: ANALYTIC,

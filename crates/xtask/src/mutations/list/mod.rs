@@ -13,6 +13,7 @@ const FORMAT: &str = "-p foton-format --lib";
 const MESHES: &str = "-p foton-format --test meshes";
 const PICTURES: &str = "-p foton-format --test pictures";
 const BAD_FILES: &str = "-p foton-format --test bad_files";
+const TRANSPORT: &str = "-p foton-transport --lib";
 const INTEGRATOR: &str = "-p foton-integrator --lib";
 const SURFACES: &str = "-p foton-tests --test surfaces";
 const ANALYTIC: &str = "-p foton-tests --test analytic";

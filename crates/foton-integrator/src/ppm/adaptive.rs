@@ -1,0 +1,243 @@
+//! Radii that shrink where blur is what is wrong, and stay where it is noise: the adaptive rule, after `[KD13]`.
+//!
+//! Noise of variance V/(n r²) and blur B r² add least where blur² = noise²/2, so each hit point goes by the quotient
+//! R = blur²/(noise²/2) of what it has gathered so far. α stands for the odds of a photon being kept, α : 1 − α; here they are
+//! α : (1 − α) R, so that α is as meant where the two are in balance, nothing shrinks where there is no blur, and radii go to zero
+//! wherever there is some, since noise does.
+//!
+//! Blur is seen in two ways, each with its own noise taken off. The Laplacian's is that of the error estimate (`error/mod.rs`).
+//! Right on an edge of light both sides cancel in it, but the middle of the light is off the middle of the disc: by g of its
+//! radius, blur is about 6 g² of the light there (0.54 for 0.5 at a straight edge through the middle), and has the order of the
+//! Laplacian's where light is smooth.
+
+use std::f64::consts::PI;
+
+use foton_transport::codec::{Reader, StateError, Writer};
+use foton_transport::photon_map::LANES;
+
+use crate::settings::Alpha;
+
+/// Blur over light, per square of how far the light's middle is off.
+const OF_OFFSET: f64 = 6.0;
+
+/// How many times its own variance is taken off a square.
+const CAUTION: f64 = 2.0;
+
+/// R beyond which radii shrink no faster.
+const MOST: f64 = 30.0;
+
+/// Light may seem concentrated by chance, by this over the root of its photons: the spread of even light has a standard deviation of
+/// 0.29 r², 0.58 of its mean.
+const BY_CHANCE: f64 = 2.0;
+
+/// Sums over the photons of a packet's lanes, of luminance Φ: whether path classes are kept apart changes none of their bits.
+pub(crate) struct Shape {
+    /// Σ Φ.
+    pub(crate) light: [f32; LANES],
+    /// Σ Φ².
+    pub(crate) squares: [f32; LANES],
+    /// Σ Φ d, d from the photon to the hit point.
+    pub(crate) offset: [[f32; LANES]; 3],
+}
+
+impl Shape {
+    pub(crate) const NONE: Self =
+        Self { light: [0.0; LANES], squares: [0.0; LANES], offset: [[0.0; LANES]; 3] };
+}
+
+/// What a hit point knows of its light after all passes, each with its own radius.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Evidence {
+    /// Σ Φ/(π r²).
+    light: f64,
+    /// Σ (Φ/(π r²))²: the variance of that.
+    variance: f64,
+    /// Σ 6(s − ½) Φ/(π r²), s = d²/r².
+    laplacian: f64,
+    /// Σ Φ d/(π r³).
+    offset: [f64; 3],
+    /// Σ |d − d̄|²/r², d̄ the mean of a pass, over as many equal photons as would be as noisy; and how many more than one those
+    /// were in each pass.
+    spread: f64,
+    freedom: f64,
+}
+
+impl Evidence {
+    /// Takes what a lane has found in a disc of that r²; `moment` is Σ Φ d². Sums that are no finite numbers are left out.
+    pub(crate) fn add(&mut self, radius2: f32, lane: usize, moment: f32, shape: &Shape) {
+        let squares = shape.squares[lane];
+        // The squares are the first to be too large.
+        if !(squares + moment).is_finite() {
+            return;
+        }
+        let radius2 = f64::from(radius2);
+        let per_area = 1.0 / (PI * radius2);
+        let (flux, moment) = (f64::from(shape.light[lane]), f64::from(moment));
+        self.light += flux * per_area;
+        self.variance += f64::from(squares) * per_area * per_area;
+        self.laplacian += (6.0 * moment / radius2 - 3.0 * flux) * per_area;
+        let per_length = per_area / radius2.sqrt();
+        let mut offset2 = 0.0;
+        for (sum, offset) in self.offset.iter_mut().zip(&shape.offset) {
+            let offset = f64::from(offset[lane]);
+            *sum += offset * per_length;
+            offset2 += offset * offset;
+        }
+        let per_photon = flux / f64::from(squares);
+        let freedom = flux * per_photon - 1.0;
+        // Of one photon there is no spread, and rounding must not make one.
+        if freedom > 1e-3 {
+            self.spread += (moment - offset2 / flux).max(0.0) * per_photon / radius2;
+            self.freedom += freedom;
+        }
+    }
+
+    /// R: blur² over half the noise², at most [`MOST`]; 1 while nothing is known.
+    fn balance(&self) -> f64 {
+        if self.light <= 0.0 || self.variance <= 0.0 {
+            return 1.0;
+        }
+        // Over a disc 36 (s − ½)² is 3 on average, and d²/r² a half.
+        let laplacian2 = self.laplacian * self.laplacian - CAUTION * 3.0 * self.variance;
+        let offset2 = self.offset.iter().map(|o| o * o).sum::<f64>() - CAUTION * 0.5 * self.variance;
+        let at_edges = OF_OFFSET * offset2.max(0.0) / self.light;
+        let blur2 = laplacian2.max(0.0) + at_edges * at_edges;
+        // A quotient of what is no finite number is none; then the most is taken.
+        (blur2 / (0.5 * self.variance)).min(MOST)
+    }
+
+    /// How far light may be above what the disc sees, squared and relative to that: r²/ρ² − 1 where it lies within a circle of radius
+    /// ρ, as its spread about its own middle tells, ρ²/2 for r²/2 of even light; less what so few photons may show by chance.
+    ///
+    /// That is the mean squared error over the disc, whose points are within the circle or beside it: of a focus finer than the disc,
+    /// and of a shadow's edge through it, where it is 0.56. The Laplacian sees neither for what it is.
+    pub(crate) fn focus(&self) -> f64 {
+        // Each pass about its own middle: with another radius that is elsewhere in the disc.
+        let (spread, photons) = (self.spread, self.freedom);
+        if spread >= 0.5 * photons || self.light <= 0.0 {
+            return 0.0;
+        }
+        // A few photons tell of no circle that is smaller than their share of the disc.
+        let ratio = (0.5 * photons / spread.max(f64::MIN_POSITIVE)).min(photons);
+        let by_chance = BY_CHANCE / photons.sqrt();
+        // A quotient of what is no finite number is none.
+        if ratio.is_finite() { (ratio - 1.0 - by_chance).max(0.0) } else { 0.0 }
+    }
+
+    /// Σ Φ/(π r²) in luminance over all passes: irradiance, once it is divided by the photons emitted.
+    pub(crate) const fn light(&self) -> f64 {
+        self.light
+    }
+
+    /// The share of new photons to keep where blur and noise in balance ask for `alpha`.
+    pub(crate) fn alpha(&self, alpha: Alpha) -> Alpha {
+        let kept = alpha.get();
+        Alpha::new(kept / (kept + (1.0 - kept) * self.balance())).unwrap_or(alpha)
+    }
+
+    pub(crate) fn write(&self, out: &mut Writer) {
+        let Self { light, variance, laplacian, offset: [x, y, z], spread, freedom } = *self;
+        [light, variance, laplacian, x, y, z, spread, freedom].into_iter().for_each(|n| out.f64(n));
+    }
+
+    pub(crate) fn read(input: &mut Reader<'_>) -> Result<Self, StateError> {
+        let mut next = || input.finite();
+        Ok(Self {
+            light: next()?,
+            variance: next()?,
+            laplacian: next()?,
+            offset: [next()?, next()?, next()?],
+            spread: next()?,
+            freedom: next()?,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a disc of radius 1 knows of `n` photons a unit of area, dimmed as `lit` says: laid out evenly, with the noise of random ones.
+    fn evidence(n: f64, lit: impl Fn(f64, f64) -> f64) -> Evidence {
+        const RINGS: i32 = 200;
+        let mut e = Evidence::default();
+        for (ring, turn) in (0..RINGS * RINGS).map(|i| (f64::from(i / RINGS), f64::from(i % RINGS))) {
+            let s = (ring + 0.5) / f64::from(RINGS);
+            let (y, x) = ((turn + 0.5) / f64::from(RINGS) * 2.0 * PI).sin_cos();
+            let (x, y) = (x * s.sqrt(), y * s.sqrt());
+            let light = lit(x, y) * n / f64::from(RINGS * RINGS);
+            e.light += light;
+            e.variance += light / PI;
+            e.laplacian += 6.0 * (s - 0.5) * light;
+            e.offset[0] += x * light;
+            e.offset[1] += y * light;
+        }
+        let middle2 = (e.offset[0].powi(2) + e.offset[1].powi(2)) / e.light.powi(2);
+        e.freedom = e.light * PI - 1.0;
+        e.spread = (e.laplacian / (6.0 * e.light) + 0.5 - middle2) * e.freedom;
+        e
+    }
+
+    #[test]
+    fn uniform_light_keeps_its_radius_whatever_its_photons() {
+        for n in [1.0, 1e3, 1e9] {
+            assert_eq!(evidence(n, |_, _| 1.0).alpha(Alpha::default()).get(), 1.0);
+        }
+    }
+
+    #[test]
+    fn alpha_is_as_meant_where_blur_is_half_the_noise() {
+        // L = 1 + c(2s − 1) is 1 − c in the middle: blur c, of which its noise 3/(πn) is taken off twice.
+        let c = 0.1;
+        let evidence = |n: f64| evidence(n, |x, y| 1.0 + c * (2.0 * (x * x + y * y) - 1.0));
+        let n = (CAUTION * 3.0 + 0.5) / (PI * c * c);
+        assert!((evidence(n).balance() - 1.0).abs() < 0.02, "{}", evidence(n).balance());
+        assert!((evidence(n).alpha(Alpha::default()).get() - 2.0 / 3.0).abs() < 0.01);
+        assert_eq!(evidence(0.9 * CAUTION * 3.0 / (PI * c * c)).balance(), 0.0, "it may be noise");
+        assert_eq!(evidence(100.0 * n).balance(), MOST);
+    }
+
+    #[test]
+    fn edges_through_the_middle_are_seen_and_gentle_slopes_are_not() {
+        let edge = evidence(100.0, |x, _| f64::from(u8::from(x > 0.0)));
+        assert!(edge.laplacian.abs() < 1e-3 * edge.light, "both sides cancel");
+        assert_eq!(edge.balance(), MOST);
+        let slope = |n: f64| evidence(n, |x, _| 1.0 + 0.1 * x);
+        assert!(slope(1e3).balance() < 0.1);
+        assert_eq!(slope(1e9).balance(), MOST, "in the end all blur outweighs noise");
+    }
+
+    #[test]
+    fn light_in_a_part_of_the_disc_may_be_brighter_than_the_disc_sees() {
+        let of = |lit: fn(f64, f64) -> bool| evidence(1e6, |x, y| f64::from(u8::from(lit(x, y)))).focus();
+        assert!(of(|_, _| true) < 1e-3, "even light");
+        // A circle of radius ρ off the middle: 1/ρ² − 1.
+        let circle = of(|x, y| (x - 0.3).hypot(y + 0.2) < 0.25);
+        assert!((circle / 15.0 - 1.0).abs() < 0.02, "{circle}");
+        // Half of the disc: 1/(1 − 32/(9π²)) − 1.
+        assert!((of(|x, _| x > 0.0) - 0.563).abs() < 0.01, "{}", of(|x, _| x > 0.0));
+        let few = evidence(2.0, |_, _| 1.0).focus();
+        assert!(few < 0.1, "a few photons prove nothing: {few}");
+        assert_eq!(Evidence::default().focus(), 0.0);
+    }
+
+    #[test]
+    fn light_that_is_no_number_says_nothing_of_a_radius() {
+        let mut evidence = Evidence::default();
+        // Too bright for the square of single precision.
+        let bright = Shape { light: [1e30; LANES], squares: [f32::INFINITY; LANES], ..Shape::NONE };
+        evidence.add(1.0, 0, 1e30, &bright);
+        assert_eq!(evidence, Evidence::default());
+        evidence.add(1.0, 0, 0.5, &Shape { light: [1.0; LANES], squares: [1.0; LANES], ..Shape::NONE });
+        assert!(evidence.light > 0.0 && evidence.variance > 0.0);
+    }
+
+    #[test]
+    fn without_light_or_with_numbers_that_are_none_alpha_is_a_share() {
+        let alpha = Alpha::default();
+        assert_eq!(Evidence::default().alpha(alpha), alpha);
+        let infinite = Evidence { variance: f64::INFINITY, light: f64::INFINITY, ..Evidence::default() };
+        assert!(infinite.alpha(alpha).get() > 0.0);
+        assert_eq!(evidence(1e6, |x, _| x + 1.0).alpha(Alpha::new(1.0).expect("in range")).get(), 1.0);
+    }
+}

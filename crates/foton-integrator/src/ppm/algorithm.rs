@@ -1,0 +1,137 @@
+//! Progressive photon mapping: `[PPM08]` with the running mean of every pass's own estimate.
+
+use std::sync::Arc;
+
+use foton_math::Purpose;
+use foton_math::glam::Vec3;
+use foton_scene::{Scene, Sources};
+use foton_transport::camera_paths::HitPoint;
+use foton_transport::light_paths::MAX_PHOTONS;
+use foton_transport::photon_map::{Chunk, Grid, PhotonMap};
+use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite, Stage};
+use pulp::Arch;
+
+use super::eye_samples::eye_pass;
+use super::hit_points::HitPoints;
+use super::light::Light;
+use super::report::{PassReport, Start};
+use super::slots::Kept;
+use crate::error::ErrorSums;
+use crate::settings::{Change, DirectLight, RadiusRule, Settings};
+
+/// About so many hit points tell what is seen.
+pub(super) const LOOKED_AT: usize = 4096;
+
+/// A render under way.
+pub struct Ppm {
+    pub(super) scene: Arc<Scene>,
+    pub(super) sources: Sources,
+    pub(super) settings: Settings,
+    pub(super) hit_points: HitPoints,
+    pub(super) shapes: Vec<u32>,
+    pub(super) light: Light,
+    pub(super) error: Option<ErrorSums>,
+    pub(super) grid: Grid,
+    pub(super) marked_radius2: f64,
+    pub(super) chunks: Vec<Chunk>,
+    pub(super) map: PhotonMap,
+    pub(super) kept: Kept,
+    /// Photons of a batch at most: [`MAX_PHOTONS`] but in tests.
+    pub(super) max_in_batch: u64,
+    pub(super) ledger: Ledger,
+    pub(super) lights: Vec<LightUse>,
+    pub(super) losses: Vec<Loss>,
+    pub(super) passes: u64,
+    pub(super) photons_emitted: u64,
+    pub(super) last_photons: u64,
+    pub(super) changes: Vec<(u64, Change)>,
+    pub(super) start: Start,
+    /// Whether a pass that leaves a value out does not happen.
+    pub(super) strict: bool,
+    pub(super) not_finite: Option<NotFinite>,
+    /// The instruction set that photons and gather are compiled for. It changes no bit.
+    pub(super) arch: Arch,
+}
+
+impl Ppm {
+    /// Collects hit points. `watch` is told each stage as it begins.
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub fn start(
+        scene: Arc<Scene>,
+        settings: Settings,
+        watch: &mut dyn FnMut(Stage),
+        cancel: &Cancel,
+    ) -> Result<Self, Cancelled> {
+        watch(Stage::EyePass);
+        let max_depth = Self::max_depth(&scene, &settings);
+        let eye = eye_pass(&scene, &settings, max_depth, Purpose::Eye).run(cancel)?;
+        watch(Stage::Layout);
+        let shadow_rays = settings.direct_light == DirectLight::ShadowRays;
+        let normals = scene.census().shading_normals;
+        let hit_points = HitPoints::new(&eye.hit_points, &eye.gloss, eye.pixel_start(), normals, shadow_rays);
+        let asks = settings.error || settings.radius_rule == RadiusRule::Adaptive;
+        let hit_points = if asks { hit_points.with_evidence() } else { hit_points };
+        let start = Start { hit_points: hit_points.len() as u64, eye_rays: eye.rays, dropped: eye.dropped };
+        let step = (eye.hit_points.len() / LOOKED_AT).max(1);
+        let disc = |h: &HitPoint| (h.position, h.radius2.sqrt());
+        let seen: Vec<(Vec3, f32)> = eye.hit_points.iter().step_by(step).map(disc).collect();
+        let sources = scene.sources(&seen);
+        let not_finite = eye.left_out.map(|left_out| NotFinite::new(&scene, 0, left_out));
+        drop((eye.hit_points, eye.gloss));
+        let grid = Grid::new(&hit_points.packets);
+        let light = Light::new(eye.emission, &hit_points, &settings);
+        let (width, samples) = (scene.sensors()[settings.sensor].width, settings.samples_per_pixel.get());
+        let error = settings.error.then(|| ErrorSums::new(&hit_points, width, samples));
+        let lights = vec![LightUse::default(); scene.emitters().len()];
+        let losses = vec![Loss::default(); scene.materials().len()];
+        cancel.check()?;
+        Ok(Self {
+            scene,
+            sources,
+            settings,
+            hit_points,
+            shapes: eye.shapes,
+            light,
+            error,
+            grid,
+            marked_radius2: f64::INFINITY,
+            chunks: Vec::new(),
+            map: PhotonMap::default(),
+            kept: Kept::default(),
+            max_in_batch: MAX_PHOTONS,
+            ledger: Ledger::default(),
+            lights,
+            losses,
+            passes: 0,
+            photons_emitted: 0,
+            last_photons: 0,
+            changes: Vec::new(),
+            start,
+            strict: false,
+            not_finite,
+            arch: Arch::new(),
+        })
+    }
+
+    /// One pass: photons from the emitters, sorted into a map, gathered by every hit point, which is then refined, batch by batch; then
+    /// added to the image.
+    ///
+    /// # Errors
+    /// When cancelled while photons are traced; the pass then has not happened. After [`Ppm::stop_at_first_not_finite`], when a
+    /// value is not: the image is then that of the passes before, and hit points may be half-way to the next.
+    pub fn advance(&mut self, watch: &mut dyn FnMut(Stage), cancel: &Cancel) -> Result<PassReport, Halt> {
+        self.halt_at(None)?;
+        let mut counts = self.begin_pass();
+        for batch in self.batches(counts.photons) {
+            self.emit_and_trace(batch, &counts, watch, cancel)?;
+            self.build_map(watch, cancel)?;
+            self.gather_and_refine(batch, &mut counts, watch);
+            self.halt_at(counts.left_out)?;
+        }
+        self.add_shadow_rays(&mut counts, watch);
+        self.halt_at(counts.left_out)?;
+        Ok(self.accumulate(counts, watch))
+    }
+}

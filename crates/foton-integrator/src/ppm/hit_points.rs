@@ -1,0 +1,151 @@
+//! Hit points: where eye paths end on surfaces that spread light, laid out for the gather.
+//!
+//! Three orders meet here. *Sample order* is that of the eye pass: a pixel's hit points are neighbours in it. *Slot order* is
+//! that of the packets, 16 slots each, some empty. Statistics have slots of their own, apart from the query records.
+
+use foton_math::Rgb;
+use foton_math::glam::Vec3;
+use foton_transport::camera_paths::{Gloss, HitPoint};
+use foton_transport::photon_map::{self, LANES, Packet};
+use foton_transport::{LeftOut, Quantity};
+
+use super::adaptive::Evidence;
+use super::statistics::Statistics;
+
+/// Light that arrives at a hit point, per path class or in all: Σ Φ/(π r²) over the photons of one pass (W·m⁻²), each
+/// photon weighed by the BSDF's value where that is not Lambertian (W·m⁻²·sr⁻¹).
+pub(crate) type Irradiance<const LAYERS: usize> = [Rgb; LAYERS];
+
+/// What shadow rays need of a slot.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShadowOrigin {
+    pub(crate) origin: Vec3,
+    pub(crate) shading_normal: Vec3,
+}
+
+/// All hit points. Packets of Lambertian ones come first. Vectors whose names end in `_slots` have [`LANES`] entries a packet.
+pub(crate) struct HitPoints {
+    pub(crate) packets: Vec<Packet>,
+    /// Packets from here on hold hit points that are not Lambertian.
+    pub(crate) first_glossy: usize,
+    /// [`LANES`] entries a packet from `first_glossy` on.
+    pub(crate) gloss_slots: Vec<Option<Gloss>>,
+    /// Shading normals over 127, as the packets' own are, by packet, as three rows of lanes; empty when the scene has none that matter.
+    pub(crate) shading_normals: Vec<[[f32; LANES]; 3]>,
+    /// Empty unless direct light comes by shadow rays.
+    pub(crate) shadow_slots: Vec<ShadowOrigin>,
+    pub(crate) statistics_slots: Vec<Statistics>,
+    /// [`HitPoint::smallest2`].
+    pub(crate) smallest2_slots: Vec<f32>,
+    /// Empty unless radii adapt or the error is asked for.
+    pub(crate) evidence_slots: Vec<Evidence>,
+    /// In sample order: where the hit point is.
+    pub(crate) slot_of: Vec<u32>,
+    /// In sample order: [`HitPoint::weight`].
+    pub(crate) weights: Vec<Rgb>,
+    /// The hit points of pixel p are `pixel_start[p]..pixel_start[p + 1]` in sample order.
+    pub(crate) pixel_start: Vec<u32>,
+}
+
+impl HitPoints {
+    /// Lays hit points out. `pixel_start` is as in [`HitPoints`].
+    pub(crate) fn new(
+        found: &[HitPoint],
+        gloss: &[Gloss],
+        pixel_start: Vec<u32>,
+        shading_normals: bool,
+        shadow_rays: bool,
+    ) -> Self {
+        let mut groups = photon_map::group(found, |h| h.gloss.is_none());
+        let first_glossy = groups.len();
+        if !gloss.is_empty() {
+            groups.extend(photon_map::group(found, |h| h.gloss.is_some()));
+        }
+        let mut gloss_slots = vec![None; (groups.len() - first_glossy) * LANES];
+        let mut packets = Vec::with_capacity(groups.len());
+        let mut normals = Vec::with_capacity(if shading_normals { groups.len() } else { 0 });
+        let mut slot_of = vec![0u32; found.len()];
+        let slots = groups.len() * LANES;
+        let mut statistics_slots = vec![Statistics::EMPTY_SLOT; slots];
+        let mut smallest2_slots = vec![0.0; slots];
+        let nowhere = ShadowOrigin { origin: Vec3::ZERO, shading_normal: Vec3::ZERO };
+        let mut shadow_slots = vec![nowhere; if shadow_rays { slots } else { 0 }];
+        for (p, group) in groups.iter().enumerate() {
+            let members = || group.iter().map(|&i| &found[i as usize]);
+            packets.push(Packet::new(members()));
+            if shading_normals {
+                normals.push(photon_map::rows(members().map(|h| h.shading_normal / 127.0)));
+            }
+            for (lane, &i) in group.iter().enumerate() {
+                let slot = p * LANES + lane;
+                let h = &found[i as usize];
+                slot_of[i as usize] = slot as u32;
+                statistics_slots[slot] = Statistics::new(h.radius2);
+                smallest2_slots[slot] = h.smallest2;
+                if let Some(g) = h.gloss {
+                    gloss_slots[slot - first_glossy * LANES] = Some(gloss[g as usize]);
+                }
+                if let Some(shadow) = shadow_slots.get_mut(slot) {
+                    *shadow = ShadowOrigin { origin: h.origin, shading_normal: h.shading_normal };
+                }
+            }
+        }
+        Self {
+            packets,
+            first_glossy,
+            gloss_slots,
+            shading_normals: normals,
+            shadow_slots,
+            statistics_slots,
+            smallest2_slots,
+            evidence_slots: Vec::new(),
+            slot_of,
+            weights: found.iter().map(|h| h.weight).collect(),
+            pixel_start,
+        }
+    }
+
+    /// Makes room for what radii that adapt go by, and the error's upper end.
+    #[must_use]
+    pub(crate) fn with_evidence(self) -> Self {
+        Self { evidence_slots: vec![Evidence::default(); self.statistics_slots.len()], ..self }
+    }
+
+    /// How a slot weighs light, where that is not Lambertian.
+    pub(crate) fn gloss(&self, slot: usize) -> Option<&Gloss> {
+        self.gloss_slots.get(slot.checked_sub(self.first_glossy * LANES)?)?.as_ref()
+    }
+
+    /// Whether any weighs light by where it comes from.
+    pub(crate) const fn ask_for_directions(&self) -> bool {
+        !(self.gloss_slots.is_empty() && self.shading_normals.is_empty())
+    }
+
+    /// How many there are.
+    pub(crate) const fn len(&self) -> usize {
+        self.slot_of.len()
+    }
+
+    /// What is noted of a pixel whose sum was not finite, by its first hit point.
+    pub(crate) fn left_out_at(&self, first: u32) -> LeftOut {
+        let slot = self.slot_of[first as usize] as usize;
+        self.packets[slot / LANES].left_out(Quantity::PixelSum, slot % LANES)
+    }
+
+    /// Statistics of all hit points, in sample order.
+    pub(crate) fn statistics(&self) -> impl Iterator<Item = &Statistics> {
+        self.slot_of.iter().map(|&slot| &self.statistics_slots[slot as usize])
+    }
+
+    /// Bytes held.
+    pub(crate) const fn bytes(&self) -> usize {
+        size_of::<Packet>() * self.packets.len()
+            + size_of::<Option<Gloss>>() * self.gloss_slots.len()
+            + size_of::<[[f32; LANES]; 3]>() * self.shading_normals.len()
+            + size_of::<ShadowOrigin>() * self.shadow_slots.len()
+            + (size_of::<Statistics>() + size_of::<f32>()) * self.statistics_slots.len()
+            + size_of::<Evidence>() * self.evidence_slots.len()
+            + (size_of::<u32>() + size_of::<Rgb>()) * self.slot_of.len()
+            + size_of::<u32>() * self.pixel_start.len()
+    }
+}

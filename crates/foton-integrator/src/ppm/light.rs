@@ -1,0 +1,147 @@
+//! Light as it is summed: in one, or by path class where someone asked for layers.
+
+use foton_math::Rgb;
+use foton_scene::Scene;
+use foton_transport::Omissions;
+use foton_transport::codec::{Reader, StateError, Writer};
+use foton_transport::photon_map::{LANES, PathClass};
+
+use super::hit_points::{HitPoints, Irradiance};
+use super::radiance::Radiance;
+use super::shadow_rays;
+use crate::error::{self, ErrorSums, Question};
+use crate::settings::Settings;
+
+/// Light of one pass at the hit points, and of all passes in the pixels.
+pub(crate) struct Sums<const LAYERS: usize> {
+    irradiance_slots: Vec<Irradiance<LAYERS>>,
+    radiance: Radiance<LAYERS>,
+}
+
+/// Picks at start what is summed, so that a render without layers neither stores nor moves them.
+pub(crate) enum Light {
+    /// All classes in one.
+    Whole(Sums<1>),
+    /// Direct, caustic, indirect.
+    ByClass(Sums<3>),
+}
+
+impl<const LAYERS: usize> Sums<LAYERS> {
+    /// Where the gather puts the irradiance of each slot.
+    pub(super) fn irradiance_slots(&mut self) -> &mut [Irradiance<LAYERS>] {
+        &mut self.irradiance_slots
+    }
+
+    fn new(emission: Vec<Rgb>, hit_points: &HitPoints, samples: u32) -> Self {
+        Self {
+            irradiance_slots: vec![[Rgb::BLACK; LAYERS]; hit_points.packets.len() * LANES],
+            radiance: Radiance::new(emission, samples),
+        }
+    }
+
+    pub(crate) fn write(&self, out: &mut Writer) {
+        self.radiance.write(out);
+    }
+
+    pub(crate) fn read(&mut self, input: &mut Reader<'_>) -> Result<(), StateError> {
+        self.radiance.read(input)
+    }
+
+    fn bytes(&self) -> usize {
+        self.irradiance_slots.len() * size_of::<Irradiance<LAYERS>>() + self.radiance.bytes()
+    }
+}
+
+/// The same expression for either arm.
+macro_rules! each {
+    ($light:expr, $sums:ident => $body:expr) => {
+        match $light {
+            Light::Whole($sums) => $body,
+            Light::ByClass($sums) => $body,
+        }
+    };
+}
+
+impl Light {
+    pub(crate) fn new(emission: Vec<Rgb>, hit_points: &HitPoints, settings: &Settings) -> Self {
+        let samples = settings.samples_per_pixel.get();
+        if settings.layers {
+            Self::ByClass(Sums::new(emission, hit_points, samples))
+        } else {
+            Self::Whole(Sums::new(emission, hit_points, samples))
+        }
+    }
+
+    /// Adds direct light by shadow rays to the pass; returns the number of rays, and what was left out because it was not finite.
+    pub(crate) fn add_direct(
+        &mut self,
+        scene: &Scene,
+        hit_points: &HitPoints,
+        key: (u64, u64, u64),
+    ) -> (u64, Omissions) {
+        each!(self, s => shadow_rays::add(scene, hit_points, &mut s.irradiance_slots, key))
+    }
+
+    /// Adds the pass to the pixels; says what was left out because it was not finite.
+    pub(crate) fn add_pass(&mut self, hit_points: &HitPoints) -> Omissions {
+        each!(self, s => s.radiance.add(hit_points, &s.irradiance_slots))
+    }
+
+    /// Tells the error of a pass that was added; `photons` are those of the pass, `power` is a photon's on average.
+    pub(crate) fn add_error(
+        &self,
+        error: &mut ErrorSums,
+        hit_points: &HitPoints,
+        (photons, power): (u64, f64),
+        (question, shadow_rays, before): (Question, bool, u64),
+    ) {
+        each!(self, s => error.add(&error::Pass {
+            hit_points,
+            irradiance_slots: &s.irradiance_slots,
+            radiance: &s.radiance,
+            photons,
+            power,
+            question,
+            shadow_rays,
+            before,
+        }));
+    }
+
+    /// Noise and bias by pixel.
+    pub(crate) fn error_planes(&self, error: &ErrorSums) -> (Vec<f32>, Vec<f32>) {
+        each!(self, s => error.planes(&s.radiance))
+    }
+
+    /// All radiance after `photons`, emission included.
+    pub(crate) fn total(&self, photons: u64) -> Vec<Rgb> {
+        each!(self, s => s.radiance.total(photons))
+    }
+
+    /// All radiance of one pixel; black beyond the image.
+    pub(crate) fn pixel(&self, pixel: usize, photons: u64) -> Rgb {
+        each!(self, s => s.radiance.pixel(pixel, photons))
+    }
+
+    /// Reflected radiance of one class; `None` where classes are not kept apart.
+    pub(crate) fn class(&self, class: PathClass, photons: u64) -> Option<Vec<Rgb>> {
+        match self {
+            Self::Whole(_) => None,
+            Self::ByClass(s) => Some(s.radiance.layer(class as usize, photons)),
+        }
+    }
+
+    /// The last pass's own estimate of reflected radiance, times the photons it emitted.
+    pub(crate) fn last_pass(&self) -> Vec<Rgb> {
+        each!(self, s => s.radiance.last.iter().map(|l| l.iter().copied().sum()).collect())
+    }
+
+    /// Radiance of emitters, seen directly or by specular bounces.
+    pub(crate) fn emission(&self) -> &[Rgb] {
+        each!(self, s => &s.radiance.emission)
+    }
+
+    /// Bytes held.
+    pub(crate) fn bytes(&self) -> usize {
+        each!(self, s => s.bytes())
+    }
+}

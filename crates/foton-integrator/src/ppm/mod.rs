@@ -1,0 +1,39 @@
+//! Progressive photon mapping. `algorithm.rs` is the method on one screen; each step has a file of its own.
+
+mod adaptive;
+mod algorithm;
+mod counts;
+mod eye_samples;
+mod features;
+mod gather;
+mod hit_points;
+mod inspect;
+mod lanes;
+mod light;
+mod memory;
+mod output;
+mod progress;
+mod radiance;
+mod refine;
+mod report;
+mod rule;
+mod shadow_rays;
+mod slots;
+mod state;
+mod statistics;
+mod steps;
+mod sweep;
+mod tally;
+#[cfg(test)]
+mod tests;
+mod variants;
+
+pub use algorithm::Ppm;
+pub use features::{Feature, features};
+pub(crate) use hit_points::{HitPoints, Irradiance};
+pub use inspect::{Disc, Radii, StoredPhoton};
+pub use memory::MemoryEstimate;
+pub(crate) use radiance::Radiance;
+pub use report::{PassReport, Start};
+pub use statistics::Statistics;
+pub use variants::{Step, Variants};

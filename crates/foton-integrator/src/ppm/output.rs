@@ -1,0 +1,112 @@
+//! Images: radiance, layers beside it, and its errors pixel by pixel.
+
+use foton_film::{Image, Layer, LayerData, Plane};
+use foton_math::Rgb;
+use foton_transport::photon_map::PathClass;
+
+use super::algorithm::Ppm;
+use super::statistics::Statistics;
+use crate::error::{ErrorEstimate, ErrorSums, TileError};
+use crate::layers::LayerKind;
+
+impl Ppm {
+    /// Image size in pixels.
+    pub(super) fn size(&self) -> (u32, u32) {
+        let sensor = &self.scene.sensors()[self.settings.sensor];
+        (sensor.width, sensor.height)
+    }
+
+    pub(super) fn as_image(&self, pixels: Vec<Rgb>) -> Image {
+        let (width, height) = self.size();
+        Image { width, height, pixels }
+    }
+
+    /// Radiance after all passes so far.
+    #[must_use]
+    pub fn image(&self) -> Image {
+        self.as_image(self.light.total(self.photons_emitted))
+    }
+
+    /// The last pass's own, independent estimate of reflected radiance: the image is the mean of these, weighted by photons.
+    #[must_use]
+    pub fn last_pass(&self) -> Image {
+        let scale = 1.0 / self.last_photons.max(1) as f64;
+        let pixels = self.light.last_pass().into_iter().map(|l| l * scale as f32);
+        self.as_image(pixels.collect())
+    }
+
+    pub(super) fn per_pixel<T>(&self, f: impl Fn(&[Statistics]) -> T) -> Vec<T> {
+        let mut statistics = self.hit_points.statistics().copied();
+        let mut of_pixel = Vec::new();
+        let spans = self.hit_points.pixel_start.windows(2).map(|w| (w[1] - w[0]) as usize);
+        spans
+            .map(|n| {
+                of_pixel.clear();
+                of_pixel.extend(statistics.by_ref().take(n));
+                f(&of_pixel)
+            })
+            .collect()
+    }
+
+    /// A layer beside the image; `None` for a path class when [`Settings::layers`](crate::Settings::layers) is off.
+    #[must_use]
+    pub fn layer(&self, kind: LayerKind) -> Option<Layer> {
+        let rgb = |kind| self.colour_layer(kind).map(LayerData::Rgb);
+        let (width, height) = self.size();
+        let channels = match kind {
+            LayerKind::Direct | LayerKind::Caustic | LayerKind::Indirect | LayerKind::Emission => rgb(kind)?,
+            LayerKind::Radius => LayerData::F32(Plane { width, height, values: self.mean_radii() }),
+            LayerKind::PhotonCount => LayerData::U32(Plane { width, height, values: self.photons_found() }),
+            LayerKind::ShapeId => LayerData::U32(Plane { width, height, values: self.shapes.to_vec() }),
+            LayerKind::ErrorNoise | LayerKind::ErrorBias | LayerKind::ErrorTotal => {
+                LayerData::F32(Plane { width, height, values: self.error_plane(kind)? })
+            }
+        };
+        Some(Layer { name: kind.name().to_owned(), channels })
+    }
+
+    /// A layer of light; `None` for one that is not kept, or no light.
+    #[must_use]
+    pub fn colour_layer(&self, kind: LayerKind) -> Option<Image> {
+        let class = |class| self.light.class(class, self.photons_emitted);
+        let pixels = match kind {
+            LayerKind::Direct => class(PathClass::Direct)?,
+            LayerKind::Caustic => class(PathClass::Caustic)?,
+            LayerKind::Indirect => class(PathClass::Indirect)?,
+            LayerKind::Emission => self.light.emission().to_vec(),
+            _ => return None,
+        };
+        Some(self.as_image(pixels))
+    }
+
+    /// How wrong the image still is; `None` without [`Settings::error`](crate::Settings::error), in the first passes, and in the dark.
+    #[must_use]
+    pub fn error(&self) -> Option<ErrorEstimate> {
+        self.error.as_ref()?.estimate()
+    }
+
+    /// The means of all squares of 8 × 8 pixels with their errors, row by row; none without [`Settings::error`](crate::Settings::error).
+    #[must_use]
+    pub fn error_tiles(&self) -> Vec<TileError> {
+        self.error.as_ref().map_or_else(Vec::new, ErrorSums::tiles)
+    }
+
+    /// What blur by the radius has added to each pixel's luminance, as estimated (W/m²/sr): with its sign, and √3 times as noisy as the
+    /// pixel. `None` without [`Settings::error`](crate::Settings::error).
+    #[must_use]
+    pub fn blur(&self) -> Option<Vec<f64>> {
+        Some(self.error.as_ref()?.blur())
+    }
+
+    /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`Settings::error`](crate::Settings::error).
+    #[must_use]
+    pub fn error_plane(&self, kind: LayerKind) -> Option<Vec<f32>> {
+        let (noise, bias) = self.light.error_planes(self.error.as_ref()?);
+        match kind {
+            LayerKind::ErrorNoise => Some(noise),
+            LayerKind::ErrorBias => Some(bias),
+            LayerKind::ErrorTotal => Some(noise.iter().zip(&bias).map(|(n, b)| n.hypot(*b)).collect()),
+            _ => None,
+        }
+    }
+}

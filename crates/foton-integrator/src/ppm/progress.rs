@@ -1,0 +1,111 @@
+//! How a render stands: settings, counts, accounts.
+
+use std::sync::Arc;
+
+use foton_scene::Scene;
+use foton_transport::photon_map::{Chunk, Photon};
+use foton_transport::{Ledger, LightUse, Loss, NotFinite};
+
+use super::algorithm::Ppm;
+use super::report::Start;
+use crate::error::ErrorSums;
+use crate::settings::{Change, Settings};
+
+/// Longest path that is followed, whatever is asked for. What that cuts off stands in the ledger.
+const MAX_PATH_EDGES: u32 = 250;
+
+impl Ppm {
+    /// From now on a pass in which a value is not finite does not happen. Otherwise such values are left out and counted.
+    pub const fn stop_at_first_not_finite(&mut self) {
+        self.strict = true;
+    }
+
+    /// The first value that was not finite since the render was started or restored, and was left out.
+    #[must_use]
+    pub const fn first_not_finite(&self) -> Option<&NotFinite> {
+        self.not_finite.as_ref()
+    }
+
+    /// The longest path of a render, in edges as Mitsuba counts them: what the settings say, or else the scene, but never
+    /// more than 250.
+    #[must_use]
+    pub fn max_depth(scene: &Scene, settings: &Settings) -> u32 {
+        settings.max_depth.or(scene.max_depth()).map_or(MAX_PATH_EDGES, |d| d.min(MAX_PATH_EDGES))
+    }
+
+    /// Changes a setting from the next pass on. The change stands in [`Ppm::changes`] with the number of passes before it.
+    pub fn change(&mut self, change: Change) {
+        self.settings.change(change);
+        self.changes.push((self.passes, change));
+    }
+
+    /// Passes so far.
+    #[must_use]
+    pub const fn passes(&self) -> u64 {
+        self.passes
+    }
+
+    /// Photons emitted so far.
+    #[must_use]
+    pub const fn photons_emitted(&self) -> u64 {
+        self.photons_emitted
+    }
+
+    /// All changes so far, each with the number of passes before it.
+    #[must_use]
+    pub fn changes(&self) -> &[(u64, Change)] {
+        &self.changes
+    }
+
+    /// The settings as they are now.
+    #[must_use]
+    pub const fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The scene.
+    #[must_use]
+    pub const fn scene(&self) -> &Arc<Scene> {
+        &self.scene
+    }
+
+    /// What the eye pass found.
+    #[must_use]
+    pub const fn start_report(&self) -> &Start {
+        &self.start
+    }
+
+    /// Where all emitted power went.
+    #[must_use]
+    pub const fn ledger(&self) -> &Ledger {
+        &self.ledger
+    }
+
+    /// What the photons of each emitter were good for, in the order of the scene's emitters.
+    #[must_use]
+    pub fn light_use(&self) -> &[LightUse] {
+        &self.lights
+    }
+
+    /// What went missing at each material, in the order of the scene's materials.
+    #[must_use]
+    pub fn material_losses(&self) -> &[Loss] {
+        &self.losses
+    }
+
+    /// Bytes held, the scene included.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let chunk =
+            |c: &Chunk| c.photons.capacity() * size_of::<Photon>() + c.cells.capacity() * size_of::<u32>();
+        self.scene.bytes()
+            + self.hit_points.bytes()
+            + self.light.bytes()
+            + self.error.as_ref().map_or(0, ErrorSums::bytes)
+            + self.grid.bytes()
+            + self.map.bytes()
+            + self.kept.bytes()
+            + self.chunks.iter().map(chunk).sum::<usize>()
+            + self.shapes.len() * size_of::<u32>()
+    }
+}

@@ -1,0 +1,21 @@
+//! How a pass is gathered and refined.
+
+use foton_transport::light_paths::Batch;
+use pulp::Arch;
+
+use crate::error::Question;
+use crate::settings::Alpha;
+
+/// How a pass is gathered.
+#[derive(Clone, Copy)]
+pub(crate) struct Rule {
+    pub(crate) alpha: Alpha,
+    /// Whether it goes by what is known of bias.
+    pub(crate) adapts: bool,
+    /// What all r² are multiplied by, where they shrink together.
+    pub(crate) common: Option<f64>,
+    pub(crate) batch: Batch,
+    /// What the error asks of one class.
+    pub(crate) question: Question,
+    pub(crate) arch: Arch,
+}

@@ -1,0 +1,68 @@
+//! Direct light by shadow rays: one a hit point and pass, to an emitter chosen by power.
+//!
+//! What lies in between blocks, but for surfaces that light passes straight through: thin glass, masks, nothing. Those weigh it,
+//! and photons that passed nothing else are direct light, too. Light that is bent on its way comes as photons.
+
+use foton_math::{Purpose, Rgb, Stream};
+use foton_scene::Scene;
+use foton_transport::direct_light::estimate;
+use foton_transport::photon_map::{LANES, PathClass};
+use foton_transport::{LeftOut, Omissions, Quantity, Surface};
+use rayon::prelude::*;
+
+use super::hit_points::{HitPoints, Irradiance};
+
+/// Slots that one task looks after.
+const BLOCK: usize = 256 * LANES;
+
+/// Adds this pass's estimate of direct irradiance, times `photons` so that it can join sums that are divided by the number of
+/// photons. Returns the number of rays, and what was left out because it was not finite.
+pub(crate) fn add<const LAYERS: usize>(
+    scene: &Scene,
+    hit_points: &HitPoints,
+    irradiance_slots: &mut [Irradiance<LAYERS>],
+    (seed, pass, photons): (u64, u64, u64),
+) -> (u64, Omissions) {
+    let layer = if LAYERS == 1 { 0 } else { PathClass::Direct as usize };
+    irradiance_slots
+        .par_chunks_mut(BLOCK)
+        .enumerate()
+        .map(|(block, irradiance)| {
+            let (mut rays, mut omissions) = (0, Omissions::default());
+            for (i, irradiance) in irradiance.iter_mut().enumerate() {
+                let slot = block * BLOCK + i;
+                let packet = &hit_points.packets[slot / LANES];
+                // A path of two edges: one to the hit point, one to the emitter.
+                if packet.radius2[slot % LANES] < 0.0 || packet.budget[slot % LANES] < 1 {
+                    continue;
+                }
+                let mut stream = Stream::new(seed, Purpose::ShadowRay, pass, slot as u64);
+                if hit_points.gloss(slot).is_some_and(|g| g.narrow) {
+                    continue;
+                }
+                let at = &hit_points.shadow_slots[slot];
+                let budget = packet.budget[slot % LANES] as u32;
+                if let Some((light, from)) =
+                    estimate(scene, (at.origin, at.shading_normal), budget, &mut stream, &mut rays)
+                {
+                    let value = hit_points.gloss(slot).map_or(Rgb::WHITE, |g| g.eval(from));
+                    let term = light * value * photons as f32;
+                    // A point light that lies on the surface is infinitely bright there.
+                    if term.is_finite() {
+                        irradiance[layer] += term;
+                    } else {
+                        let mut stream = Stream::new(seed, Purpose::ShadowRay, pass, slot as u64);
+                        let light = scene.choose_emitter(f64::from(stream.next_1d()));
+                        omissions.add(LeftOut {
+                            quantity: Quantity::DirectLight,
+                            light: light.map(|(emitter, _)| emitter as u32),
+                            surface: Surface::Below(at.shading_normal),
+                            position: at.origin,
+                        });
+                    }
+                }
+            }
+            (rays, omissions)
+        })
+        .reduce(|| (0, Omissions::default()), |a, b| (a.0 + b.0, a.1.followed_by(b.1)))
+}

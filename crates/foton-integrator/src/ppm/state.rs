@@ -1,0 +1,148 @@
+//! The state of a render as bytes: all that passes have changed. What the start of a render makes anew, bit for bit, is not in it.
+
+use std::num::NonZeroU32;
+
+use foton_transport::codec::{Reader, StateError, Writer};
+use foton_transport::photon_map::LANES;
+use foton_transport::{Ledger, LightUse, Loss};
+
+use super::adaptive::Evidence;
+use super::algorithm::Ppm;
+use super::light::Light;
+use super::statistics::Statistics;
+use crate::settings::{Alpha, Change};
+
+impl Ppm {
+    /// All that passes have changed. [`Ppm::restore`] takes it back into a render that was started with the same scene and
+    /// settings, and the passes after that give the same bits as if there had been no break.
+    #[must_use]
+    pub fn state(&self) -> Vec<u8> {
+        let mut out = Writer::default();
+        out.u64(self.passes);
+        out.u64(self.photons_emitted);
+        out.u64(self.last_photons);
+        let settings = &self.settings;
+        out.f64(settings.alpha.get());
+        out.u64(settings.photons_per_pass.get().into());
+        out.u64(self.changes.len() as u64);
+        for (pass, change) in &self.changes {
+            let (kind, bits) = match change {
+                Change::Alpha(alpha) => (0, alpha.get().to_bits()),
+                Change::PhotonsPerPass(photons) => (1, photons.get().into()),
+            };
+            [*pass, kind, bits].into_iter().for_each(|n| out.u64(n));
+        }
+        let ledger = &self.ledger;
+        let sums = [ledger.emitted, ledger.absorbed, ledger.escaped, ledger.roulette, ledger.truncated];
+        sums.into_iter().for_each(|sum| out.f64(sum));
+        out.f64(ledger.shading_normals);
+        out.f64(ledger.shading_gain);
+        out.f64(ledger.lost);
+        out.u64(ledger.dropped);
+        out.u64(self.lights.len() as u64);
+        for light in &self.lights {
+            out.u64(light.emitted);
+            out.u64(light.reached);
+            out.u64(light.dropped);
+        }
+        out.u64(self.losses.len() as u64);
+        for loss in &self.losses {
+            out.f64(loss.truncated);
+            out.u64(loss.dropped);
+        }
+        let statistics = &self.hit_points.statistics_slots;
+        out.u64(statistics.len() as u64);
+        statistics.iter().for_each(|s| s.write(&mut out));
+        self.hit_points.evidence_slots.iter().for_each(|e| e.write(&mut out));
+        match &self.light {
+            Light::Whole(sums) => sums.write(&mut out),
+            Light::ByClass(sums) => sums.write(&mut out),
+        }
+        out.u64(u64::from(self.error.is_some()));
+        if let Some(error) = &self.error {
+            error.write(&mut out);
+        }
+        out.finish()
+    }
+
+    /// Takes a [`Ppm::state`] back. After an error the render is not to be used.
+    ///
+    /// # Errors
+    /// When the bytes are no state, or that of another render; see [`StateError`].
+    pub fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
+        let mut input = Reader::new(state);
+        let passes = input.count()?;
+        let (emitted, last) = (input.count()?, input.count()?);
+        let alpha = Alpha::new(input.f64()?).ok_or(StateError::Impossible)?;
+        let photons = nonzero(input.u64()?)?;
+        let changes = (0..input.u64()?).map(|_| change(&mut input)).collect::<Result<_, _>>()?;
+        (self.passes, self.photons_emitted, self.last_photons, self.changes) =
+            (passes, emitted, last, changes);
+        self.settings.alpha = alpha;
+        self.settings.photons_per_pass = photons;
+        let ledger = &mut self.ledger;
+        let Ledger {
+            emitted,
+            absorbed,
+            escaped,
+            roulette,
+            truncated,
+            shading_normals,
+            shading_gain,
+            lost,
+            dropped,
+        } = ledger;
+        for sum in [emitted, absorbed, escaped, roulette, truncated, shading_normals, shading_gain, lost] {
+            *sum = input.finite()?;
+        }
+        *dropped = input.count()?;
+        input.expect(self.lights.len())?;
+        for light in &mut self.lights {
+            *light = LightUse { emitted: input.count()?, reached: input.count()?, dropped: input.count()? };
+        }
+        input.expect(self.losses.len())?;
+        for loss in &mut self.losses {
+            *loss = Loss { truncated: input.finite()?, dropped: input.count()? };
+        }
+        let hit_points = &mut self.hit_points;
+        input.expect(hit_points.statistics_slots.len())?;
+        for (slot, statistics) in hit_points.statistics_slots.iter_mut().enumerate() {
+            let read = Statistics::read(&mut input)?;
+            // Slots without a hit point stay without.
+            if (read.radius2() < 0.0) != (statistics.radius2() < 0.0) {
+                return Err(StateError::Impossible);
+            }
+            *statistics = read;
+            hit_points.packets[slot / LANES].radius2[slot % LANES] = statistics.radius2() as f32;
+        }
+        for evidence in &mut hit_points.evidence_slots {
+            *evidence = Evidence::read(&mut input)?;
+        }
+        match &mut self.light {
+            Light::Whole(sums) => sums.read(&mut input)?,
+            Light::ByClass(sums) => sums.read(&mut input)?,
+        }
+        let error = self.error.as_mut();
+        input.expect(usize::from(error.is_some()))?;
+        if let Some(error) = error {
+            error.read(&mut input)?;
+        }
+        input.finish()?;
+        self.mark_all_cells();
+        Ok(())
+    }
+}
+
+fn nonzero(n: u64) -> Result<NonZeroU32, StateError> {
+    u32::try_from(n).ok().and_then(NonZeroU32::new).ok_or(StateError::Impossible)
+}
+
+fn change(input: &mut Reader<'_>) -> Result<(u64, Change), StateError> {
+    let (pass, kind, bits) = (input.u64()?, input.u64()?, input.u64()?);
+    let change = match kind {
+        0 => Change::Alpha(Alpha::new(f64::from_bits(bits)).ok_or(StateError::Impossible)?),
+        1 => Change::PhotonsPerPass(nonzero(bits)?),
+        _ => return Err(StateError::Impossible),
+    };
+    Ok((pass, change))
+}

@@ -1,0 +1,205 @@
+//! The progressive update of one hit point: its radius shrinks so that photon density is kept.
+//!
+//! In the running-mean form of `[PPM08]`: with M photons in the disc of this pass, N' = N + αM and r'² = ρ r² with
+//! ρ = (N + αM)/(N + M). Light is summed as Φ/(π r²) with the radius of its own pass and needs no correction afterwards, so
+//! α may change between passes without rescaling the past. N is double precision: in single precision it stalls at 2²⁴ and
+//! radii freeze in silence.
+
+use foton_transport::codec::{Reader, StateError, Writer};
+
+use crate::settings::Alpha;
+
+/// What a hit point has seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Statistics {
+    /// N = Σ αⱼ Mⱼ.
+    kept: f64,
+    /// r² in square scene units.
+    radius2: f64,
+    /// Σ Mⱼ.
+    found: u64,
+}
+
+impl Statistics {
+    /// A slot without a hit point.
+    pub(crate) const EMPTY_SLOT: Self = Self { kept: 0.0, radius2: -1.0, found: 0 };
+
+    /// A hit point that has seen nothing yet. `radius2` in square scene units.
+    #[must_use]
+    pub const fn new(radius2: f32) -> Self {
+        Self { kept: 0.0, radius2: radius2 as f64, found: 0 }
+    }
+
+    /// r² in square scene units.
+    #[must_use]
+    pub const fn radius2(&self) -> f64 {
+        self.radius2
+    }
+
+    /// Photons found in all passes.
+    #[must_use]
+    pub const fn photons_found(&self) -> u64 {
+        self.found
+    }
+
+    /// Whether no pass has found a photon: what arrives here is unknown, not zero.
+    #[must_use]
+    pub const fn is_unknown(&self) -> bool {
+        self.found == 0
+    }
+
+    pub(crate) fn write(&self, out: &mut Writer) {
+        out.f64(self.kept);
+        out.f64(self.radius2);
+        out.u64(self.found);
+    }
+
+    pub(crate) fn read(input: &mut Reader<'_>) -> Result<Self, StateError> {
+        Ok(Self { kept: input.finite()?, radius2: input.finite()?, found: input.count()? })
+    }
+
+    /// Takes a pass into account that found `photons` within the radius. `smallest2` bounds r² from below; returns whether it
+    /// did. A pass that finds nothing changes nothing.
+    pub fn refine(&mut self, photons: u64, alpha: Alpha, smallest2: f64) -> bool {
+        if photons == 0 {
+            return false;
+        }
+        let (n, m, alpha) = (self.kept, photons as f64, alpha.get());
+        // 1 − (1−α)M/(N+M) keeps its digits when N is far larger than M; (N+αM)/(N+M) would not.
+        let rho = if n == 0.0 { alpha } else { 1.0 - (1.0 - alpha) * m / (n + m) };
+        self.kept = n + alpha * m;
+        self.shrink(photons, rho, smallest2)
+    }
+
+    /// Counts photons and multiplies r² by `rho`; `smallest2` bounds it from below; returns whether it did.
+    pub(crate) fn shrink(&mut self, photons: u64, rho: f64, smallest2: f64) -> bool {
+        self.found += photons;
+        let shrunk = self.radius2 * rho;
+        let floored = shrunk < smallest2;
+        self.radius2 = if floored { smallest2.min(self.radius2) } else { shrunk };
+        floored
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use foton_math::{Purpose, Stream};
+
+    fn alpha(a: f64) -> Alpha {
+        Alpha::new(a).expect("in range")
+    }
+
+    /// ln Γ by Stirling's series after shifting the argument up; to about 1e-14 here.
+    fn ln_gamma(mut x: f64) -> f64 {
+        let mut shift = 0.0;
+        while x < 20.0 {
+            shift += x.ln();
+            x += 1.0;
+        }
+        let tail = 1.0 / (12.0 * x) - 1.0 / (360.0 * x.powi(3)) + 1.0 / (1260.0 * x.powi(5));
+        (x - 0.5) * x.ln() - x + 0.5 * (2.0 * std::f64::consts::PI).ln() + tail - shift
+    }
+
+    #[test]
+    fn the_density_of_kept_photons_is_that_of_found_ones_with_alpha_changing() {
+        // N/r² = Σ Mⱼ/rⱼ².
+        let mut stream = Stream::new(1, Purpose::Test, 0, 0);
+        let mut s = Statistics::new(3.0);
+        let mut sum = 0.0;
+        for pass in 0..2000 {
+            let m = (stream.next_1d() * 12.0) as u64;
+            sum += m as f64 / s.radius2();
+            s.refine(m, alpha([0.5, 0.7, 2.0 / 3.0, 1.0, 0.9][pass % 5]), 0.0);
+            if s.kept > 0.0 {
+                assert!((s.kept / s.radius2() / sum - 1.0).abs() < 1e-9, "pass {pass}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_running_mean_is_the_published_rescaled_flux_with_alpha_changing() {
+        // Hachisuka 2008: τ' = (τ + Φ) ρ, L = τ'/(π r'² N_emitted). Here: S += Φ/(π r²), L = S/N_emitted.
+        let mut stream = Stream::new(2, Purpose::Test, 0, 0);
+        let mut s = Statistics::new(2.0);
+        let (mut tau, mut n, mut r2, mut sum) = (0.0f64, 0.0f64, 2.0f64, 0.0f64);
+        for pass in 0..5000 {
+            let m = (stream.next_1d() * 9.0) as u64;
+            let flux = m as f64 * f64::from(stream.next_1d());
+            let a = alpha([0.6, 2.0 / 3.0, 0.9][pass / 7 % 3]);
+            sum += flux / (std::f64::consts::PI * s.radius2());
+            s.refine(m, a, 0.0);
+            if m > 0 {
+                let rho = (n + a.get() * m as f64) / (n + m as f64);
+                n += a.get() * m as f64;
+                r2 *= rho;
+                tau = (tau + flux) * rho;
+            } else {
+                tau += flux;
+            }
+            let published = tau / (std::f64::consts::PI * r2);
+            assert!((sum - published).abs() <= 1e-10 * sum, "pass {pass}: {sum} {published}");
+        }
+    }
+
+    #[test]
+    fn constant_counts_follow_their_gamma_formula_over_a_million_passes() {
+        // r_n²/r_0² = Γ(1/α) Γ(n+1)/Γ(n+1/α).
+        for a in [0.5, 2.0 / 3.0, 0.9] {
+            let mut s = Statistics::new(1.0);
+            for n in 1..=1_000_000u64 {
+                s.refine(5, alpha(a), 0.0);
+                if n.is_power_of_two() || n == 1_000_000 {
+                    let n = n as f64;
+                    let expected = (ln_gamma(1.0 / a) + ln_gamma(n + 1.0) - ln_gamma(n + 1.0 / a)).exp();
+                    assert!((s.radius2() / expected - 1.0).abs() < 1e-8, "α {a}, n {n}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn uniform_density_follows_its_gamma_formula() {
+        // Real-valued M ∝ r²: r_n²/r_0² = Γ(n+α)/(Γ(α)Γ(n+1)). Counts are whole, so make them large.
+        let a = 2.0 / 3.0;
+        let mut s = Statistics::new(1.0);
+        for n in 1..=10_000u32 {
+            s.refine((1e15 * s.radius2()).round() as u64, alpha(a), 0.0);
+            if n.is_power_of_two() {
+                let n = f64::from(n);
+                let expected = (ln_gamma(n + a) - ln_gamma(a) - ln_gamma(n + 1.0)).exp();
+                assert!((s.radius2() / expected - 1.0).abs() < 1e-8, "{n}: {} {expected}", s.radius2());
+            }
+        }
+    }
+
+    #[test]
+    fn alpha_one_never_shrinks_and_a_tiny_alpha_stays_finite() {
+        let mut one = Statistics::new(0.7);
+        let mut tiny = Statistics::new(0.7);
+        for _ in 0..10_000 {
+            one.refine(3, alpha(1.0), 0.0);
+            tiny.refine(3, alpha(1e-3), 1e-30);
+        }
+        assert_eq!(one.radius2(), f64::from(0.7f32));
+        assert!(tiny.radius2() > 0.0 && tiny.radius2() < 1e-20);
+    }
+
+    #[test]
+    fn radii_still_shrink_after_two_to_the_forty_photons() {
+        let mut s = Statistics { kept: 2f64.powi(40), radius2: 1.0, found: 1 << 41 };
+        let before = s.radius2();
+        s.refine(1, Alpha::default(), 0.0);
+        assert!(s.radius2() < before && s.photons_found() == (1 << 41) + 1);
+    }
+
+    #[test]
+    fn an_empty_pass_changes_nothing_and_the_floor_is_reported() {
+        let mut s = Statistics::new(1.0);
+        let before = s;
+        assert!(!s.refine(0, Alpha::default(), 0.5) && s == before && s.is_unknown());
+        assert!(!s.refine(1, Alpha::default(), 0.5));
+        assert!(s.refine(5, Alpha::default(), 0.5));
+        assert_eq!(s.radius2(), 0.5);
+    }
+}

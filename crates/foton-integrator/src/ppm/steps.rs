@@ -1,0 +1,198 @@
+//! The steps of a pass.
+
+use foton_transport::light_paths::{Batch, PhotonPass};
+use foton_transport::{Cancel, Cancelled, Halt, LeftOut, NotFinite, Stage};
+
+use super::algorithm::{LOOKED_AT, Ppm};
+use super::counts::Counts;
+use super::light::Light;
+use super::report::PassReport;
+use super::rule::Rule;
+use super::slots::Kept;
+use super::sweep::{Photons, sweep};
+use super::tally::Tally;
+use crate::error::{ErrorSums, Question};
+use crate::settings::{DirectLight, RadiusRule};
+
+/// Cells are marked anew when the mean r² has shrunk by this factor since the last time.
+const MARK_AGAIN: f64 = 0.7;
+
+impl Ppm {
+    /// An error where a value was left out that must not be: this one, or one before it.
+    pub(super) fn halt_at(&self, left_out: Option<LeftOut>) -> Result<(), Halt> {
+        if !self.strict {
+            return Ok(());
+        }
+        let here = left_out.map(|left_out| NotFinite::new(&self.scene, self.passes + 1, left_out));
+        self.not_finite.clone().or(here).map_or(Ok(()), |place| Err(Box::new(place).into()))
+    }
+
+    /// Makes ready for the batches of a pass.
+    pub(super) fn begin_pass(&mut self) -> Counts {
+        let photons = u64::from(self.settings.photons_after(self.passes).get());
+        let slots = self.hit_points.statistics_slots.len();
+        let adapts = !self.hit_points.evidence_slots.is_empty();
+        let several = self.batches(photons).nth(1).is_some();
+        self.kept = if several { Kept::of(slots, adapts) } else { Kept::default() };
+        Counts {
+            ledger: self.ledger,
+            lights: self.lights.clone(),
+            losses: self.losses.clone(),
+            photons,
+            rays: 0,
+            stored: 0,
+            tally: Tally::default(),
+            left_out: None,
+        }
+    }
+
+    /// How a pass falls into batches.
+    pub(super) fn batches(&self, photons: u64) -> impl Iterator<Item = Batch> + use<> {
+        Batch::all(photons, self.max_in_batch)
+    }
+
+    pub(super) fn photon_pass(&self, photons: u64, batch: Batch) -> PhotonPass<'_> {
+        PhotonPass {
+            scene: &self.scene,
+            sources: &self.sources,
+            grid: &self.grid,
+            stores_direct: self.settings.direct_light == DirectLight::Photons,
+            directions: self.hit_points.ask_for_directions(),
+            arch: self.arch,
+            max_depth: Self::max_depth(&self.scene, &self.settings),
+            seed: self.settings.seed,
+            pass: self.passes,
+            // A path of one edge is an emitter seen directly: no photon can add to it.
+            photons: if Self::max_depth(&self.scene, &self.settings) > 1 { photons } else { 0 },
+            batch,
+        }
+    }
+
+    /// Emits the photons of a batch and traces them until they are absorbed or leave.
+    pub(super) fn emit_and_trace(
+        &mut self,
+        batch: Batch,
+        counts: &Counts,
+        watch: &mut dyn FnMut(Stage),
+        cancel: &Cancel,
+    ) -> Result<(), Halt> {
+        watch(Stage::Trace);
+        let mut chunks = std::mem::take(&mut self.chunks);
+        let shot = self.photon_pass(counts.photons, batch).shoot(&mut chunks, cancel);
+        self.chunks = chunks;
+        shot?;
+        self.halt_at(self.chunks.iter().find_map(|chunk| chunk.left_out))
+    }
+
+    /// Sorts the photons that lie in `chunks` into the map.
+    pub(super) fn build_map(
+        &mut self,
+        watch: &mut dyn FnMut(Stage),
+        cancel: &Cancel,
+    ) -> Result<(), Cancelled> {
+        watch(Stage::Sort);
+        self.map.build(&self.chunks, self.grid.touched());
+        cancel.check()
+    }
+
+    /// Gathers a batch from the map. With the last one hit points are refined, packet by packet while it is at hand.
+    pub(super) fn gather_and_refine(
+        &mut self,
+        batch: Batch,
+        counts: &mut Counts,
+        watch: &mut dyn FnMut(Stage),
+    ) {
+        watch(Stage::Gather);
+        let (alpha, before) = (self.settings.alpha, self.photons_emitted);
+        let rule = Rule {
+            alpha,
+            adapts: self.settings.radius_rule == RadiusRule::Adaptive,
+            common: self.settings.radius_rule.common(alpha, before, counts.photons),
+            batch,
+            question: Question::after(self.passes),
+            arch: self.arch,
+        };
+        let moments = self.error.as_mut().map_or_else(Default::default, ErrorSums::moment_slots);
+        let (hit_points, kept) = (&mut self.hit_points, &mut self.kept);
+        let photons = Photons { map: &self.map, grid: &self.grid };
+        let tally = match &mut self.light {
+            Light::Whole(sums) => sweep(hit_points, photons, rule, sums.irradiance_slots(), moments, kept),
+            Light::ByClass(sums) => sweep(hit_points, photons, rule, sums.irradiance_slots(), moments, kept),
+        };
+        counts.add(&self.chunks, &tally);
+    }
+
+    /// Adds direct light by shadow rays, if it is asked for, once hit points are refined.
+    pub(super) fn add_shadow_rays(&mut self, counts: &mut Counts, watch: &mut dyn FnMut(Stage)) {
+        if self.settings.direct_light == DirectLight::ShadowRays {
+            watch(Stage::ShadowRays);
+            let key = (self.settings.seed, self.passes, counts.photons);
+            let (rays, omissions) = self.light.add_direct(&self.scene, &self.hit_points, key);
+            counts.rays += rays;
+            counts.leave_out(omissions);
+        }
+    }
+
+    /// Adds a pass to the image, its error to the error, and what it counted to the render's own.
+    pub(super) fn accumulate(&mut self, mut counts: Counts, watch: &mut dyn FnMut(Stage)) -> PassReport {
+        watch(Stage::Radiance);
+        counts.leave_out(self.light.add_pass(&self.hit_points));
+        let Counts { ledger, lights, losses, photons, rays, stored, tally, left_out } = counts;
+        (self.ledger, self.lights, self.losses) = (ledger, lights, losses);
+        if let (None, Some(left_out)) = (&self.not_finite, left_out) {
+            self.not_finite = Some(NotFinite::new(&self.scene, self.passes + 1, left_out));
+        }
+        self.mark_cells(&tally);
+        self.photons_emitted += photons;
+        let power = self.mean_power();
+        if let Some(error) = &mut self.error {
+            let by_shadow_rays = self.settings.direct_light == DirectLight::ShadowRays;
+            let asked = (Question::after(self.passes), by_shadow_rays, self.passes);
+            self.light.add_error(error, &self.hit_points, (photons, power), asked);
+        }
+        self.last_photons = photons;
+        self.passes += 1;
+        PassReport {
+            pass: self.passes,
+            photons: self.photons_emitted,
+            photons_in_pass: photons,
+            stored,
+            rays,
+            candidates: tally.candidates,
+            accepted: tally.accepted,
+            no_photon_share: tally.unknown as f64 / (self.start.hit_points as f64).max(1.0),
+            floored: tally.floored,
+        }
+    }
+
+    /// Mean power of a photon as it leaves its emitter. Photons that are aimed differ much: there it is that of some of those which
+    /// came near hit points in the last batch, if any did.
+    fn mean_power(&self) -> f64 {
+        let stored = self.map.photons();
+        if self.sources.is_aimed() && !stored.is_empty() {
+            let step = stored.len().div_ceil(LOOKED_AT);
+            let (sum, count) = stored
+                .iter()
+                .step_by(step)
+                .fold((0.0, 0.0), |(sum, count), p| (sum + f64::from(p.power.luminance()), count + 1.0));
+            return sum / count;
+        }
+        self.ledger.emitted / self.photons_emitted.max(1) as f64
+    }
+
+    /// Photons that no disc can reach any more need not be stored: marks cells anew once discs are clearly smaller.
+    fn mark_cells(&mut self, tally: &Tally) {
+        if self.marked_radius2.is_infinite() {
+            self.marked_radius2 = tally.radius2;
+        } else if tally.radius2 < MARK_AGAIN * self.marked_radius2 {
+            self.grid.mark(&self.hit_points.packets);
+            self.marked_radius2 = tally.radius2;
+        }
+    }
+
+    /// Marks cells for discs as they are now.
+    pub(super) fn mark_all_cells(&mut self) {
+        self.grid.mark(&self.hit_points.packets);
+        self.marked_radius2 = f64::INFINITY;
+    }
+}

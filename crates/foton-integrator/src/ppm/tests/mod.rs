@@ -1,0 +1,14 @@
+//! Tests of whole passes.
+
+mod batches;
+mod instruction_sets;
+pub(super) mod scene;
+
+use super::algorithm::Ppm;
+
+impl Ppm {
+    /// Passes of more than `max` photons fall into batches from now on.
+    pub(super) fn with_batches_of(self, max: u64) -> Self {
+        Self { max_in_batch: max, ..self }
+    }
+}

@@ -1,0 +1,195 @@
+//! Renders that differ only in how they refine, over the same photons: each pass is traced once and gathered by all of them.
+//!
+//! Photon paths know nothing of hit points: neither α nor radii, nor whether direct light comes by shadow rays, change them.
+//! Each variant has the bits of a run of its own; only what its lights' photons came near is told of the widest. Not here: what the differences are worth (`foton-measure`).
+
+use std::sync::Arc;
+
+use foton_scene::Scene;
+use foton_transport::light_paths::PhotonPass;
+use foton_transport::photon_map::{Chunk, Grid, PathClass};
+use foton_transport::{Cancel, Cancelled, Stage};
+use rayon::prelude::*;
+
+use super::counts::Counts;
+use super::{PassReport, Ppm};
+use crate::settings::{DirectLight, Settings};
+
+/// Whose work begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Tracing for all: each would have done it alone.
+    Trace,
+    /// Handing photons out, which a run of its own has no need of.
+    Share,
+    /// A stage of the variant of that index.
+    Of(usize, Stage),
+}
+
+/// Renders under way that share their photons.
+pub struct Variants {
+    runs: Vec<Ppm>,
+    /// Touched by any disc of any variant, now or later: radii never grow.
+    everywhere: Grid,
+    chunks: Vec<Chunk>,
+}
+
+impl Variants {
+    /// Collects the hit points of each of `settings`, which may differ in α, radii, direct light, layers and error alone.
+    /// Photons then have the seed `photons`: with that of the settings, each variant is what a run of its own would be; with
+    /// others, runs are independent that see the same eye samples. `None` without settings, or if they differ otherwise.
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub fn start(
+        scene: &Arc<Scene>,
+        settings: &[Settings],
+        photons: u64,
+        watch: &mut dyn FnMut(Step),
+        cancel: &Cancel,
+    ) -> Result<Option<Self>, Cancelled> {
+        let Some(first) = settings.first() else { return Ok(None) };
+        if settings.iter().any(|s| !shares_photons(first, s)) {
+            return Ok(None);
+        }
+        let start = |(i, settings): (usize, &Settings)| {
+            let mut run = Ppm::start(
+                Arc::clone(scene),
+                settings.clone(),
+                &mut |stage| watch(Step::Of(i, stage)),
+                cancel,
+            )?;
+            run.settings.seed = photons;
+            Ok(run)
+        };
+        let runs: Vec<Ppm> = settings.iter().enumerate().map(start).collect::<Result<_, _>>()?;
+        let widest = |run: &&Ppm| run.hit_points.statistics().map(|s| s.radius2()).sum::<f64>();
+        let widest = runs.iter().max_by(|a, b| widest(a).total_cmp(&widest(b)));
+        let Some(everywhere) = widest.map(|run| Grid::new(&run.hit_points.packets)) else {
+            return Ok(None);
+        };
+        Ok(Some(Self { runs, everywhere, chunks: Vec::new() }))
+    }
+
+    /// One pass of all variants, in their order.
+    ///
+    /// # Errors
+    /// When cancelled; the variants may then be a pass apart and are not to be used.
+    pub fn advance(
+        &mut self,
+        watch: &mut dyn FnMut(Step),
+        cancel: &Cancel,
+    ) -> Result<Vec<PassReport>, Cancelled> {
+        let mut counts: Vec<Counts> = self.runs.iter_mut().map(Ppm::begin_pass).collect();
+        let photons = counts[0].photons;
+        for batch in self.runs[0].batches(photons) {
+            watch(Step::Trace);
+            let pass = self.runs[0].photon_pass(photons, batch);
+            PhotonPass { grid: &self.everywhere, stores_direct: true, ..pass }
+                .shoot(&mut self.chunks, cancel)?;
+            for (i, (run, counts)) in self.runs.iter_mut().zip(&mut counts).enumerate() {
+                watch(Step::Share);
+                hand_out(&self.chunks, run);
+                let watch = &mut |stage| watch(Step::Of(i, stage));
+                run.build_map(watch, cancel)?;
+                run.gather_and_refine(batch, counts, watch);
+            }
+        }
+        let runs = self.runs.iter_mut().zip(counts).enumerate();
+        let conclude = |(i, (run, mut counts)): (usize, (&mut Ppm, Counts))| {
+            let watch = &mut |stage| watch(Step::Of(i, stage));
+            run.add_shadow_rays(&mut counts, watch);
+            run.accumulate(counts, watch)
+        };
+        Ok(runs.map(conclude).collect())
+    }
+
+    /// The renders, in the order of their settings.
+    #[must_use]
+    pub fn runs(&self) -> &[Ppm] {
+        &self.runs
+    }
+}
+
+/// Whether two renders trace the same photons from the same eye samples.
+fn shares_photons(a: &Settings, b: &Settings) -> bool {
+    let same = Settings {
+        alpha: a.alpha,
+        radius: a.radius,
+        radius_scale: a.radius_scale,
+        radius_floor: a.radius_floor,
+        radius_rule: a.radius_rule,
+        direct_light: a.direct_light,
+        layers: a.layers,
+        error: a.error,
+        ..b.clone()
+    };
+    same == *a
+}
+
+/// Gives a render those photons that its discs can reach.
+fn hand_out(all: &[Chunk], run: &mut Ppm) {
+    let skip_direct = run.settings().direct_light == DirectLight::ShadowRays;
+    let (own, grid) = (&mut run.chunks, &run.grid);
+    own.resize_with(all.len(), Chunk::default);
+    own.par_iter_mut().zip(all).for_each(|(own, all)| {
+        own.photons.clear();
+        own.cells.clear();
+        for photon in &all.photons {
+            if skip_direct && photon.class_index() == PathClass::Direct as usize {
+                continue;
+            }
+            if let Some(cell) = grid.number(photon.position) {
+                own.photons.push(*photon);
+                own.cells.push(cell);
+            }
+        }
+        (own.ledger, own.rays) = (all.ledger, all.rays);
+        own.lights.clone_from(&all.lights);
+        own.losses.clone_from(&all.losses);
+        own.left_out = all.left_out;
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::num::NonZeroU32;
+
+    use super::super::tests::scene::scene;
+    use crate::settings::Alpha;
+
+    #[test]
+    fn variants_in_batches_have_the_bits_of_runs_of_their_own_in_batches() {
+        let photons = NonZeroU32::new(20_000).expect("above 0");
+        // So short that power is cut off at the materials.
+        let base = Settings {
+            photons_per_pass: photons,
+            first_pass: photons,
+            max_depth: Some(3),
+            ..Settings::default()
+        };
+        let settings = [
+            base.clone(),
+            Settings { alpha: Alpha::new(0.3).expect("in range"), error: true, ..base.clone() },
+            Settings { direct_light: DirectLight::ShadowRays, ..base },
+        ];
+        let (scene, cancel) = (scene(), Cancel::default());
+        let started = Variants::start(&scene, &settings, 0, &mut |_| (), &cancel).expect("not cancelled");
+        let mut together = started.expect("they share their photons");
+        together.runs = together.runs.into_iter().map(|run| run.with_batches_of(6_000)).collect();
+        for _ in 0..3 {
+            together.advance(&mut |_| (), &cancel).expect("not cancelled");
+        }
+        for (settings, run) in settings.iter().zip(together.runs()) {
+            let alone = Ppm::start(Arc::clone(&scene), settings.clone(), &mut |_| (), &cancel);
+            let mut alone = alone.expect("not cancelled").with_batches_of(6_000);
+            for _ in 0..3 {
+                alone.advance(&mut |_| (), &cancel).expect("not cancelled");
+            }
+            assert!(run.image() == alone.image() && run.ledger() == alone.ledger());
+            assert!(alone.material_losses().iter().any(|loss| loss.truncated > 0.0));
+            assert_eq!(run.material_losses(), alone.material_losses());
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! The eye pass: from the sensor through mirrors, glass and narrow gloss to the surfaces that spread light, once.
+//!
+//! At each surface the lobes that spread light are kept by a hit point and the others are followed. Where there are several
+//! to follow, a path splits, weighted by Fresnel, while its weight and depth are worth it and the sample's share of hit
+//! points lasts; after that it takes one by chance. Light seen by followed bounces only is added up here: no photon is stored
+//! for it anywhere.
+
+use std::num::NonZeroU32;
+
+use foton_math::{Purpose, Rgb};
+use foton_scene::{Scene, Sensor};
+
+use super::hit_point::{Gloss, HitPoint};
+use super::radius::FirstRadius;
+use crate::not_finite::LeftOut;
+
+/// What the shape-id layer says where a pixel sees nothing.
+pub const NO_SHAPE: u32 = u32::MAX;
+
+/// What the eye pass finds in some pixels.
+#[derive(Default)]
+pub struct EyePaths {
+    /// Pixel by pixel.
+    pub hit_points: Vec<HitPoint>,
+    /// How those scatter that are not Lambertian.
+    pub gloss: Vec<Gloss>,
+    /// Hit points of each pixel.
+    pub counts: Vec<u32>,
+    /// Mean emitted light that each pixel sees directly or by specular bounces.
+    pub emission: Vec<Rgb>,
+    /// Shape that each pixel's first sample meets first; [`NO_SHAPE`] for none.
+    pub shapes: Vec<u32>,
+    /// Rays traced.
+    pub rays: u64,
+    /// Paths given up because their weight or light was not a finite number.
+    pub dropped: u64,
+    /// The first value of those that was none.
+    pub left_out: Option<LeftOut>,
+}
+
+impl EyePaths {
+    /// Where each pixel's hit points begin, and one entry more.
+    pub fn pixel_start(&self) -> Vec<u32> {
+        let mut start = Vec::with_capacity(self.counts.len() + 1);
+        let mut sum = 0;
+        start.push(0);
+        for &count in &self.counts {
+            sum += count;
+            start.push(sum);
+        }
+        start
+    }
+}
+
+/// Everything the eye pass needs to know.
+pub struct EyePass<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Index of the sensor.
+    pub sensor: usize,
+    /// Eye samples a pixel.
+    pub samples_per_pixel: NonZeroU32,
+    /// Hit points that one eye sample may make by splitting at glass.
+    pub hit_points_per_sample: NonZeroU32,
+    /// The first radius of each hit point, and the smallest.
+    pub radius: FirstRadius,
+    /// Longest whole path in edges.
+    pub max_depth: u32,
+    /// The seed of all random streams.
+    pub seed: u64,
+    /// What the streams are for.
+    pub purpose: Purpose,
+}
+
+impl EyePass<'_> {
+    pub(super) fn sensor(&self) -> &Sensor {
+        &self.scene.sensors()[self.sensor]
+    }
+}

@@ -1,0 +1,13 @@
+//! Paths from the camera: through mirrors, glass and narrow gloss to the surfaces that gather light.
+
+mod eye_pass;
+mod highlights;
+mod hit_point;
+mod pixel_samples;
+mod radius;
+mod trace;
+mod walk;
+
+pub use eye_pass::{EyePass, EyePaths, NO_SHAPE};
+pub use hit_point::{Gloss, HitPoint};
+pub use radius::FirstRadius;

@@ -1,0 +1,87 @@
+//! The eye pass over all samples of all pixels.
+
+use foton_math::{Rgb, Stream};
+use rayon::prelude::*;
+
+use super::eye_pass::{EyePass, EyePaths, NO_SHAPE};
+use super::pixel_samples::PixelSamples;
+use super::walk::{SamplePoints, Walk};
+use crate::cancel::{Cancel, Cancelled};
+use crate::not_finite::{self, LeftOut, Quantity};
+
+/// Pixels that one task looks after.
+const CHUNK: usize = 1024;
+
+impl EyePass<'_> {
+    /// Follows all samples of all pixels.
+    pub fn run(&self, cancel: &Cancel) -> Result<EyePaths, Cancelled> {
+        let pixels = self.sensor().width as usize * self.sensor().height as usize;
+        let parts: Vec<EyePaths> = (0..pixels.div_ceil(CHUNK))
+            .into_par_iter()
+            .map(|chunk| {
+                cancel.check()?;
+                Ok(self.follow((chunk * CHUNK..pixels.min((chunk + 1) * CHUNK)).map(|p| p as u32)))
+            })
+            .collect::<Result<_, _>>()?;
+        let mut all = EyePaths::default();
+        all.hit_points.reserve_exact(parts.iter().map(|p| p.hit_points.len()).sum());
+        for part in parts {
+            let before = all.gloss.len() as u32;
+            all.hit_points.extend(part.hit_points.into_iter().map(|mut h| {
+                h.gloss = h.gloss.map(|g| g + before);
+                h
+            }));
+            all.gloss.extend(part.gloss);
+            all.counts.extend(part.counts);
+            all.emission.extend(part.emission);
+            all.shapes.extend(part.shapes);
+            all.rays += part.rays;
+            all.dropped += part.dropped;
+            all.left_out = all.left_out.or(part.left_out);
+        }
+        Ok(all)
+    }
+
+    /// Follows all samples of some pixels.
+    pub fn follow(&self, pixels: impl Iterator<Item = u32>) -> EyePaths {
+        let mut paths = EyePaths::default();
+        let samples = self.samples_per_pixel.get();
+        let mut branches = Vec::new();
+        for pixel in pixels {
+            let before = paths.hit_points.len();
+            let mut emission = Rgb::BLACK;
+            let mut scramble = Stream::new(self.seed, self.purpose, 0, u64::from(pixel));
+            let places = PixelSamples::new(&mut scramble);
+            let facets = PixelSamples::new(&mut scramble);
+            let lamps = PixelSamples::new(&mut scramble);
+            paths.shapes.push(NO_SHAPE);
+            for sample in 0..samples {
+                let index = u64::from(pixel) * u64::from(samples) + u64::from(sample);
+                let points = SamplePoints {
+                    place: places.point(sample),
+                    facet: facets.point(sample),
+                    lamp: lamps.point(sample),
+                };
+                let stream = Stream::new(self.seed, self.purpose, 1, index);
+                let sum = emission
+                    + Walk::new(self, stream, &points, sample == 0, &mut paths, &mut branches)
+                        .follow(pixel, points.place);
+                if sum.is_finite() {
+                    emission = sum;
+                } else {
+                    paths.dropped += 1;
+                    // A sum of numbers that is none has no other place.
+                    paths.left_out.get_or_insert(LeftOut {
+                        quantity: Quantity::SeenEmission,
+                        light: None,
+                        surface: not_finite::Surface::Unknown,
+                        position: self.sensor().origin(),
+                    });
+                }
+            }
+            paths.counts.push((paths.hit_points.len() - before) as u32);
+            paths.emission.push(emission / samples as f32);
+        }
+        paths
+    }
+}

@@ -1,0 +1,291 @@
+//! One eye sample on its way through mirrors, glass and narrow gloss.
+
+use std::f32::consts::FRAC_1_PI;
+
+use foton_math::glam::{Vec2, Vec3};
+use foton_math::{Ray, Rgb, Stream};
+use foton_scene::{Scattering, Surface, Transport};
+
+use super::eye_pass::{EyePass, EyePaths};
+use super::highlights::Glossy;
+use super::hit_point::{Gloss, HitPoint};
+use super::radius::slab2;
+use crate::not_finite::{self, LeftOut, Quantity};
+use crate::shading::{on_the_right_side, shading_normal_towards};
+
+/// Paths lighter than this are not split any more.
+const SPLIT_WEIGHT: f32 = 1e-3;
+/// Paths with more edges than this are not split any more.
+const SPLIT_EDGES: u32 = 8;
+/// From this many edges on, paths end by roulette, with this chance to go on.
+const ROULETTE_EDGES: u32 = 16;
+const SURVIVAL: f32 = 0.9;
+
+/// What a hit point weighs light with.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Part {
+    /// The lobes that spread light.
+    Kept,
+    /// Narrow lobes that the path follows as well, lit from its own side: for photons that it cannot find the light of.
+    Followed,
+    /// The same, lit from the other side, through rough glass.
+    FollowedBehind,
+}
+
+/// An eye path that goes on.
+#[derive(Clone, Copy)]
+pub(super) struct Branch {
+    ray: Ray,
+    weight: Rgb,
+    /// Edges up to the end of `ray`.
+    edges: u32,
+    /// Length of the edges before `ray`.
+    distance: f32,
+    /// The density (sr⁻¹) of its direction, where lamps are looked up as well; 0 where they are not.
+    density: f32,
+}
+
+/// One eye sample on its way.
+pub(super) struct Walk<'a, 'b> {
+    pass: &'a EyePass<'b>,
+    stream: Stream,
+    /// Stratified over the pixel's samples, for the first rough lobe that is followed.
+    facet: Option<Vec2>,
+    /// The same for the lamp that is looked at from there.
+    lamp: Option<Vec2>,
+    solid_angle: f32,
+    /// Whether the pixel's shape is still to be noted.
+    first: bool,
+    paths: &'a mut EyePaths,
+    branches: &'a mut Vec<Branch>,
+    emission: Rgb,
+    /// Ends that this sample may still come to: hit points stored, and branches under way.
+    leaves: u32,
+}
+
+/// Points of the unit square, stratified over the samples of a pixel.
+pub(super) struct SamplePoints {
+    /// Where in the pixel.
+    pub(super) place: Vec2,
+    /// For the first rough lobe that is followed.
+    pub(super) facet: Vec2,
+    /// For the lamp that is looked at from there.
+    pub(super) lamp: Vec2,
+}
+
+impl<'a, 'b> Walk<'a, 'b> {
+    /// The first sample of a pixel notes the shape that it meets; what it finds is added to `paths`. `branches` is a buffer.
+    pub(super) fn new(
+        pass: &'a EyePass<'b>,
+        stream: Stream,
+        points: &SamplePoints,
+        first: bool,
+        paths: &'a mut EyePaths,
+        branches: &'a mut Vec<Branch>,
+    ) -> Self {
+        Self {
+            pass,
+            stream,
+            facet: Some(points.facet),
+            lamp: Some(points.lamp),
+            solid_angle: 0.0,
+            first,
+            paths,
+            branches,
+            emission: Rgb::BLACK,
+            leaves: 1,
+        }
+    }
+
+    /// Follows the sample to all its ends; returns the emitted light that it sees by specular bounces.
+    pub(super) fn follow(&mut self, pixel: u32, place: Vec2) -> Rgb {
+        let sensor = self.pass.sensor();
+        let corner = Vec2::new((pixel % sensor.width) as f32, (pixel / sensor.width) as f32);
+        let ray = sensor.ray(corner + 0.5 + sensor.filter.offset(place));
+        self.solid_angle = sensor.pixel_solid_angle(ray.direction);
+        self.branches.push(Branch { ray, weight: Rgb::WHITE, edges: 1, distance: 0.0, density: 0.0 });
+        while let Some(branch) = self.branches.pop() {
+            self.step(branch);
+        }
+        self.emission
+    }
+
+    fn step(&mut self, branch: Branch) {
+        let scene = self.pass.scene;
+        self.paths.rays += 1;
+        let surface = scene.nearest(branch.ray);
+        let visible = branch.edges <= self.pass.max_depth;
+        let Some(surface) = surface else {
+            if visible {
+                let emitted = branch.weight * scene.escaped_radiance(branch.ray.direction);
+                self.see(emitted, branch.ray.origin, None);
+            }
+            return;
+        };
+        if std::mem::take(&mut self.first)
+            && let Some(shape) = self.paths.shapes.last_mut()
+        {
+            *shape = surface.shape;
+        }
+        let wo = -branch.ray.direction;
+        if visible {
+            let mut emitted = branch.weight * scene.emitted(&surface, wo);
+            if branch.density > 0.0 && !emitted.is_black() {
+                emitted *= Glossy::share_of_following(scene, &surface, branch.ray.origin, branch.density);
+            }
+            self.see(emitted, surface.position, Some(surface.shape));
+        }
+        let outward = wo.dot(surface.normal) > 0.0;
+        let Some(scattering) = scene.scattering(&surface, outward) else { return };
+        if branch.edges >= self.pass.max_depth {
+            return;
+        }
+        let distance = branch.distance + (surface.position - branch.ray.origin).length();
+        if scattering.bsdf.keeps() {
+            self.store(&branch, &surface, &scattering, distance, Part::Kept);
+        }
+        if scattering.bsdf.follows() || scattering.opacity < 1.0 {
+            self.follow_lobes(&branch, &surface, &scattering, distance);
+        }
+    }
+
+    fn store(
+        &mut self,
+        branch: &Branch,
+        surface: &Surface,
+        scattering: &Scattering,
+        distance: f32,
+        part: Part,
+    ) {
+        let wo = -branch.ray.direction;
+        let (weight, gloss) = match scattering.lambertian() {
+            Some(albedo) => (branch.weight * albedo * FRAC_1_PI, None),
+            None => {
+                let normal = shading_normal_towards(surface, wo);
+                let frame = self.pass.scene.shading_frame(surface, normal);
+                let narrow = part != Part::Kept;
+                let gloss = Gloss { scattering: *scattering, frame, wo: frame.to_local(wo), narrow };
+                self.paths.gloss.push(gloss);
+                (branch.weight, Some(self.paths.gloss.len() as u32 - 1))
+            }
+        };
+        if weight.is_black() || !self.is_finite(weight, surface) {
+            return;
+        }
+        let behind = if part == Part::FollowedBehind { -1.0 } else { 1.0 };
+        let side = behind * 1f32.copysign(wo.dot(surface.normal));
+        let normal = surface.normal * side;
+        let (radius2, smallest2) = self.pass.radius.first_and_smallest2(
+            self.solid_angle,
+            distance,
+            wo.dot(normal).abs(),
+            surface.position,
+        );
+        self.paths.hit_points.push(HitPoint {
+            position: surface.position,
+            normal,
+            shading_normal: surface.shading_normal * side,
+            origin: surface.ray_origin(normal),
+            weight,
+            gloss,
+            radius2,
+            smallest2,
+            patch: surface.patch_towards(side > 0.0),
+            slab2: slab2(surface),
+            budget: (self.pass.max_depth - branch.edges).min(255) as u8,
+        });
+    }
+
+    /// Adds emitted light that the path sees. Where it is no number the sample is given up at its end, and its place noted here.
+    fn see(&mut self, light: Rgb, position: Vec3, shape: Option<u32>) {
+        if !light.is_finite() {
+            let surface = shape.map_or(not_finite::Surface::Unknown, not_finite::Surface::Shape);
+            let left_out = LeftOut { quantity: Quantity::SeenEmission, light: None, surface, position };
+            self.paths.left_out.get_or_insert(left_out);
+        }
+        self.emission += light;
+    }
+
+    /// Whether a weight is a number; counts those that are not, and notes the first.
+    fn is_finite(&mut self, weight: Rgb, surface: &Surface) -> bool {
+        if weight.is_finite() {
+            return true;
+        }
+        self.paths.dropped += 1;
+        self.paths.left_out.get_or_insert(LeftOut {
+            quantity: Quantity::EyeWeight,
+            light: None,
+            surface: not_finite::Surface::Shape(surface.shape),
+            position: surface.position,
+        });
+        false
+    }
+
+    fn follow_lobes(&mut self, branch: &Branch, surface: &Surface, scattering: &Scattering, distance: f32) {
+        let mut weight = branch.weight;
+        if branch.edges >= ROULETTE_EDGES {
+            if self.stream.next_1d() >= SURVIVAL {
+                return;
+            }
+            weight = weight / SURVIVAL;
+        }
+        let wo = -branch.ray.direction;
+        let frame = self.pass.scene.shading_frame(surface, shading_normal_towards(surface, wo));
+        let local = frame.to_local(wo);
+        let facet = match scattering.bsdf.roughness() {
+            Some(_) => Some(self.facet.take().unwrap_or_else(|| self.stream.next_2d())),
+            None => None,
+        };
+        if self.pass.scene.census().has_narrow_caustics() && scattering.follows_narrow_lobes() {
+            let lit = Branch { weight, ..*branch };
+            self.store(&lit, surface, scattering, distance, Part::Followed);
+            if scattering.bsdf.transmits() {
+                self.store(&lit, surface, scattering, distance, Part::FollowedBehind);
+            }
+        }
+        let looks = self.pass.scene.census().has_narrow_highlights() && facet.is_some();
+        if looks {
+            let edges = self.pass.max_depth - branch.edges;
+            let at = Glossy { scene: self.pass.scene, surface, scattering, frame: &frame, wo: local, edges };
+            let point = self.lamp.take().unwrap_or_else(|| self.stream.next_2d());
+            let u = (self.stream.next_1d(), self.stream.next_1d(), point);
+            let highlight = weight * at.looked_up(u, &mut self.stream, &mut self.paths.rays);
+            self.see(highlight, surface.position, Some(surface.shape));
+        }
+        let facet = facet.unwrap_or_default();
+        let lobes = scattering.followed_lobes(local, Transport::Radiance, facet);
+        let count = lobes.iter().flatten().count() as u32;
+        let split = branch.edges <= SPLIT_EDGES
+            && weight.max_component() > SPLIT_WEIGHT
+            && self.leaves < self.pass.hit_points_per_sample.get();
+        let single;
+        let chosen: &[_] = if split || count < 2 {
+            // What is kept here and each lobe beyond the first is one more end.
+            self.leaves += (count + u32::from(scattering.bsdf.keeps())).saturating_sub(1);
+            &lobes
+        } else {
+            let lobe = scattering.choose_followed(local, Transport::Radiance, self.stream.next_1d(), facet);
+            single = [lobe.map(|mut l| {
+                l.weight = l.weight / l.probability;
+                l
+            })];
+            &single
+        };
+        for lobe in chosen.iter().flatten() {
+            let weight = weight * lobe.weight;
+            if weight.is_black() || !self.is_finite(weight, surface) {
+                continue;
+            }
+            let sampled = frame.to_outer(lobe.wi).normalize();
+            let direction = on_the_right_side(surface, wo, sampled, lobe.wi.z * local.z > 0.0);
+            let is_sampled = looks && direction == sampled;
+            self.branches.push(Branch {
+                ray: Ray::new(surface.ray_origin(direction), direction),
+                weight,
+                edges: branch.edges + 1,
+                distance,
+                density: if is_sampled { scattering.density_followed(local, lobe.wi) } else { 0.0 },
+            });
+        }
+    }
+}

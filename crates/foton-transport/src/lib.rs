@@ -1,0 +1,24 @@
+//! What methods of light transport share: paths from the camera, paths from the emitters, the photon map between them, direct
+//! light, and the accounts of power.
+//!
+//! No method lives here, and there are no files, windows or clocks. Positions, lengths and radii are in scene units
+//! ([`foton_scene::Scene::normalisation`]); power and radiance are those of the scene.
+
+pub mod camera_paths;
+mod cancel;
+pub mod codec;
+pub mod direct_light;
+mod ledger;
+pub mod light_paths;
+mod light_use;
+mod not_finite;
+pub mod photon_map;
+pub mod shading;
+mod stage;
+pub mod straight;
+
+pub use cancel::{Cancel, Cancelled};
+pub use ledger::{Ledger, Loss};
+pub use light_use::LightUse;
+pub use not_finite::{Halt, LeftOut, NotFinite, Omissions, Quantity, Surface};
+pub use stage::Stage;

@@ -1,0 +1,53 @@
+//! What a batch of photons needs to know, and a photon on its way.
+
+use foton_math::{Ray, Rgb, Stream};
+use foton_scene::{Scene, Sources};
+use pulp::Arch;
+
+use super::batch::Batch;
+use crate::photon_map::{Grid, PathClass};
+
+/// Photons followed side by side: few enough for the nearest cache.
+pub(super) const WAVE: usize = 256;
+
+/// Everything a photon pass needs to know.
+pub struct PhotonPass<'a> {
+    /// What photons meet.
+    pub scene: &'a Scene,
+    /// Where they start.
+    pub sources: &'a Sources,
+    /// Where hit points may ask for them.
+    pub grid: &'a Grid,
+    /// Whether photons that come straight from an emitter are stored: not where shadow rays bring that light.
+    pub stores_direct: bool,
+    /// Whether any hit point asks where a photon came from.
+    pub directions: bool,
+    /// The instruction set to run on; it changes no bit.
+    pub arch: Arch,
+    /// Longest whole path in edges; a photon path is at least one shorter.
+    pub max_depth: u32,
+    /// The seed of all random streams.
+    pub seed: u64,
+    /// How many passes were before this one.
+    pub pass: u64,
+    /// Photons of the whole pass.
+    pub photons: u64,
+    /// Which of them are emitted now.
+    pub batch: Batch,
+}
+
+/// A photon on its way.
+pub(super) struct Path {
+    pub(super) ray: Ray,
+    pub(super) power: Rgb,
+    pub(super) class: PathClass,
+    /// See [`Photon::is_lone`](crate::photon_map::Photon::is_lone).
+    pub(super) lone: bool,
+    /// Whether it was stored anywhere.
+    pub(super) stored: bool,
+    /// Edges up to the end of `ray`.
+    pub(super) edges: u32,
+    /// Index of the emitter.
+    pub(super) emitter: u32,
+    pub(super) stream: Stream,
+}

@@ -1,0 +1,224 @@
+//! What happens to a photon at a surface: it is stored where light spreads, absorbed, or sent on.
+
+use foton_math::glam::Vec3;
+use foton_math::{Frame, Ray, Rgb};
+use foton_scene::{Lobe, Surface, Transport};
+
+use super::draws::Draw;
+use super::pass::{Path, PhotonPass};
+use crate::ledger::{Ledger, energy, left_out};
+use crate::not_finite::{self, LeftOut, Quantity};
+use crate::photon_map::{Chunk, PathClass, Photon};
+use crate::shading::{SMALLEST_COSINE, leaves_wrongly, on_the_right_side, shading_normal_towards};
+
+/// A direction that a photon leaves in, before it is known whether it does.
+struct Leaving {
+    direction: Vec3,
+    /// `f · |cos θ| / pdf` by the shading normal.
+    weight: Rgb,
+    /// The shading normal.
+    normal: Vec3,
+    /// By which kind of lobe.
+    lobe: Lobe,
+    /// Whether on the side that it came from.
+    reflects: bool,
+}
+
+impl PhotonPass<'_> {
+    /// Stores the photon where light spreads, and sends it on. Whether it has been stored anywhere so far.
+    #[inline(always)]
+    pub(super) fn scatter(
+        &self,
+        path: &Path,
+        surface: &Surface,
+        draw: Draw,
+        chunk: &mut Chunk,
+        next: &mut Vec<Path>,
+    ) -> bool {
+        let wo = -path.ray.direction;
+        let Some(reflectance) = self.scene.lambertian(surface, wo.dot(surface.normal) > 0.0) else {
+            return self.scatter_otherwise(path, surface, draw, chunk, next);
+        };
+        let stored = self.store(path, surface, wo, chunk);
+        let normal = shading_normal_towards(surface, wo);
+        let wi = if wo.dot(normal) < 0.0 { -draw.diffuse } else { draw.diffuse };
+        let leaving = Leaving {
+            direction: Frame::from_normal(normal).to_outer(wi).normalize(),
+            weight: reflectance,
+            normal,
+            lobe: Lobe::Kept,
+            reflects: true,
+        };
+        self.send_on(path, stored, surface, &leaving, draw.survival, chunk, next);
+        stored
+    }
+
+    /// The same for everything but Lambertian surfaces. Kept apart, so that the loop around the others stays small.
+    #[inline(never)]
+    fn scatter_otherwise(
+        &self,
+        path: &Path,
+        surface: &Surface,
+        draw: Draw,
+        chunk: &mut Chunk,
+        next: &mut Vec<Path>,
+    ) -> bool {
+        let wo = -path.ray.direction;
+        let Some(scattering) = self.scene.scattering(surface, wo.dot(surface.normal) > 0.0) else {
+            chunk.ledger.absorbed += energy(path.power);
+            return path.stored;
+        };
+        let counts = scattering.bsdf.keeps() || path.lone && scattering.follows_narrow_lobes();
+        let stored = if counts { self.store(path, surface, wo, chunk) } else { path.stored };
+        let normal = shading_normal_towards(surface, wo);
+        let frame = self.scene.shading_frame(surface, normal);
+        let local = frame.to_local(wo);
+        let sample = scattering.sample(local, Transport::Importance, draw.lobe, draw.direction);
+        let Some(sample) = sample else {
+            chunk.ledger.absorbed += energy(path.power);
+            return stored;
+        };
+        let leaving = Leaving {
+            direction: frame.to_outer(sample.wi).normalize(),
+            weight: sample.weight,
+            normal,
+            lobe: sample.lobe,
+            reflects: sample.wi.z * local.z > 0.0,
+        };
+        self.send_on(path, stored, surface, &leaving, draw.survival, chunk, next);
+        stored
+    }
+
+    /// Weighs and, by `u`, thins out a photon that leaves, and says in the ledger what became of the rest.
+    #[inline(always)]
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "all of one photon's step; a struct of them is a copy of them"
+    )]
+    fn send_on(
+        &self,
+        path: &Path,
+        stored: bool,
+        surface: &Surface,
+        leaving: &Leaving,
+        u: f32,
+        chunk: &mut Chunk,
+        next: &mut Vec<Path>,
+    ) {
+        let wo = -path.ray.direction;
+        let &Leaving { direction, weight, normal, lobe, reflects } = leaving;
+        let followed = lobe != Lobe::Kept;
+        let scattered = path.power * weight;
+        let correction = if !followed && leaves_wrongly(surface, wo, direction, reflects) {
+            0.0
+        } else if lobe == Lobe::Straight {
+            1.0
+        } else {
+            adjoint_correction(surface.normal, normal, wo, direction)
+        };
+        let corrected = scattered * correction;
+        if !corrected.is_finite() {
+            // Dropped before it reaches a sum: one NaN would be all that is left of the image.
+            chunk.ledger.dropped += 1;
+            chunk.ledger.lost += energy(path.power);
+            chunk.losses[self.material(surface)].dropped += 1;
+            chunk.leave_out(LeftOut {
+                quantity: Quantity::ScatteredPower,
+                light: Some(path.emitter),
+                surface: not_finite::Surface::Shape(surface.shape),
+                position: surface.position,
+            });
+            return;
+        }
+        chunk.ledger.absorbed += left_out(path.power, weight);
+        if correction != 1.0 {
+            let lost = left_out(scattered, Rgb::splat(correction));
+            chunk.ledger.shading_normals += lost;
+            chunk.ledger.shading_gain += (-lost).max(0.0);
+        }
+        if corrected.is_black() {
+            return;
+        }
+        if path.edges + 1 >= self.max_depth {
+            chunk.ledger.truncated += energy(corrected);
+            chunk.losses[self.material(surface)].truncated += energy(corrected);
+            return;
+        }
+        let Some(power) = roulette(corrected, path.power, u, &mut chunk.ledger) else { return };
+        let direction =
+            if followed { on_the_right_side(surface, wo, direction, reflects) } else { direction };
+        next.push(Path {
+            ray: Ray::new(surface.ray_origin(direction), direction),
+            power,
+            class: path.class.scattered(lobe),
+            lone: self.stays_lone(path, lobe),
+            stored,
+            edges: path.edges + 1,
+            emitter: path.emitter,
+            stream: path.stream.clone(),
+        });
+    }
+
+    /// Whether the photon is one that [`Photon::is_lone`] means after one more lobe.
+    fn stays_lone(&self, path: &Path, lobe: Lobe) -> bool {
+        match lobe {
+            Lobe::Kept | Lobe::Narrow => false,
+            Lobe::Straight => path.lone,
+            Lobe::Single => {
+                path.lone
+                    || path.class == PathClass::Direct
+                        && self.scene.emitters()[path.emitter as usize].is_without_extent()
+            }
+        }
+    }
+
+    /// Index of the surface's material.
+    fn material(&self, surface: &Surface) -> usize {
+        self.scene.shapes()[surface.shape as usize].material as usize
+    }
+
+    /// Stores the photon if a hit point may ask for it. Whether it has been stored anywhere so far.
+    #[inline(always)]
+    fn store(&self, path: &Path, surface: &Surface, wo: Vec3, chunk: &mut Chunk) -> bool {
+        if path.class == PathClass::Direct && !self.stores_direct {
+            return path.stored;
+        }
+        let Some(cell) = self.grid.number(surface.position) else { return path.stored };
+        let outward = wo.dot(surface.normal);
+        let (normal, patch) = (surface.normal * 1f32.copysign(outward), surface.patch_towards(outward > 0.0));
+        let edges = path.edges.min(255) as u8;
+        let from = self.directions.then_some(wo);
+        chunk.photons.push(
+            Photon::new(surface.position, normal, patch, from, path.power, path.class, edges)
+                .marked(path.lone),
+        );
+        chunk.cells.push(cell);
+        true
+    }
+}
+
+/// |ωi·n_s| |ωo·n_g| / (|ωi·n_g| |ωo·n_s|) for light from `wo` scattered to `wi`: photons see the adjoint of a BSDF with
+/// interpolated normals. `[VEA97]` section 5.3
+fn adjoint_correction(n_g: Vec3, n_s: Vec3, wo: Vec3, wi: Vec3) -> f32 {
+    if n_g == n_s {
+        return 1.0;
+    }
+    let upper = wo.dot(n_s).abs() * wi.dot(n_g).abs();
+    let lower = wo.dot(n_g).abs().max(SMALLEST_COSINE) * wi.dot(n_s).abs().max(SMALLEST_COSINE);
+    upper / lower
+}
+
+/// Survival in proportion to the power that is left, so that all photons carry about the same.
+fn roulette(power: Rgb, before: Rgb, u: f32, ledger: &mut Ledger) -> Option<Rgb> {
+    let chance = power.max_component() / before.max_component();
+    if chance >= 1.0 {
+        return Some(power);
+    }
+    ledger.roulette += energy(power);
+    if u >= chance {
+        return None;
+    }
+    let survivor = power / chance;
+    ledger.roulette -= energy(survivor);
+    Some(survivor)
+}

@@ -1,0 +1,330 @@
+//! A uniform grid over the hit points: which cells any disc touches, and dense numbers for just those.
+//!
+//! A photon in an untouched cell is not stored. Touched cells are numbered along x first, so a run of cells along x is one
+//! range of numbers, and of photons once they are sorted by number. The bitmap stays within a core's second-level cache.
+//!
+//! Where hit points reach far beyond the middle ones, as on a ground seen to its horizon, cells grow with the distance from those,
+//! axis by axis, as discs do there: boxes stay boxes, and near the middle cells are as small as discs.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use foton_math::Aabb;
+use foton_math::glam::{UVec3, Vec3};
+use rayon::prelude::*;
+
+use super::packet::{LANES, Packet};
+
+/// Cells an edge of which is this many of the median radius: measured to be the best trade of candidates against rows.
+const CELL_IN_RADII: f32 = 2.6;
+
+/// Cells at most: 2^20 of them take 256 KiB with their ranks.
+pub const MAX_CELLS: u32 = 1 << 20;
+
+/// Cells grow where hit points reach beyond so many times their median distance from the middle.
+const FAR: f32 = 16.0;
+
+/// 64 cells along x.
+#[derive(Clone, Copy, Debug, Default)]
+struct Word {
+    /// Which are touched.
+    touched: u64,
+    /// How many are touched in all words before.
+    rank: u32,
+}
+
+/// How cells grow: axis by axis with the logarithm of the distance from the middle, which is cut into straight pieces that the bits
+/// of a floating-point number give for nothing.
+#[derive(Clone, Copy, Debug)]
+struct Growth {
+    centre: Vec3,
+    inverse_scale: f32,
+}
+
+impl Growth {
+    /// That of these packets, if they reach far.
+    fn of(packets: &[Packet], bounds: &Aabb) -> Option<Self> {
+        let median = |axis: usize| {
+            let there = |(x, r2): (&f32, &f32)| (*r2 >= 0.0).then_some(*x);
+            let mut of_axis: Vec<f32> = packets
+                .iter()
+                .flat_map(|p| p.position[axis].iter().zip(&p.radius2).filter_map(there))
+                .collect();
+            median_of(&mut of_axis)
+        };
+        let centre = Vec3::new(median(0), median(1), median(2));
+        let mut distances: Vec<f32> = packets
+            .iter()
+            .flat_map(|p| {
+                let at = |l: usize| Vec3::new(p.position[0][l], p.position[1][l], p.position[2][l]);
+                (0..LANES).filter(|&l| p.radius2[l] >= 0.0).map(move |l| (at(l) - centre).abs().max_element())
+            })
+            .collect();
+        let scale = median_of(&mut distances);
+        let farthest = (bounds.max - centre).abs().max((bounds.min - centre).abs()).max_element();
+        (farthest > FAR * scale && scale > 0.0).then(|| Self { centre, inverse_scale: 1.0 / scale })
+    }
+
+    /// ± log₂(1 + |x|/scale) axis by axis, about: exact at powers of two and straight between, so that it grows with x whatever is
+    /// rounded.
+    #[inline(always)]
+    fn place(&self, position: Vec3) -> Vec3 {
+        let x = (position - self.centre) * self.inverse_scale;
+        let log = |x: f32| {
+            let bits = (1.0 + x.abs()).to_bits() as i32 - 1f32.to_bits() as i32;
+            (bits as f32 / (1 << 23) as f32).copysign(x)
+        };
+        Vec3::new(log(x.x), log(x.y), log(x.z))
+    }
+}
+
+/// The grid. Its cells are fixed by the first radii: results depend on their order. What is touched may be marked anew.
+pub struct Grid {
+    growth: Option<Growth>,
+    /// Where cells begin, after their growth.
+    origin: Vec3,
+    inverse_cell: f32,
+    cells: UVec3,
+    words: Vec<Word>,
+    touched: u32,
+}
+
+impl Grid {
+    /// A grid for the packets' first radii.
+    pub fn new(packets: &[Packet]) -> Self {
+        let bounds = packets.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
+        if bounds.is_empty() {
+            return Self {
+                growth: None,
+                origin: Vec3::ZERO,
+                inverse_cell: 1.0,
+                cells: UVec3::ZERO,
+                words: Vec::new(),
+                touched: 0,
+            };
+        }
+        let growth = Growth::of(packets, &bounds);
+        let place = |p: Vec3| growth.map_or(p, |g| g.place(p));
+        let (origin, size) = (place(bounds.min), place(bounds.max) - place(bounds.min));
+        let mut cell = CELL_IN_RADII * median_radius(packets) * growth.map_or(1.0, |g| g.inverse_scale);
+        // No cell is smaller than a row of all cells allows: from there the loop ends soon, whatever the sizes are.
+        cell = cell.max(size.max_element() / MAX_CELLS as f32).max(f32::MIN_POSITIVE);
+        let count = |cell: f32| (size / cell).floor() + 1.0;
+        while count(cell).element_product() > MAX_CELLS as f32 {
+            cell *= 1.02;
+        }
+        let cells = count(cell).as_uvec3();
+        let words = (cells.element_product() as usize).div_ceil(64) + 1;
+        let mut grid = Self {
+            growth,
+            origin,
+            inverse_cell: 1.0 / cell,
+            cells,
+            words: vec![Word::default(); words],
+            touched: 0,
+        };
+        grid.mark(packets);
+        grid
+    }
+
+    /// Marks the cells that discs touch now, and numbers them.
+    pub fn mark(&mut self, packets: &[Packet]) {
+        let bits: Vec<AtomicU64> = self.words.iter().map(|_| AtomicU64::new(0)).collect();
+        packets.par_iter().for_each(|packet| {
+            for disc in packet.disc_boxes() {
+                self.for_each_row(&disc, |first, last| {
+                    for cell in first..=last {
+                        bits[cell as usize / 64].fetch_or(1 << (cell % 64), Ordering::Relaxed);
+                    }
+                });
+            }
+        });
+        let mut rank = 0;
+        for (word, bits) in self.words.iter_mut().zip(bits) {
+            *word = Word { touched: bits.into_inner(), rank };
+            rank += word.touched.count_ones();
+        }
+        self.touched = rank;
+    }
+
+    /// How many cells are touched.
+    #[inline]
+    pub const fn touched(&self) -> u32 {
+        self.touched
+    }
+
+    /// Bytes held.
+    pub const fn bytes(&self) -> usize {
+        self.words.len() * size_of::<Word>()
+    }
+
+    /// Position in cells.
+    #[inline(always)]
+    fn in_cells(&self, position: Vec3) -> Vec3 {
+        let place = self.growth.map_or(position, |growth| growth.place(position));
+        (place - self.origin) * self.inverse_cell
+    }
+
+    /// The number of the touched cell that holds `position`; `None` in an untouched cell or outside.
+    #[inline]
+    pub fn number(&self, position: Vec3) -> Option<u32> {
+        let p = self.in_cells(position);
+        // Written so that NaN is outside too.
+        if !p.cmpge(Vec3::ZERO).all() {
+            return None;
+        }
+        let c = p.as_uvec3();
+        if c.cmpge(self.cells).any() {
+            return None;
+        }
+        let cell = (c.z * self.cells.y + c.y) * self.cells.x + c.x;
+        let word = &self.words[cell as usize / 64];
+        let bit = 1u64 << (cell % 64);
+        (word.touched & bit != 0).then(|| word.rank + (word.touched & (bit - 1)).count_ones())
+    }
+
+    /// How many touched cells come before `cell`.
+    #[inline]
+    fn rank(&self, cell: u32) -> u32 {
+        let word = &self.words[cell as usize / 64];
+        word.rank + (word.touched & ((1u64 << (cell % 64)) - 1)).count_ones()
+    }
+
+    /// Calls `f` with the first and last cell of each row along x that a box meets, in ascending order.
+    #[inline]
+    fn for_each_row(&self, bounds: &Aabb, mut f: impl FnMut(u32, u32)) {
+        let last = (self.cells - 1).as_vec3();
+        let to_cell = |p: Vec3| self.in_cells(p).clamp(Vec3::ZERO, last).as_uvec3();
+        let (low, high) = (to_cell(bounds.min), to_cell(bounds.max));
+        for z in low.z..=high.z {
+            for y in low.y..=high.y {
+                let row = (z * self.cells.y + y) * self.cells.x;
+                f(row + low.x, row + high.x);
+            }
+        }
+    }
+
+    /// Calls `f` with ranges of cell numbers that together hold every photon in a box, in ascending order.
+    #[inline]
+    pub fn for_each_run(&self, bounds: &Aabb, mut f: impl FnMut(u32, u32)) {
+        self.for_each_row(bounds, |first, last| {
+            let (start, end) = (self.rank(first), self.rank(last + 1));
+            if start < end {
+                f(start, end);
+            }
+        });
+    }
+}
+
+/// The median of all first radii: half of the hit points have a smaller one.
+fn median_radius(packets: &[Packet]) -> f32 {
+    let mut radius2: Vec<f32> =
+        packets.iter().flat_map(|p| p.radius2.iter().copied()).filter(|&r2| r2 >= 0.0).collect();
+    median_of(&mut radius2).sqrt()
+}
+
+/// The median; zero of nothing.
+fn median_of(values: &mut [f32]) -> f32 {
+    let middle = values.len() / 2;
+    if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f32::total_cmp).1 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera_paths::HitPoint;
+    use foton_math::{Purpose, Rgb, Stream, warp};
+
+    const fn hit_point(position: Vec3, radius: f32) -> HitPoint {
+        HitPoint {
+            position,
+            normal: Vec3::Z,
+            shading_normal: Vec3::Z,
+            origin: Vec3::ZERO,
+            weight: Rgb::WHITE,
+            gloss: None,
+            radius2: radius * radius,
+            slab2: 1.0,
+            smallest2: 0.0,
+            budget: 9,
+            patch: 0,
+        }
+    }
+
+    /// Discs on a sphere, or on a ground that is seen to its horizon.
+    fn packets(ground: bool) -> Vec<Packet> {
+        let found: Vec<HitPoint> = (0..3000)
+            .map(|i| {
+                let mut s = Stream::new(5, Purpose::Test, 0, i);
+                let radius = if i % 50 == 0 { 20.0 } else { 0.5 + s.next_1d() };
+                // Most are near.
+                let (out, turn) = (2f32.powf(15.0 * s.next_1d().powi(4)), 6.0 * s.next_1d());
+                let (position, radius) = if ground {
+                    (Vec3::new(out * turn.cos(), -7.0, out * turn.sin()), 0.05 * out)
+                } else {
+                    (warp::square_to_sphere(s.next_2d()) * 300.0, radius)
+                };
+                hit_point(position, radius)
+            })
+            .collect();
+        super::super::packet::group(&found, |_| true)
+            .iter()
+            .map(|g| Packet::new(g.iter().map(|&i| &found[i as usize])))
+            .collect()
+    }
+
+    #[test]
+    fn every_position_in_a_disc_has_a_number_within_the_packets_runs() {
+        for ground in [false, true] {
+            find_all_positions(&packets(ground));
+        }
+    }
+
+    #[test]
+    fn cells_grow_where_discs_do() {
+        let packets = packets(true);
+        let grid = Grid::new(&packets);
+        assert!(grid.growth.is_some() && Grid::new(&self::packets(false)).growth.is_none());
+        // With equal cells those near the middle would be as wide as a 1024th of the whole, 64: hundreds of discs each.
+        let near = grid.in_cells(Vec3::new(2.0, -7.0, 0.0)) - grid.in_cells(Vec3::new(1.0, -7.0, 0.0));
+        assert!(near.x > 0.5, "{near}");
+    }
+
+    fn find_all_positions(packets: &[Packet]) {
+        let grid = Grid::new(packets);
+        let mut stream = Stream::new(6, Purpose::Test, 0, 0);
+        for packet in packets {
+            let mut runs = Vec::new();
+            grid.for_each_run(&packet.bounds(), |a, b| runs.push(a..b));
+            assert!(runs.windows(2).all(|w| w[0].end <= w[1].start), "ascending and apart");
+            for disc in packet.disc_boxes() {
+                for _ in 0..20 {
+                    let d = warp::square_to_sphere(stream.next_2d()) * stream.next_1d();
+                    let p = disc.centre() + d * disc.size().x * 0.499;
+                    let number = grid.number(p).expect("touched");
+                    assert!(number < grid.touched() && runs.iter().any(|r| r.contains(&number)), "{p}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_line_that_is_longer_than_numbers_are_fine_has_a_grid() {
+        let of = |radius: f32, length: f32| {
+            let hit = |x: f32| hit_point(Vec3::X * x, radius);
+            Packet::new([hit(0.0), hit(length)].iter())
+        };
+        for (radius, length) in [(1e-30, 1e30), (0.0, 1.0), (1e-20, 3e38), (1e18, 1e18)] {
+            assert!(Grid::new(&[of(radius, length)]).touched() > 0, "{radius} {length}");
+        }
+    }
+
+    #[test]
+    fn positions_outside_or_far_from_all_discs_have_no_number() {
+        let grid = Grid::new(&packets(false));
+        assert_eq!(grid.number(Vec3::ZERO), None);
+        assert_eq!(grid.number(Vec3::splat(1e6)), None);
+        assert_eq!(grid.number(Vec3::splat(-1e6)), None);
+        assert_eq!(grid.number(Vec3::splat(f32::NAN)), None);
+        assert_eq!(Grid::new(&[]).number(Vec3::ZERO), None);
+    }
+}

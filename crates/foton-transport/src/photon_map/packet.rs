@@ -1,0 +1,211 @@
+//! Sixteen hit points side by side, to be tested together against one photon.
+
+use foton_math::Aabb;
+use foton_math::glam::Vec3;
+
+use super::photon::patch_mark;
+use crate::camera_paths::HitPoint;
+use crate::not_finite::{LeftOut, Quantity, Surface};
+
+/// Hit points in a packet.
+pub const LANES: usize = 16;
+
+/// A packet is split further while it is wider than this many of its largest radius: most photons near a wide packet are near
+/// none of its discs.
+const WIDEST: f32 = 6.0;
+
+/// Hot query records of up to [`LANES`] hit points. Empty lanes have a negative squared radius, which nothing reaches.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+pub struct Packet {
+    /// Rows of x, y and z.
+    pub position: [[f32; LANES]; 3],
+    /// Geometric normal over 127: its dot product with a photon's stored normal is the cosine between both.
+    pub normal: [[f32; LANES]; 3],
+    /// Squared radii; negative in empty lanes.
+    pub radius2: [f32; LANES],
+    /// See [`HitPoint::slab2`].
+    pub slab2: [f32; LANES],
+    /// See [`HitPoint::budget`].
+    pub budget: [i32; LANES],
+    /// [`HitPoint::patch`], above the bits of the budget.
+    pub patch: [i32; LANES],
+}
+
+/// Vectors as three rows of lanes, zero where there are fewer.
+pub fn rows(vectors: impl Iterator<Item = Vec3>) -> [[f32; LANES]; 3] {
+    let mut rows = [[0.0; LANES]; 3];
+    for (lane, v) in vectors.enumerate() {
+        for (axis, row) in rows.iter_mut().enumerate() {
+            row[lane] = v[axis];
+        }
+    }
+    rows
+}
+
+impl Packet {
+    /// Up to [`LANES`] hit points, lane by lane.
+    pub fn new<'a>(members: impl Iterator<Item = &'a HitPoint> + Clone) -> Self {
+        let mut packet = Self {
+            position: rows(members.clone().map(|h| h.position)),
+            normal: rows(members.clone().map(|h| h.normal / 127.0)),
+            radius2: [-1.0; LANES],
+            slab2: [0.0; LANES],
+            budget: [0; LANES],
+            patch: [0; LANES],
+        };
+        for (lane, h) in members.enumerate() {
+            packet.radius2[lane] = h.radius2;
+            packet.slab2[lane] = h.slab2;
+            packet.budget[lane] = i32::from(h.budget);
+            packet.patch[lane] = patch_mark(h.patch);
+        }
+        packet
+    }
+
+    /// What is noted of a value at a lane that was not finite.
+    pub fn left_out(&self, quantity: Quantity, l: usize) -> LeftOut {
+        let of = |rows: &[[f32; LANES]; 3]| Vec3::from_array(rows.map(|row| row[l]));
+        let surface = Surface::Below(of(&self.normal) * 127.0);
+        LeftOut { quantity, light: None, surface, position: of(&self.position) }
+    }
+
+    /// Boxes around the spheres of the packet's discs.
+    pub fn disc_boxes(&self) -> impl Iterator<Item = Aabb> {
+        (0..LANES).filter(|&l| self.radius2[l] >= 0.0).map(|l| {
+            let centre = Vec3::from_array(self.position.map(|row| row[l]));
+            Aabb::around(centre, self.radius2[l].sqrt())
+        })
+    }
+
+    /// The box around all of them.
+    #[inline(always)]
+    #[allow(
+        clippy::needless_range_loop,
+        reason = "rows of lanes advance together; indices are what vectorises"
+    )]
+    pub fn bounds(&self) -> Aabb {
+        let mut bounds = Aabb::EMPTY;
+        for (axis, row) in self.position.iter().enumerate() {
+            let mut low = [f32::INFINITY; LANES];
+            let mut high = [f32::NEG_INFINITY; LANES];
+            for l in 0..LANES {
+                let there = self.radius2[l] >= 0.0;
+                let radius = self.radius2[l].max(0.0).sqrt();
+                low[l] = if there { row[l] - radius } else { f32::INFINITY };
+                high[l] = if there { row[l] + radius } else { f32::NEG_INFINITY };
+            }
+            for half in [8, 4, 2, 1] {
+                for l in 0..half {
+                    low[l] = if low[l + half] < low[l] { low[l + half] } else { low[l] };
+                    high[l] = if high[l + half] > high[l] { high[l + half] } else { high[l] };
+                }
+            }
+            (bounds.min[axis], bounds.max[axis]) = (low[0], high[0]);
+        }
+        bounds
+    }
+}
+
+/// A hit point on its way into a group.
+#[derive(Clone, Copy)]
+struct Point {
+    position: Vec3,
+    radius: f32,
+    index: u32,
+}
+
+/// Groups those hit points that `belongs` picks into packets: halved at the median of the longest axis until at most [`LANES`] are close together.
+/// Returns indices into `found`; the same for any number of threads.
+pub fn group(found: &[HitPoint], belongs: impl Fn(&HitPoint) -> bool) -> Vec<Vec<u32>> {
+    let mut points: Vec<Point> = found
+        .iter()
+        .enumerate()
+        .filter(|(_, h)| belongs(h))
+        .map(|(i, h)| Point { position: h.position, radius: h.radius2.sqrt(), index: i as u32 })
+        .collect();
+    halve(&mut points)
+}
+
+fn halve(points: &mut [Point]) -> Vec<Vec<u32>> {
+    if points.is_empty() {
+        return Vec::new();
+    }
+    let bounds = points.iter().fold(Aabb::EMPTY, |b, p| b.with(p.position));
+    let size = bounds.size();
+    if points.len() <= LANES {
+        let radius = points.iter().fold(0f32, |r, p| r.max(p.radius));
+        if points.len() == 1 || size.max_element() <= WIDEST * radius {
+            return vec![points.iter().map(|p| p.index).collect()];
+        }
+    }
+    let axis = size.max_position();
+    // Whole packets to the left, so that few are left part empty.
+    let half = points.len().div_ceil(2);
+    let middle = if points.len() > LANES { half.next_multiple_of(LANES).min(points.len() - 1) } else { half };
+    let by_axis =
+        |a: &Point, b: &Point| a.position[axis].total_cmp(&b.position[axis]).then(a.index.cmp(&b.index));
+    points.select_nth_unstable_by(middle, by_axis);
+    let (left, right) = points.split_at_mut(middle);
+    let (mut groups, rest) = if left.len() > 4096 {
+        rayon::join(|| halve(left), || halve(right))
+    } else {
+        (halve(left), halve(right))
+    };
+    groups.extend(rest);
+    groups
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use foton_math::{Purpose, Rgb, Stream};
+
+    fn scattered(n: u64) -> Vec<HitPoint> {
+        (0..n)
+            .map(|i| {
+                let mut s = Stream::new(1, Purpose::Test, 0, i);
+                HitPoint {
+                    position: Vec3::new(s.next_1d(), s.next_1d(), 0.01 * s.next_1d()) * 100.0,
+                    normal: Vec3::Z,
+                    shading_normal: Vec3::Z,
+                    origin: Vec3::ZERO,
+                    weight: Rgb::WHITE,
+                    gloss: None,
+                    radius2: 4.0,
+                    slab2: 1.0,
+                    budget: 9,
+                    patch: 0,
+                    smallest2: 0.0,
+                }
+            })
+            .collect()
+    }
+
+    #[test]
+    fn each_hit_point_is_in_one_group_and_groups_are_full_and_narrow() {
+        let found = scattered(50_000);
+        let groups = group(&found, |_| true);
+        let mut seen = vec![false; found.len()];
+        for g in &groups {
+            assert!(!g.is_empty() && g.len() <= LANES);
+            let b = g.iter().fold(Aabb::EMPTY, |b, &i| b.with(found[i as usize].position));
+            assert!(b.size().max_element() <= WIDEST * 2.0);
+            for &i in g {
+                assert!(!std::mem::replace(&mut seen[i as usize], true), "{i} twice");
+            }
+        }
+        assert!(seen.iter().all(|&s| s));
+        let fill = found.len() as f64 / (groups.len() * LANES) as f64;
+        assert!(fill > 0.8, "{fill}");
+    }
+
+    #[test]
+    fn coinciding_hit_points_are_grouped_too() {
+        let mut found = scattered(100);
+        for h in &mut found {
+            h.position = Vec3::ONE;
+        }
+        assert_eq!(group(&found, |_| true).iter().map(Vec::len).sum::<usize>(), 100);
+    }
+}

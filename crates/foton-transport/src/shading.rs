@@ -1,0 +1,25 @@
+//! Geometric and shading normals: on which side a direction counts.
+
+use foton_math::glam::Vec3;
+use foton_scene::Surface;
+
+/// |ω·n_g| counts as at least this in the shading normals' correction.
+pub const SMALLEST_COSINE: f32 = 1e-2;
+
+/// The shading normal, outside, or the geometric one where the shading normal turns away from a direction that the geometry
+/// does see (or sees one that it does not): a smooth silhouette is not black.
+pub fn shading_normal_towards(surface: &Surface, wo: Vec3) -> Vec3 {
+    let agrees = wo.dot(surface.normal) * wo.dot(surface.shading_normal) > 0.0;
+    if agrees { surface.shading_normal } else { surface.normal }
+}
+
+/// Whether a direction made with the shading normal lies on the wrong side of the true surface.
+pub fn leaves_wrongly(surface: &Surface, wo: Vec3, wi: Vec3, reflects: bool) -> bool {
+    (wo.dot(surface.normal) * wi.dot(surface.normal) > 0.0) != reflects
+}
+
+/// A direction of a followed lobe, mirrored in the plane of the true surface where it would end on its wrong side. To drop it
+/// would darken whatever is seen at grazing angles: waves from near the water line lose up to 5 % of their light.
+pub fn on_the_right_side(surface: &Surface, wo: Vec3, wi: Vec3, reflects: bool) -> Vec3 {
+    if leaves_wrongly(surface, wo, wi, reflects) { wi.reflect(surface.normal) } else { wi }
+}
