@@ -8,9 +8,6 @@ use std::process::Command;
 
 use crate::tools::{self, Trouble};
 
-/// What the step of `cargo xtask test` is called.
-pub(crate) const STEP: &str = "comparison with Mitsuba 3 (small)";
-
 const SCRIPTS: &str = "tests/conformance";
 
 /// One small diffuse scene, with the dev build that the tests have just made.

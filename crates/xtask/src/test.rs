@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use crate::tools::{self, Trouble};
+use crate::tools::{self, CARGO_TEST, CONFORMANCE, Trouble};
 use crate::{conformance, program};
 
 /// One part of the tests.
@@ -11,11 +11,8 @@ struct Step {
     run: fn() -> Result<(), Trouble>,
 }
 
-/// The step that runs the tests of the workspace.
-pub(crate) const CARGO_TEST: &str = "cargo test";
-
 const STEPS: [Step; 2] =
-    [Step { name: CARGO_TEST, run: cargo_test }, Step { name: conformance::STEP, run: conformance::quick }];
+    [Step { name: CARGO_TEST, run: cargo_test }, Step { name: CONFORMANCE, run: conformance::quick }];
 
 /// Runs every step whose packages are there, then sums up. Where nobody watches, a step that could not run counts as failed.
 pub(crate) fn all(install: bool) -> Result<(), Trouble> {

@@ -6,7 +6,11 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crate::test::CARGO_TEST;
+/// The step of `cargo xtask test` that runs the tests of the workspace.
+pub(crate) const CARGO_TEST: &str = "cargo test";
+
+/// The step that compares with Mitsuba 3.
+pub(crate) const CONFORMANCE: &str = "comparison with Mitsuba 3 (small)";
 
 /// Why a task did not succeed.
 #[derive(Debug)]
@@ -50,12 +54,8 @@ enum Probe {
 
 /// Everything beyond Rust that the tests use.
 pub(crate) const SYSTEM_PACKAGES: &[SystemPackage] = &[
-    needed(crate::conformance::STEP, "python3", Probe::Command(&["python3", "--version"])),
-    needed(
-        crate::conformance::STEP,
-        "python3-venv",
-        Probe::Command(&["python3", "-c", "import ensurepip, venv"]),
-    ),
+    needed(CONFORMANCE, "python3", Probe::Command(&["python3", "--version"])),
+    needed(CONFORMANCE, "python3-venv", Probe::Command(&["python3", "-c", "import ensurepip, venv"])),
     // A window, and something that draws it: software where there is no graphics card.
     needed(CARGO_TEST, "mesa-vulkan-drivers", Probe::File("/usr/share/vulkan/icd.d/*.json")),
     needed(CARGO_TEST, "libvulkan1", Probe::Library("libvulkan.so.1")),

@@ -6,7 +6,7 @@ use std::time::Duration;
 use foton_session::engine::{Command, Configuration, Gesture};
 use foton_session::{Alpha, Change, DirectLight, RadiusFloor, RadiusRule, Settings, StopRule};
 
-use super::{heading, slider};
+use super::widgets::{heading, slider};
 use crate::state::State;
 
 pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {

@@ -3,7 +3,7 @@
 use foton_session::edit::{Control, Field, Value};
 use foton_session::engine::{Change, Command};
 
-use super::{heading, slider};
+use super::widgets::{heading, slider};
 use crate::state::State;
 
 pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {

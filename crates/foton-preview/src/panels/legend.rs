@@ -2,7 +2,7 @@
 
 use egui::{Align2, Color32, FontId, Pos2, Rect, Vec2};
 
-use super::short;
+use super::text::short;
 use crate::present::colour_map;
 
 /// What the colours mean.

@@ -4,6 +4,7 @@ mod canvas;
 mod controls;
 mod dropping;
 mod error;
+mod film_place;
 mod help;
 mod inspector;
 mod keys;
@@ -11,7 +12,9 @@ mod legend;
 mod messages;
 mod numbers;
 mod overlay;
+mod text;
 mod toolbar;
+mod widgets;
 
 #[cfg(test)]
 mod tests;
@@ -74,55 +77,5 @@ fn dialog(ctx: &egui::Context, state: &mut State) {
                 DialogPurpose::TakeUpCheckpoint => state.ask(Command::TakeUpCheckpoint(path)),
             }
         }
-    }
-}
-
-/// A heading over a group of controls.
-fn heading(ui: &mut egui::Ui, text: &str) {
-    ui.add_space(8.0);
-    ui.label(egui::RichText::new(text).strong());
-    ui.add_space(2.0);
-}
-
-/// A slider that leaves a value alone until someone moves it: one that rounds or clamps what it shows would steer by itself.
-fn slider<N: egui::emath::Numeric>(value: &mut N, range: std::ops::RangeInclusive<N>) -> egui::Slider<'_> {
-    egui::Slider::new(value, range).clamping(egui::SliderClamping::Edits)
-}
-
-/// A number with thousands set apart: `12 345 678`.
-fn grouped(n: u64) -> String {
-    let digits = n.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push('\u{a0}');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-/// A positive number in three digits, with powers of ten where that is shorter.
-fn short(x: f64) -> String {
-    match x.abs() {
-        0.0 => "0".to_owned(),
-        a if (0.01..1e4).contains(&a) => {
-            let decimals = (2 - a.log10().floor() as i32).clamp(0, 4);
-            format!("{x:.*}", decimals as usize)
-        }
-        _ => format!("{x:.2e}"),
-    }
-}
-
-#[cfg(test)]
-mod words {
-    use super::*;
-
-    #[test]
-    fn numbers_are_short_and_grouped() {
-        assert_eq!(grouped(1_234_567), "1\u{a0}234\u{a0}567");
-        assert_eq!((grouped(0), grouped(999)), ("0".to_owned(), "999".to_owned()));
-        assert_eq!((short(0.0), short(12.345), short(0.0456)), ("0".into(), "12.3".into(), "0.0456".into()));
-        assert_eq!((short(1.5e-5), short(123_456.0)), ("1.50e-5".to_owned(), "1.23e5".to_owned()));
     }
 }

@@ -3,7 +3,9 @@
 use egui_plot::{Line, Plot, PlotPoints};
 use foton_session::engine::{Activity, Frame};
 
-use super::{error, grouped, heading, short};
+use super::error;
+use super::text::{grouped, short};
+use super::widgets::heading;
 use crate::state::{State, Trace};
 
 /// A share of the light cut off at the longest path that is worth a warning, as in `foton render`.

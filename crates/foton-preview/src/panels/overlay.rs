@@ -5,7 +5,7 @@ use foton_session::PathClass;
 use foton_session::edit::Segment;
 use foton_session::engine::{Dot, Frame};
 
-use super::canvas::Film;
+use super::film_place::Film;
 use crate::state::State;
 
 const CHOSEN: Color32 = Color32::from_rgb(255, 170, 40);

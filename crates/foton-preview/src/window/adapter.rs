@@ -13,7 +13,8 @@ use egui_wgpu::{RenderState, RendererOptions, WgpuConfiguration};
 use winit::event_loop::EventLoopProxy;
 use winit::window::Window;
 
-use super::{UserEvent, WindowError};
+use super::error::WindowError;
+use super::event::UserEvent;
 use crate::present::Presenter;
 
 pub(super) struct Adapter {

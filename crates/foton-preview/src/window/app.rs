@@ -10,10 +10,11 @@ use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
 use winit::window::WindowId;
 
+use super::error::WindowError;
+use super::event::UserEvent;
 use super::frame_log::FrameLog;
 use super::live::Live;
 use super::pace::Pace;
-use super::{UserEvent, WindowError};
 use crate::state::{State, Tone};
 
 /// Between looks at whether the scene's file has changed.

@@ -9,7 +9,8 @@ use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 use winit::window::{Window, WindowAttributes};
 
 use super::adapter::Adapter;
-use super::{UserEvent, WindowError, reason};
+use super::error::{WindowError, reason};
+use super::event::UserEvent;
 use crate::panels;
 use crate::state::State;
 

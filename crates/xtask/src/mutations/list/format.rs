@@ -1,6 +1,7 @@
 //! Protections of the readers and writers of files.
 
-use super::{BAD_FILES, CLI, FORMAT, MESHES, Mutation, PICTURES};
+use crate::mutations::mutation::Mutation;
+use crate::mutations::targets::{BAD_FILES, CLI, FORMAT, MESHES, PICTURES};
 
 pub(super) const LIST: &[Mutation] = &[
     Mutation {

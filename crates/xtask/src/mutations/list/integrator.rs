@@ -1,6 +1,7 @@
 //! Protections of the integrator.
 
-use super::{ANALYTIC, CLI, INTEGRATOR, LEDGER, Mutation, SURFACES, TRANSPORT};
+use crate::mutations::mutation::Mutation;
+use crate::mutations::targets::{ANALYTIC, CLI, INTEGRATOR, LEDGER, SURFACES, TRANSPORT};
 
 pub(super) const LIST: &[Mutation] = &[
     Mutation {

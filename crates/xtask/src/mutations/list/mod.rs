@@ -5,21 +5,7 @@ mod integrator;
 mod program;
 mod scene;
 
-use super::Mutation;
-
-const GEOMETRY: &str = "-p foton-scene --test geometry";
-const SCENE: &str = "-p foton-scene --lib";
-const FORMAT: &str = "-p foton-format --lib";
-const MESHES: &str = "-p foton-format --test meshes";
-const PICTURES: &str = "-p foton-format --test pictures";
-const BAD_FILES: &str = "-p foton-format --test bad_files";
-const TRANSPORT: &str = "-p foton-transport --lib";
-const INTEGRATOR: &str = "-p foton-integrator --lib";
-const SURFACES: &str = "-p foton-tests --test surfaces";
-const ANALYTIC: &str = "-p foton-tests --test analytic";
-const LEDGER: &str = "-p foton-tests --test ledger";
-const CHECKPOINTS: &str = "-p foton-tests --test checkpoints";
-const CLI: &str = "-p foton --no-default-features --test cli";
+use super::mutation::Mutation;
 
 /// All of them.
 pub(super) fn all() -> impl Iterator<Item = &'static Mutation> {

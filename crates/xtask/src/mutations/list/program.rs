@@ -1,6 +1,7 @@
 //! Protections of sessions and of the program.
 
-use super::{CHECKPOINTS, CLI, Mutation};
+use crate::mutations::mutation::Mutation;
+use crate::mutations::targets::{CHECKPOINTS, CLI};
 
 pub(super) const LIST: &[Mutation] = &[
     Mutation {

@@ -1,6 +1,7 @@
 //! Protections of the scene: what rays meet, how surfaces scatter, where photons start.
 
-use super::{ANALYTIC, CLI, GEOMETRY, Mutation, SCENE, SURFACES};
+use crate::mutations::mutation::Mutation;
+use crate::mutations::targets::{ANALYTIC, CLI, GEOMETRY, SCENE, SURFACES};
 
 pub(super) const LIST: &[Mutation] = &[
     Mutation {

@@ -4,37 +4,16 @@
 //! nothing here is ever changed. Not part of `ci`.
 
 mod list;
+mod mutation;
+mod targets;
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use mutation::Mutation;
+
 use crate::tools::{self, Trouble};
-
-/// A protection, how it is taken out, and what must notice.
-struct Mutation {
-    /// What is taken out, as docs/robustness.md has it.
-    what: &'static str,
-    /// Where, from the root of the repository.
-    file: &'static str,
-    /// What stands there once, and what comes in its place.
-    from: &'static str,
-    to: &'static str,
-    /// The arguments of `cargo test` that find the test.
-    target: &'static str,
-    /// The test that must fail.
-    test: &'static str,
-}
-
-impl Mutation {
-    /// The file's text without the protection.
-    fn applied_to(&self, text: &str) -> Result<String, Trouble> {
-        match text.matches(self.from).count() {
-            1 => Ok(text.replacen(self.from, self.to, 1)),
-            n => Err(Trouble::Failed(format!("{}: `{}` is there {n} times", self.file, self.from))),
-        }
-    }
-}
 
 /// Takes out all protections whose description has one of `words`, divided by commas, in it; each test must pass before, and fail
 /// after.

@@ -1,0 +1,15 @@
+//! Arguments of `cargo test` that find a test.
+
+pub(super) const GEOMETRY: &str = "-p foton-scene --test geometry";
+pub(super) const SCENE: &str = "-p foton-scene --lib";
+pub(super) const FORMAT: &str = "-p foton-format --lib";
+pub(super) const MESHES: &str = "-p foton-format --test meshes";
+pub(super) const PICTURES: &str = "-p foton-format --test pictures";
+pub(super) const BAD_FILES: &str = "-p foton-format --test bad_files";
+pub(super) const TRANSPORT: &str = "-p foton-transport --lib";
+pub(super) const INTEGRATOR: &str = "-p foton-integrator --lib";
+pub(super) const SURFACES: &str = "-p foton-tests --test surfaces";
+pub(super) const ANALYTIC: &str = "-p foton-tests --test analytic";
+pub(super) const LEDGER: &str = "-p foton-tests --test ledger";
+pub(super) const CHECKPOINTS: &str = "-p foton-tests --test checkpoints";
+pub(super) const CLI: &str = "-p foton --no-default-features --test cli";
