@@ -3,11 +3,11 @@
 /// A layer of output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LayerKind {
-    /// Reflected light that came straight from emitters. Needs [`Settings::layers`](crate::Settings::layers).
+    /// Reflected light that came straight from emitters. Needs [`RenderSettings::layers`](crate::RenderSettings::layers).
     Direct,
-    /// Reflected light that came by mirrors and glass only. Needs [`Settings::layers`](crate::Settings::layers).
+    /// Reflected light that came by mirrors and glass only. Needs [`RenderSettings::layers`](crate::RenderSettings::layers).
     Caustic,
-    /// Reflected light that came by diffuse surfaces. Needs [`Settings::layers`](crate::Settings::layers).
+    /// Reflected light that came by diffuse surfaces. Needs [`RenderSettings::layers`](crate::RenderSettings::layers).
     Indirect,
     /// Emitters seen directly or by specular bounces.
     Emission,
@@ -17,7 +17,7 @@ pub enum LayerKind {
     PhotonCount,
     /// Index of the shape that the pixel's first sample meets first, from 0; 2³² − 1 for none.
     ShapeId,
-    /// Standard deviation of the pixel's luminance. Needs [`Settings::error`](crate::Settings::error), as all errors do.
+    /// Standard deviation of the pixel's luminance. Needs [`RenderSettings::error`](crate::RenderSettings::error), as all errors do.
     ErrorNoise,
     /// Blur of the pixel's luminance by the radius: a root mean square over 5 × 5 pixels.
     ErrorBias,

@@ -1,12 +1,14 @@
 //! Methods of light transport. So far one: progressive photon mapping, whose eye pass collects hit points once and whose photon
 //! passes refine them for ever after.
 //!
-//! [`Ppm`] is the algorithm in one screen; each stage has a file of its own. There are no files, windows or clocks here: a
+//! [`Render`] is a render by any of them. `ppm/algorithm.rs` has progressive photon mapping on one screen; each step has a file of its
+//! own. There are no files, windows or clocks here: a
 //! caller that wants to time stages is told when they begin.
 
 mod error;
 mod layers;
 mod ppm;
+mod render;
 mod settings;
 
 pub use error::{ClassError, ErrorEstimate, TileError};
@@ -15,7 +17,8 @@ pub use foton_transport::photon_map::PathClass;
 pub use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite, Quantity, Stage};
 pub use layers::LayerKind;
 pub use ppm::{
-    Disc, Feature, MemoryEstimate, PassReport, Ppm, Radii, Start, Statistics, Step, StoredPhoton, Variants,
-    features,
+    Alpha, DirectLight, Disc, Feature, MemoryEstimate, PassReport, PpmSettings, Radii, RadiusFloor,
+    RadiusRule, RadiusScale, Start, Statistics, Step, StoredPhoton, Variants, features,
 };
-pub use settings::{Alpha, Change, DirectLight, RadiusFloor, RadiusRule, RadiusScale, Settings};
+pub use render::Render;
+pub use settings::{Method, RenderSettings, SettingChange};

@@ -321,8 +321,8 @@ impl ErrorSums {
         (variance.iter().map(|v| v.sqrt() as f32).collect(), (0..bias2.len()).map(smooth).collect())
     }
 
-    /// The estimated blur of each pixel.
-    pub(crate) fn blur(&self) -> Vec<f64> {
+    /// The estimated bias of each pixel.
+    pub(crate) fn bias(&self) -> Vec<f64> {
         let per_photon = self.weights.shares().per_photon;
         self.pixels.iter().map(|pixel| pixel.bias * per_photon).collect()
     }

@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 use foton_transport::codec::{Reader, StateError, Writer};
 use foton_transport::photon_map::LANES;
 
-use crate::settings::Alpha;
+use super::settings::Alpha;
 
 /// Blur over light, per square of how far the light's middle is off.
 const OF_OFFSET: f64 = 6.0;

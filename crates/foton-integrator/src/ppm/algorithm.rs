@@ -15,9 +15,10 @@ use super::eye_samples::eye_pass;
 use super::hit_points::HitPoints;
 use super::light::Light;
 use super::report::{PassReport, Start};
+use super::settings::{DirectLight, RadiusRule};
 use super::slots::Kept;
 use crate::error::ErrorSums;
-use crate::settings::{Change, DirectLight, RadiusRule, Settings};
+use crate::settings::{RenderSettings, SettingChange};
 
 /// About so many hit points tell what is seen.
 pub(super) const LOOKED_AT: usize = 4096;
@@ -26,7 +27,7 @@ pub(super) const LOOKED_AT: usize = 4096;
 pub struct Ppm {
     pub(super) scene: Arc<Scene>,
     pub(super) sources: Sources,
-    pub(super) settings: Settings,
+    pub(super) settings: RenderSettings,
     pub(super) hit_points: HitPoints,
     pub(super) shapes: Vec<u32>,
     pub(super) light: Light,
@@ -44,7 +45,7 @@ pub struct Ppm {
     pub(super) passes: u64,
     pub(super) photons_emitted: u64,
     pub(super) last_photons: u64,
-    pub(super) changes: Vec<(u64, Change)>,
+    pub(super) changes: Vec<(u64, SettingChange)>,
     pub(super) start: Start,
     /// Whether a pass that leaves a value out does not happen.
     pub(super) strict: bool,
@@ -60,18 +61,18 @@ impl Ppm {
     /// When cancelled.
     pub fn start(
         scene: Arc<Scene>,
-        settings: Settings,
+        settings: RenderSettings,
         watch: &mut dyn FnMut(Stage),
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
         watch(Stage::EyePass);
-        let max_depth = Self::max_depth(&scene, &settings);
+        let max_depth = settings.max_depth_in(&scene);
         let eye = eye_pass(&scene, &settings, max_depth, Purpose::Eye).run(cancel)?;
         watch(Stage::Layout);
-        let shadow_rays = settings.direct_light == DirectLight::ShadowRays;
+        let shadow_rays = settings.ppm.direct_light == DirectLight::ShadowRays;
         let normals = scene.census().shading_normals;
         let hit_points = HitPoints::new(&eye.hit_points, &eye.gloss, eye.pixel_start(), normals, shadow_rays);
-        let asks = settings.error || settings.radius_rule == RadiusRule::Adaptive;
+        let asks = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;
         let hit_points = if asks { hit_points.with_evidence() } else { hit_points };
         let start = Start { hit_points: hit_points.len() as u64, eye_rays: eye.rays, dropped: eye.dropped };
         let step = (eye.hit_points.len() / LOOKED_AT).max(1);

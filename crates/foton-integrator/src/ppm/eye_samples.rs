@@ -4,22 +4,22 @@ use foton_math::Purpose;
 use foton_scene::Scene;
 use foton_transport::camera_paths::{EyePass, FirstRadius};
 
-use crate::settings::Settings;
+use crate::settings::RenderSettings;
 
 /// The eye pass of a render with such settings.
 pub(super) fn eye_pass<'a>(
     scene: &'a Scene,
-    settings: &Settings,
+    settings: &RenderSettings,
     max_depth: u32,
     purpose: Purpose,
 ) -> EyePass<'a> {
-    let (scale, floor) = (settings.radius_scale.get(), settings.radius_floor.get());
+    let (scale, floor) = (settings.ppm.radius_scale.get(), settings.ppm.radius_floor.get());
     EyePass {
         scene,
         sensor: settings.sensor,
         samples_per_pixel: settings.samples_per_pixel,
-        hit_points_per_sample: settings.hit_points_per_sample,
-        radius: FirstRadius::new(scene, settings.radius, scale, floor, settings.samples_per_pixel.get()),
+        hit_points_per_sample: settings.ppm.hit_points_per_sample,
+        radius: FirstRadius::new(scene, settings.ppm.radius, scale, floor, settings.samples_per_pixel.get()),
         max_depth,
         seed: settings.seed,
         purpose,

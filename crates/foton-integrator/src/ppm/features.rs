@@ -6,8 +6,9 @@ use foton_transport::camera_paths::Gloss;
 use super::adaptive::Evidence;
 use super::hit_points::ShadowOrigin;
 use super::radiance::Radiance;
+use super::settings::{DirectLight, RadiusRule};
 use crate::error::ErrorSums;
-use crate::settings::{DirectLight, RadiusRule, Settings};
+use crate::settings::RenderSettings;
 
 /// A part of the renderer that a scene may or may not need.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,7 +29,7 @@ pub struct Feature {
 
 /// All parts that can be left out, with whether they are.
 #[must_use]
-pub fn features(scene: &Scene, settings: &Settings) -> Vec<Feature> {
+pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
     let census = scene.census();
     let feature = |name, on, found, absent, cost, bytes_per_hit_point, bytes_per_pixel| Feature {
         name,
@@ -38,7 +39,7 @@ pub fn features(scene: &Scene, settings: &Settings) -> Vec<Feature> {
         bytes_per_hit_point,
         bytes_per_pixel,
     };
-    let shadow_rays = settings.direct_light == DirectLight::ShadowRays;
+    let shadow_rays = settings.ppm.direct_light == DirectLight::ShadowRays;
     let layers = Radiance::<3>::BYTES_PER_PIXEL - Radiance::<1>::BYTES_PER_PIXEL;
     vec![
         feature(
@@ -169,7 +170,7 @@ pub fn features(scene: &Scene, settings: &Settings) -> Vec<Feature> {
         ),
         feature(
             "radii that adapt",
-            settings.radius_rule == RadiusRule::Adaptive,
+            settings.ppm.radius_rule == RadiusRule::Adaptive,
             "asked for by --radius-rule",
             "radii shrink as photons are found",
             "five moments of each photon that counts",

@@ -10,7 +10,7 @@ use super::hit_points::{HitPoints, Irradiance};
 use super::radiance::Radiance;
 use super::shadow_rays;
 use crate::error::{self, ErrorSums, Question};
-use crate::settings::Settings;
+use crate::settings::RenderSettings;
 
 /// Light of one pass at the hit points, and of all passes in the pixels.
 pub(crate) struct Sums<const LAYERS: usize> {
@@ -63,7 +63,7 @@ macro_rules! each {
 }
 
 impl Light {
-    pub(crate) fn new(emission: Vec<Rgb>, hit_points: &HitPoints, settings: &Settings) -> Self {
+    pub(crate) fn new(emission: Vec<Rgb>, hit_points: &HitPoints, settings: &RenderSettings) -> Self {
         let samples = settings.samples_per_pixel.get();
         if settings.layers {
             Self::ByClass(Sums::new(emission, hit_points, samples))

@@ -12,10 +12,11 @@ use super::adaptive::Evidence;
 use super::eye_samples::eye_pass;
 use super::hit_points::{Irradiance, ShadowOrigin};
 use super::radiance::Radiance;
+use super::settings::{DirectLight, RadiusRule};
 use super::slots::Kept;
 use super::statistics::Statistics;
 use crate::error::ErrorSums;
-use crate::settings::{DirectLight, RadiusRule, Settings};
+use crate::settings::RenderSettings;
 
 /// Share of a packet's lanes that are used, measured on the shipped scenes: 0.8 to 0.95.
 const FILL: f64 = 0.8;
@@ -91,21 +92,21 @@ impl MemoryEstimate {
 
     /// Estimates a render on so many threads.
     #[must_use]
-    pub fn pilot(scene: &Scene, settings: &Settings, max_depth: u32, threads: usize) -> Self {
+    pub fn pilot(scene: &Scene, settings: &RenderSettings, threads: usize) -> Self {
         let sensor = &scene.sensors()[settings.sensor];
         let pixels = u64::from(sensor.width) * u64::from(sensor.height);
         let looked_at = pixels.min(u64::from(PILOT_PIXELS));
-        let one_sample = Settings { samples_per_pixel: std::num::NonZeroU32::MIN, ..settings.clone() };
-        let pass = eye_pass(scene, &one_sample, max_depth, Purpose::Pilot);
+        let one_sample = RenderSettings { samples_per_pixel: std::num::NonZeroU32::MIN, ..settings.clone() };
+        let pass = eye_pass(scene, &one_sample, settings.max_depth_in(scene), Purpose::Pilot);
         let pilot = pass.follow((0..looked_at).map(|i| (i * pixels / looked_at) as u32));
         let (found, glossy) = (pilot.hit_points.len(), pilot.gloss.len());
         let samples = pixels as f64 * f64::from(settings.samples_per_pixel.get());
         let hit_points = found as f64 / looked_at as f64 * samples;
         let glossy = glossy as f64 / looked_at as f64 * samples;
         let layers = if settings.layers { 3.0 } else { 1.0 };
-        let shadow = settings.direct_light == DirectLight::ShadowRays;
+        let shadow = settings.ppm.direct_light == DirectLight::ShadowRays;
         let shaded = scene.census().shading_normals;
-        let adapts = settings.error || settings.radius_rule == RadiusRule::Adaptive;
+        let adapts = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;
         let slot = size_of::<Packet>() / LANES
             + size_of::<Statistics>()
             + size_of::<f32>()
@@ -118,7 +119,7 @@ impl MemoryEstimate {
             if settings.layers { Radiance::<3>::BYTES_PER_PIXEL } else { Radiance::<1>::BYTES_PER_PIXEL };
         let per_pixel = per_pixel + if settings.error { ErrorSums::BYTES_PER_PIXEL } else { 0 };
         let photon = 2.0 * size_of::<Photon>() as f64 + size_of::<u32>() as f64;
-        let pass = settings.photons_per_pass.get().into();
+        let pass = settings.ppm.photons_per_pass.get().into();
         let batches = Batch::all(pass, MAX_PHOTONS);
         let batch = batches.map(|b| b.photons(pass)).max().unwrap_or(0);
         let slot = slot + if batch < pass { Kept::bytes_per_slot(adapts) as f64 } else { 0.0 };

@@ -48,7 +48,7 @@ impl Ppm {
             .collect()
     }
 
-    /// A layer beside the image; `None` for a path class when [`Settings::layers`](crate::Settings::layers) is off.
+    /// A layer beside the image; `None` for a path class when [`RenderSettings::layers`](crate::RenderSettings::layers) is off.
     #[must_use]
     pub fn layer(&self, kind: LayerKind) -> Option<Layer> {
         let rgb = |kind| self.colour_layer(kind).map(LayerData::Rgb);
@@ -79,26 +79,26 @@ impl Ppm {
         Some(self.as_image(pixels))
     }
 
-    /// How wrong the image still is; `None` without [`Settings::error`](crate::Settings::error), in the first passes, and in the dark.
+    /// How wrong the image still is; `None` without [`RenderSettings::error`](crate::RenderSettings::error), in the first passes, and in the dark.
     #[must_use]
     pub fn error(&self) -> Option<ErrorEstimate> {
         self.error.as_ref()?.estimate()
     }
 
-    /// The means of all squares of 8 × 8 pixels with their errors, row by row; none without [`Settings::error`](crate::Settings::error).
+    /// The means of all squares of 8 × 8 pixels with their errors, row by row; none without [`RenderSettings::error`](crate::RenderSettings::error).
     #[must_use]
     pub fn error_tiles(&self) -> Vec<TileError> {
         self.error.as_ref().map_or_else(Vec::new, ErrorSums::tiles)
     }
 
     /// What blur by the radius has added to each pixel's luminance, as estimated (W/m²/sr): with its sign, and √3 times as noisy as the
-    /// pixel. `None` without [`Settings::error`](crate::Settings::error).
+    /// pixel. `None` without [`RenderSettings::error`](crate::RenderSettings::error).
     #[must_use]
-    pub fn blur(&self) -> Option<Vec<f64>> {
-        Some(self.error.as_ref()?.blur())
+    pub fn bias(&self) -> Option<Vec<f64>> {
+        Some(self.error.as_ref()?.bias())
     }
 
-    /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`Settings::error`](crate::Settings::error).
+    /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`RenderSettings::error`](crate::RenderSettings::error).
     #[must_use]
     pub fn error_plane(&self, kind: LayerKind) -> Option<Vec<f32>> {
         let (noise, bias) = self.light.error_planes(self.error.as_ref()?);

@@ -9,10 +9,7 @@ use foton_transport::{Ledger, LightUse, Loss, NotFinite};
 use super::algorithm::Ppm;
 use super::report::Start;
 use crate::error::ErrorSums;
-use crate::settings::{Change, Settings};
-
-/// Longest path that is followed, whatever is asked for. What that cuts off stands in the ledger.
-const MAX_PATH_EDGES: u32 = 250;
+use crate::settings::{RenderSettings, SettingChange};
 
 impl Ppm {
     /// From now on a pass in which a value is not finite does not happen. Otherwise such values are left out and counted.
@@ -26,15 +23,8 @@ impl Ppm {
         self.not_finite.as_ref()
     }
 
-    /// The longest path of a render, in edges as Mitsuba counts them: what the settings say, or else the scene, but never
-    /// more than 250.
-    #[must_use]
-    pub fn max_depth(scene: &Scene, settings: &Settings) -> u32 {
-        settings.max_depth.or(scene.max_depth()).map_or(MAX_PATH_EDGES, |d| d.min(MAX_PATH_EDGES))
-    }
-
     /// Changes a setting from the next pass on. The change stands in [`Ppm::changes`] with the number of passes before it.
-    pub fn change(&mut self, change: Change) {
+    pub fn change(&mut self, change: SettingChange) {
         self.settings.change(change);
         self.changes.push((self.passes, change));
     }
@@ -53,13 +43,13 @@ impl Ppm {
 
     /// All changes so far, each with the number of passes before it.
     #[must_use]
-    pub fn changes(&self) -> &[(u64, Change)] {
+    pub fn changes(&self) -> &[(u64, SettingChange)] {
         &self.changes
     }
 
     /// The settings as they are now.
     #[must_use]
-    pub const fn settings(&self) -> &Settings {
+    pub const fn settings(&self) -> &RenderSettings {
         &self.settings
     }
 

@@ -3,8 +3,8 @@
 use foton_transport::light_paths::Batch;
 use pulp::Arch;
 
+use super::settings::Alpha;
 use crate::error::Question;
-use crate::settings::Alpha;
 
 /// How a pass is gathered.
 #[derive(Clone, Copy)]

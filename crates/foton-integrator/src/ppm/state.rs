@@ -9,26 +9,27 @@ use foton_transport::{Ledger, LightUse, Loss};
 use super::adaptive::Evidence;
 use super::algorithm::Ppm;
 use super::light::Light;
+use super::settings::Alpha;
 use super::statistics::Statistics;
-use crate::settings::{Alpha, Change};
+use crate::settings::SettingChange;
 
 impl Ppm {
     /// All that passes have changed. [`Ppm::restore`] takes it back into a render that was started with the same scene and
     /// settings, and the passes after that give the same bits as if there had been no break.
     #[must_use]
-    pub fn state(&self) -> Vec<u8> {
+    pub fn save(&self) -> Vec<u8> {
         let mut out = Writer::default();
         out.u64(self.passes);
         out.u64(self.photons_emitted);
         out.u64(self.last_photons);
         let settings = &self.settings;
-        out.f64(settings.alpha.get());
-        out.u64(settings.photons_per_pass.get().into());
+        out.f64(settings.ppm.alpha.get());
+        out.u64(settings.ppm.photons_per_pass.get().into());
         out.u64(self.changes.len() as u64);
         for (pass, change) in &self.changes {
             let (kind, bits) = match change {
-                Change::Alpha(alpha) => (0, alpha.get().to_bits()),
-                Change::PhotonsPerPass(photons) => (1, photons.get().into()),
+                SettingChange::Alpha(alpha) => (0, alpha.get().to_bits()),
+                SettingChange::PhotonsPerPass(photons) => (1, photons.get().into()),
             };
             [*pass, kind, bits].into_iter().for_each(|n| out.u64(n));
         }
@@ -65,7 +66,7 @@ impl Ppm {
         out.finish()
     }
 
-    /// Takes a [`Ppm::state`] back. After an error the render is not to be used.
+    /// Takes a [`Ppm::save`] back. After an error the render is not to be used.
     ///
     /// # Errors
     /// When the bytes are no state, or that of another render; see [`StateError`].
@@ -78,8 +79,8 @@ impl Ppm {
         let changes = (0..input.u64()?).map(|_| change(&mut input)).collect::<Result<_, _>>()?;
         (self.passes, self.photons_emitted, self.last_photons, self.changes) =
             (passes, emitted, last, changes);
-        self.settings.alpha = alpha;
-        self.settings.photons_per_pass = photons;
+        self.settings.ppm.alpha = alpha;
+        self.settings.ppm.photons_per_pass = photons;
         let ledger = &mut self.ledger;
         let Ledger {
             emitted,
@@ -137,11 +138,11 @@ fn nonzero(n: u64) -> Result<NonZeroU32, StateError> {
     u32::try_from(n).ok().and_then(NonZeroU32::new).ok_or(StateError::Impossible)
 }
 
-fn change(input: &mut Reader<'_>) -> Result<(u64, Change), StateError> {
+fn change(input: &mut Reader<'_>) -> Result<(u64, SettingChange), StateError> {
     let (pass, kind, bits) = (input.u64()?, input.u64()?, input.u64()?);
     let change = match kind {
-        0 => Change::Alpha(Alpha::new(f64::from_bits(bits)).ok_or(StateError::Impossible)?),
-        1 => Change::PhotonsPerPass(nonzero(bits)?),
+        0 => SettingChange::Alpha(Alpha::new(f64::from_bits(bits)).ok_or(StateError::Impossible)?),
+        1 => SettingChange::PhotonsPerPass(nonzero(bits)?),
         _ => return Err(StateError::Impossible),
     };
     Ok((pass, change))

@@ -7,7 +7,7 @@
 
 use foton_transport::codec::{Reader, StateError, Writer};
 
-use crate::settings::Alpha;
+use super::settings::Alpha;
 
 /// What a hit point has seen.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,11 +8,11 @@ use super::counts::Counts;
 use super::light::Light;
 use super::report::PassReport;
 use super::rule::Rule;
+use super::settings::{DirectLight, RadiusRule};
 use super::slots::Kept;
 use super::sweep::{Photons, sweep};
 use super::tally::Tally;
 use crate::error::{ErrorSums, Question};
-use crate::settings::{DirectLight, RadiusRule};
 
 /// Cells are marked anew when the mean r² has shrunk by this factor since the last time.
 const MARK_AGAIN: f64 = 0.7;
@@ -29,7 +29,7 @@ impl Ppm {
 
     /// Makes ready for the batches of a pass.
     pub(super) fn begin_pass(&mut self) -> Counts {
-        let photons = u64::from(self.settings.photons_after(self.passes).get());
+        let photons = u64::from(self.settings.ppm.photons_after(self.passes).get());
         let slots = self.hit_points.statistics_slots.len();
         let adapts = !self.hit_points.evidence_slots.is_empty();
         let several = self.batches(photons).nth(1).is_some();
@@ -56,14 +56,14 @@ impl Ppm {
             scene: &self.scene,
             sources: &self.sources,
             grid: &self.grid,
-            stores_direct: self.settings.direct_light == DirectLight::Photons,
+            stores_direct: self.settings.ppm.direct_light == DirectLight::Photons,
             directions: self.hit_points.ask_for_directions(),
             arch: self.arch,
-            max_depth: Self::max_depth(&self.scene, &self.settings),
+            max_depth: self.settings.max_depth_in(&self.scene),
             seed: self.settings.seed,
             pass: self.passes,
             // A path of one edge is an emitter seen directly: no photon can add to it.
-            photons: if Self::max_depth(&self.scene, &self.settings) > 1 { photons } else { 0 },
+            photons: if self.settings.max_depth_in(&self.scene) > 1 { photons } else { 0 },
             batch,
         }
     }
@@ -103,11 +103,11 @@ impl Ppm {
         watch: &mut dyn FnMut(Stage),
     ) {
         watch(Stage::Gather);
-        let (alpha, before) = (self.settings.alpha, self.photons_emitted);
+        let (alpha, before) = (self.settings.ppm.alpha, self.photons_emitted);
         let rule = Rule {
             alpha,
-            adapts: self.settings.radius_rule == RadiusRule::Adaptive,
-            common: self.settings.radius_rule.common(alpha, before, counts.photons),
+            adapts: self.settings.ppm.radius_rule == RadiusRule::Adaptive,
+            common: self.settings.ppm.radius_rule.common(alpha, before, counts.photons),
             batch,
             question: Question::after(self.passes),
             arch: self.arch,
@@ -124,7 +124,7 @@ impl Ppm {
 
     /// Adds direct light by shadow rays, if it is asked for, once hit points are refined.
     pub(super) fn add_shadow_rays(&mut self, counts: &mut Counts, watch: &mut dyn FnMut(Stage)) {
-        if self.settings.direct_light == DirectLight::ShadowRays {
+        if self.settings.ppm.direct_light == DirectLight::ShadowRays {
             watch(Stage::ShadowRays);
             let key = (self.settings.seed, self.passes, counts.photons);
             let (rays, omissions) = self.light.add_direct(&self.scene, &self.hit_points, key);
@@ -146,7 +146,7 @@ impl Ppm {
         self.photons_emitted += photons;
         let power = self.mean_power();
         if let Some(error) = &mut self.error {
-            let by_shadow_rays = self.settings.direct_light == DirectLight::ShadowRays;
+            let by_shadow_rays = self.settings.ppm.direct_light == DirectLight::ShadowRays;
             let asked = (Question::after(self.passes), by_shadow_rays, self.passes);
             self.light.add_error(error, &self.hit_points, (photons, power), asked);
         }

@@ -11,9 +11,12 @@ use foton_transport::photon_map::{Chunk, Grid, PathClass};
 use foton_transport::{Cancel, Cancelled, Stage};
 use rayon::prelude::*;
 
+use super::algorithm::Ppm;
 use super::counts::Counts;
-use super::{PassReport, Ppm};
-use crate::settings::{DirectLight, Settings};
+use super::report::PassReport;
+use super::settings::{DirectLight, PpmSettings};
+use crate::render::Render;
+use crate::settings::RenderSettings;
 
 /// Whose work begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,7 +31,7 @@ pub enum Step {
 
 /// Renders under way that share their photons.
 pub struct Variants {
-    runs: Vec<Ppm>,
+    runs: Vec<Render>,
     /// Touched by any disc of any variant, now or later: radii never grow.
     everywhere: Grid,
     chunks: Vec<Chunk>,
@@ -43,7 +46,7 @@ impl Variants {
     /// When cancelled.
     pub fn start(
         scene: &Arc<Scene>,
-        settings: &[Settings],
+        settings: &[RenderSettings],
         photons: u64,
         watch: &mut dyn FnMut(Step),
         cancel: &Cancel,
@@ -52,20 +55,16 @@ impl Variants {
         if settings.iter().any(|s| !shares_photons(first, s)) {
             return Ok(None);
         }
-        let start = |(i, settings): (usize, &Settings)| {
-            let mut run = Ppm::start(
-                Arc::clone(scene),
-                settings.clone(),
-                &mut |stage| watch(Step::Of(i, stage)),
-                cancel,
-            )?;
-            run.settings.seed = photons;
+        let start = |(i, settings): (usize, &RenderSettings)| {
+            let watch = &mut |stage| watch(Step::Of(i, stage));
+            let mut run = Render::start(Arc::clone(scene), settings.clone(), watch, cancel)?;
+            run.ppm_mut().settings.seed = photons;
             Ok(run)
         };
-        let runs: Vec<Ppm> = settings.iter().enumerate().map(start).collect::<Result<_, _>>()?;
-        let widest = |run: &&Ppm| run.hit_points.statistics().map(|s| s.radius2()).sum::<f64>();
+        let runs: Vec<Render> = settings.iter().enumerate().map(start).collect::<Result<_, _>>()?;
+        let widest = |run: &&Render| run.ppm().hit_points.statistics().map(|s| s.radius2()).sum::<f64>();
         let widest = runs.iter().max_by(|a, b| widest(a).total_cmp(&widest(b)));
-        let Some(everywhere) = widest.map(|run| Grid::new(&run.hit_points.packets)) else {
+        let Some(everywhere) = widest.map(|run| Grid::new(&run.ppm().hit_points.packets)) else {
             return Ok(None);
         };
         Ok(Some(Self { runs, everywhere, chunks: Vec::new() }))
@@ -80,14 +79,15 @@ impl Variants {
         watch: &mut dyn FnMut(Step),
         cancel: &Cancel,
     ) -> Result<Vec<PassReport>, Cancelled> {
-        let mut counts: Vec<Counts> = self.runs.iter_mut().map(Ppm::begin_pass).collect();
+        let mut counts: Vec<Counts> = self.runs.iter_mut().map(|run| run.ppm_mut().begin_pass()).collect();
         let photons = counts[0].photons;
-        for batch in self.runs[0].batches(photons) {
+        for batch in self.runs[0].ppm().batches(photons) {
             watch(Step::Trace);
-            let pass = self.runs[0].photon_pass(photons, batch);
+            let pass = self.runs[0].ppm().photon_pass(photons, batch);
             PhotonPass { grid: &self.everywhere, stores_direct: true, ..pass }
                 .shoot(&mut self.chunks, cancel)?;
             for (i, (run, counts)) in self.runs.iter_mut().zip(&mut counts).enumerate() {
+                let run = run.ppm_mut();
                 watch(Step::Share);
                 hand_out(&self.chunks, run);
                 let watch = &mut |stage| watch(Step::Of(i, stage));
@@ -96,8 +96,9 @@ impl Variants {
             }
         }
         let runs = self.runs.iter_mut().zip(counts).enumerate();
-        let conclude = |(i, (run, mut counts)): (usize, (&mut Ppm, Counts))| {
+        let conclude = |(i, (run, mut counts)): (usize, (&mut Render, Counts))| {
             let watch = &mut |stage| watch(Step::Of(i, stage));
+            let run = run.ppm_mut();
             run.add_shadow_rays(&mut counts, watch);
             run.accumulate(counts, watch)
         };
@@ -106,22 +107,25 @@ impl Variants {
 
     /// The renders, in the order of their settings.
     #[must_use]
-    pub fn runs(&self) -> &[Ppm] {
+    pub fn runs(&self) -> &[Render] {
         &self.runs
     }
 }
 
 /// Whether two renders trace the same photons from the same eye samples.
-fn shares_photons(a: &Settings, b: &Settings) -> bool {
-    let same = Settings {
-        alpha: a.alpha,
-        radius: a.radius,
-        radius_scale: a.radius_scale,
-        radius_floor: a.radius_floor,
-        radius_rule: a.radius_rule,
-        direct_light: a.direct_light,
+fn shares_photons(a: &RenderSettings, b: &RenderSettings) -> bool {
+    let same = RenderSettings {
         layers: a.layers,
         error: a.error,
+        ppm: PpmSettings {
+            alpha: a.ppm.alpha,
+            radius: a.ppm.radius,
+            radius_scale: a.ppm.radius_scale,
+            radius_floor: a.ppm.radius_floor,
+            radius_rule: a.ppm.radius_rule,
+            direct_light: a.ppm.direct_light,
+            ..b.ppm
+        },
         ..b.clone()
     };
     same == *a
@@ -129,7 +133,7 @@ fn shares_photons(a: &Settings, b: &Settings) -> bool {
 
 /// Gives a render those photons that its discs can reach.
 fn hand_out(all: &[Chunk], run: &mut Ppm) {
-    let skip_direct = run.settings().direct_light == DirectLight::ShadowRays;
+    let skip_direct = run.settings().ppm.direct_light == DirectLight::ShadowRays;
     let (own, grid) = (&mut run.chunks, &run.grid);
     own.resize_with(all.len(), Chunk::default);
     own.par_iter_mut().zip(all).for_each(|(own, all)| {
@@ -156,28 +160,31 @@ mod tests {
     use super::*;
     use std::num::NonZeroU32;
 
+    use super::super::settings::Alpha;
     use super::super::tests::scene::scene;
-    use crate::settings::Alpha;
 
     #[test]
     fn variants_in_batches_have_the_bits_of_runs_of_their_own_in_batches() {
         let photons = NonZeroU32::new(20_000).expect("above 0");
         // So short that power is cut off at the materials.
-        let base = Settings {
-            photons_per_pass: photons,
-            first_pass: photons,
+        let base = RenderSettings {
             max_depth: Some(3),
-            ..Settings::default()
+            ppm: PpmSettings { photons_per_pass: photons, first_pass: photons, ..PpmSettings::default() },
+            ..RenderSettings::default()
         };
         let settings = [
             base.clone(),
-            Settings { alpha: Alpha::new(0.3).expect("in range"), error: true, ..base.clone() },
-            Settings { direct_light: DirectLight::ShadowRays, ..base },
+            RenderSettings {
+                error: true,
+                ppm: PpmSettings { alpha: Alpha::new(0.3).expect("in range"), ..base.ppm },
+                ..base.clone()
+            },
+            RenderSettings { ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..base.ppm }, ..base },
         ];
         let (scene, cancel) = (scene(), Cancel::default());
         let started = Variants::start(&scene, &settings, 0, &mut |_| (), &cancel).expect("not cancelled");
         let mut together = started.expect("they share their photons");
-        together.runs = together.runs.into_iter().map(|run| run.with_batches_of(6_000)).collect();
+        together.runs.iter_mut().for_each(|run| run.ppm_mut().max_in_batch = 6_000);
         for _ in 0..3 {
             together.advance(&mut |_| (), &cancel).expect("not cancelled");
         }

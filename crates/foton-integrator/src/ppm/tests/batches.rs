@@ -8,26 +8,26 @@ use foton_math::Rgb;
 use foton_transport::{Cancel, Stage};
 
 use crate::layers::LayerKind;
+use crate::ppm::settings::{DirectLight, PpmSettings, RadiusRule};
 use crate::ppm::tests::scene::scene;
 use crate::ppm::{PassReport, Ppm};
-use crate::settings::{DirectLight, RadiusRule, Settings};
+use crate::settings::RenderSettings;
 
 const PHOTONS: u32 = 30_000;
 /// Three batches, and not equal ones.
 const MOST: u64 = 10_100;
 
-fn settings() -> Settings {
+fn settings() -> RenderSettings {
     let photons = NonZeroU32::new(PHOTONS).expect("above 0");
-    Settings {
-        photons_per_pass: photons,
-        first_pass: photons,
+    RenderSettings {
         layers: true,
         error: true,
-        ..Settings::default()
+        ppm: PpmSettings { photons_per_pass: photons, first_pass: photons, ..PpmSettings::default() },
+        ..RenderSettings::default()
     }
 }
 
-fn start(settings: Settings, most: u64) -> Ppm {
+fn start(settings: RenderSettings, most: u64) -> Ppm {
     Ppm::start(scene(), settings, &mut |_| (), &Cancel::default())
         .expect("not cancelled")
         .with_batches_of(most)
@@ -40,12 +40,15 @@ fn advance(ppm: &mut Ppm) -> PassReport {
 /// Everything that passes have changed, and all layers.
 fn state(ppm: &Ppm) -> (Vec<u8>, String) {
     let layers: Vec<_> = LayerKind::ALL.into_iter().map(|kind| ppm.layer(kind)).collect();
-    (ppm.state(), format!("{layers:?}"))
+    (ppm.save(), format!("{layers:?}"))
 }
 
 #[test]
 fn a_pass_in_batches_is_the_pass_at_once() {
-    let local = || Settings { radius_rule: RadiusRule::Local, ..settings() };
+    let local = || RenderSettings {
+        ppm: PpmSettings { radius_rule: RadiusRule::Local, ..settings().ppm },
+        ..settings()
+    };
     let (mut whole, mut parts) = (start(local(), u64::MAX), start(local(), MOST));
     for _ in 0..4 {
         let (at_once, in_parts) = (advance(&mut whole), advance(&mut parts));
@@ -101,7 +104,10 @@ fn batches_give_the_same_bits_on_any_number_of_threads() {
         let run = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
             pool.install(|| {
-                let mut ppm = start(Settings { direct_light, ..settings() }, MOST);
+                let mut ppm = start(
+                    RenderSettings { ppm: PpmSettings { direct_light, ..settings().ppm }, ..settings() },
+                    MOST,
+                );
                 for _ in 0..3 {
                     advance(&mut ppm);
                 }
@@ -154,7 +160,10 @@ fn a_batch_that_is_shown_stands_for_its_pass() {
 fn memory_does_not_grow_with_photons_beyond_a_batch() {
     let bytes = |photons: u32| {
         let photons = NonZeroU32::new(photons).expect("above 0");
-        let settings = Settings { photons_per_pass: photons, first_pass: photons, ..settings() };
+        let settings = RenderSettings {
+            ppm: PpmSettings { photons_per_pass: photons, first_pass: photons, ..settings().ppm },
+            ..settings()
+        };
         let mut ppm = start(settings, 16_384);
         advance(&mut ppm);
         ppm.bytes() as f64

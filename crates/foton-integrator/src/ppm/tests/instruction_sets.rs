@@ -8,13 +8,19 @@ use foton_transport::Cancel;
 use pulp::Arch;
 
 use crate::ppm::Ppm;
+use crate::ppm::settings::PpmSettings;
 use crate::ppm::tests::scene::scene;
-use crate::settings::Settings;
+use crate::settings::RenderSettings;
 
 /// Bits of the image after three passes, and photons found.
 fn render(scene: &Arc<Scene>, arch: Arch) -> (Vec<[u32; 3]>, u64) {
-    let settings =
-        Settings { photons_per_pass: NonZeroU32::new(20_000).expect("above 0"), ..Settings::default() };
+    let settings = RenderSettings {
+        ppm: PpmSettings {
+            photons_per_pass: NonZeroU32::new(20_000).expect("above 0"),
+            ..PpmSettings::default()
+        },
+        ..RenderSettings::default()
+    };
     let cancel = Cancel::default();
     let mut ppm = Ppm::start(scene.clone(), settings, &mut |_| (), &cancel).expect("not cancelled");
     ppm.arch = arch;

@@ -1,0 +1,268 @@
+//! A render under way, by whichever method: what sessions, windows and measurements see of it.
+
+use std::sync::Arc;
+
+use foton_film::{Image, Layer};
+use foton_math::Rgb;
+use foton_math::glam::DVec3;
+use foton_scene::Scene;
+use foton_transport::codec::StateError;
+use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite, Stage};
+
+use crate::error::{ErrorEstimate, TileError};
+use crate::layers::LayerKind;
+use crate::ppm::{Disc, PassReport, Ppm, Radii, Start, StoredPhoton};
+use crate::settings::{Method, RenderSettings, SettingChange};
+
+/// A scene, settings, and what passes have made of them so far.
+pub struct Render(Running);
+
+/// One variant a method.
+enum Running {
+    Ppm(Box<Ppm>),
+}
+
+/// The same expression for the render of any method.
+macro_rules! each {
+    ($render:expr, $method:ident => $body:expr) => {
+        match $render {
+            Running::Ppm($method) => $body,
+        }
+    };
+}
+
+impl Render {
+    /// Looks at the scene. `watch` is told each stage as it begins.
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub fn start(
+        scene: Arc<Scene>,
+        settings: RenderSettings,
+        watch: &mut dyn FnMut(Stage),
+        cancel: &Cancel,
+    ) -> Result<Self, Cancelled> {
+        match settings.method {
+            Method::Ppm => {
+                Ppm::start(scene, settings, watch, cancel).map(|ppm| Self(Running::Ppm(Box::new(ppm))))
+            }
+        }
+    }
+
+    /// One pass.
+    ///
+    /// # Errors
+    /// When cancelled inside it; the pass then has not happened. After [`Render::stop_at_first_not_finite`], when a value is not:
+    /// the image is then that of the passes before, and the render is not to go on.
+    pub fn advance(&mut self, watch: &mut dyn FnMut(Stage), cancel: &Cancel) -> Result<PassReport, Halt> {
+        each!(&mut self.0, r => r.advance(watch, cancel))
+    }
+
+    /// From now on a pass in which a value is not finite does not happen. Otherwise such values are left out and counted.
+    pub fn stop_at_first_not_finite(&mut self) {
+        each!(&mut self.0, r => r.stop_at_first_not_finite());
+    }
+
+    /// The first value that was not finite since the render was started or restored, and was left out.
+    #[must_use]
+    pub fn first_not_finite(&self) -> Option<&NotFinite> {
+        each!(&self.0, r => r.first_not_finite())
+    }
+
+    /// Changes a setting from the next pass on. The change stands in [`Render::changes`] with the number of passes before it.
+    pub fn change(&mut self, change: SettingChange) {
+        each!(&mut self.0, r => r.change(change));
+    }
+
+    /// All changes so far, each with the number of passes before it.
+    #[must_use]
+    pub fn changes(&self) -> &[(u64, SettingChange)] {
+        each!(&self.0, r => r.changes())
+    }
+
+    /// The settings as they are now.
+    #[must_use]
+    pub fn settings(&self) -> &RenderSettings {
+        each!(&self.0, r => r.settings())
+    }
+
+    /// The scene.
+    #[must_use]
+    pub fn scene(&self) -> &Arc<Scene> {
+        each!(&self.0, r => r.scene())
+    }
+
+    /// Passes so far.
+    #[must_use]
+    pub fn passes(&self) -> u64 {
+        each!(&self.0, r => r.passes())
+    }
+
+    /// Photons emitted so far.
+    #[must_use]
+    pub fn photons_emitted(&self) -> u64 {
+        each!(&self.0, r => r.photons_emitted())
+    }
+
+    /// What was found when the render was started.
+    #[must_use]
+    pub fn start_report(&self) -> &Start {
+        each!(&self.0, r => r.start_report())
+    }
+
+    /// Where all emitted power went.
+    #[must_use]
+    pub fn ledger(&self) -> &Ledger {
+        each!(&self.0, r => r.ledger())
+    }
+
+    /// What the photons of each emitter were good for, in the order of the scene's emitters.
+    #[must_use]
+    pub fn light_use(&self) -> &[LightUse] {
+        each!(&self.0, r => r.light_use())
+    }
+
+    /// What went missing at each material, in the order of the scene's materials.
+    #[must_use]
+    pub fn material_losses(&self) -> &[Loss] {
+        each!(&self.0, r => r.material_losses())
+    }
+
+    /// Bytes held, the scene included.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        each!(&self.0, r => r.bytes())
+    }
+
+    /// All that passes have changed, as bytes. [`Render::restore`] takes it back into a render that was started with the same
+    /// scene and settings, and the passes after that give the same bits as if there had been no break.
+    #[must_use]
+    pub fn save(&self) -> Vec<u8> {
+        each!(&self.0, r => r.save())
+    }
+
+    /// Takes what [`Render::save`] gave back. After an error the render is not to be used.
+    ///
+    /// # Errors
+    /// When the bytes are no state, or that of another render; see [`StateError`].
+    pub fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
+        each!(&mut self.0, r => r.restore(state))
+    }
+}
+
+/// Images.
+impl Render {
+    /// Radiance after all passes so far.
+    #[must_use]
+    pub fn image(&self) -> Image {
+        each!(&self.0, r => r.image())
+    }
+
+    /// Radiance of one pixel as it stands; black beyond the image.
+    #[must_use]
+    pub fn radiance(&self, pixel: usize) -> Rgb {
+        each!(&self.0, r => r.radiance(pixel))
+    }
+
+    /// The last pass's own, independent estimate of reflected radiance: the image is the mean of these, weighted by photons.
+    #[must_use]
+    pub fn last_pass(&self) -> Image {
+        each!(&self.0, r => r.last_pass())
+    }
+
+    /// A layer beside the image; `None` for one that is not made.
+    #[must_use]
+    pub fn layer(&self, kind: LayerKind) -> Option<Layer> {
+        each!(&self.0, r => r.layer(kind))
+    }
+
+    /// A layer of light; `None` for one that is not made, or no light.
+    #[must_use]
+    pub fn colour_layer(&self, kind: LayerKind) -> Option<Image> {
+        each!(&self.0, r => r.colour_layer(kind))
+    }
+
+    /// How wrong the image still is; `None` without [`RenderSettings::error`], in the first passes, and in the dark.
+    #[must_use]
+    pub fn error(&self) -> Option<ErrorEstimate> {
+        each!(&self.0, r => r.error())
+    }
+
+    /// The means of all squares of 8 × 8 pixels with their errors, row by row; none without [`RenderSettings::error`].
+    #[must_use]
+    pub fn error_tiles(&self) -> Vec<TileError> {
+        each!(&self.0, r => r.error_tiles())
+    }
+
+    /// The bias of each pixel's luminance, as estimated (W/m²/sr): with its sign, and √3 times as noisy as the pixel. `None`
+    /// without [`RenderSettings::error`].
+    #[must_use]
+    pub fn bias(&self) -> Option<Vec<f64>> {
+        each!(&self.0, r => r.bias())
+    }
+
+    /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`RenderSettings::error`].
+    #[must_use]
+    pub fn error_plane(&self, kind: LayerKind) -> Option<Vec<f32>> {
+        each!(&self.0, r => r.error_plane(kind))
+    }
+}
+
+/// Hit points and photons, for people who look at them. World units.
+impl Render {
+    /// The spread of radii as it is now.
+    #[must_use]
+    pub fn radii(&self) -> Radii {
+        each!(&self.0, r => r.radii())
+    }
+
+    /// The discs of a pixel's hit points, in the order of its samples. `pixel` counts along rows from the top left; one beyond
+    /// the image has none.
+    #[must_use]
+    pub fn discs(&self, pixel: usize) -> Vec<Disc> {
+        each!(&self.0, r => r.discs(pixel))
+    }
+
+    /// Photons of the last pass, `at_most` of them, spread evenly over the scene's cells.
+    #[must_use]
+    pub fn stored_photons(&self, at_most: usize) -> Vec<StoredPhoton> {
+        each!(&self.0, r => r.stored_photons(at_most))
+    }
+
+    /// Photons of the last pass within `radius` of a point, `at_most` of them.
+    #[must_use]
+    pub fn photons_near(&self, position: DVec3, radius: f64, at_most: usize) -> Vec<StoredPhoton> {
+        each!(&self.0, r => r.photons_near(position, radius, at_most))
+    }
+
+    /// Mean radius of each pixel's hit points, in world units; 0 without hit points.
+    #[must_use]
+    pub fn mean_radii(&self) -> Vec<f32> {
+        each!(&self.0, r => r.mean_radii())
+    }
+
+    /// Photons found by each pixel's hit points in all passes.
+    #[must_use]
+    pub fn photons_found(&self) -> Vec<u32> {
+        each!(&self.0, r => r.photons_found())
+    }
+
+    /// Per pixel, the share of its hit points that have found no photon in any pass: unknown, not dark.
+    #[must_use]
+    pub fn unknown_share(&self) -> Vec<f32> {
+        each!(&self.0, r => r.unknown_share())
+    }
+}
+
+/// For what is particular to a method.
+impl Render {
+    pub(crate) fn ppm(&self) -> &Ppm {
+        let Running::Ppm(ppm) = &self.0;
+        ppm
+    }
+
+    pub(crate) fn ppm_mut(&mut self) -> &mut Ppm {
+        let Running::Ppm(ppm) = &mut self.0;
+        ppm
+    }
+}
