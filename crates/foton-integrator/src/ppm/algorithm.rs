@@ -24,7 +24,7 @@ use crate::settings::{RenderSettings, SettingChange};
 pub(super) const LOOKED_AT: usize = 4096;
 
 /// A render under way.
-pub struct Ppm {
+pub(crate) struct Ppm {
     pub(super) scene: Arc<Scene>,
     pub(super) sources: Sources,
     pub(super) settings: RenderSettings,
@@ -59,7 +59,7 @@ impl Ppm {
     ///
     /// # Errors
     /// When cancelled.
-    pub fn start(
+    pub(crate) fn start(
         scene: Arc<Scene>,
         settings: RenderSettings,
         watch: &mut dyn FnMut(Stage),
@@ -122,7 +122,11 @@ impl Ppm {
     /// # Errors
     /// When cancelled while photons are traced; the pass then has not happened. After [`Ppm::stop_at_first_not_finite`], when a
     /// value is not: the image is then that of the passes before, and hit points may be half-way to the next.
-    pub fn advance(&mut self, watch: &mut dyn FnMut(Stage), cancel: &Cancel) -> Result<PassReport, Halt> {
+    pub(crate) fn advance(
+        &mut self,
+        watch: &mut dyn FnMut(Stage),
+        cancel: &Cancel,
+    ) -> Result<PassReport, Halt> {
         self.halt_at(None)?;
         let mut counts = self.begin_pass();
         for batch in self.batches(counts.photons) {

@@ -47,7 +47,7 @@ pub struct Radii {
 impl Ppm {
     /// The spread of radii as it is now.
     #[must_use]
-    pub fn radii(&self) -> Radii {
+    pub(crate) fn radii(&self) -> Radii {
         let mut radius2: Vec<f64> = self.hit_points.statistics().map(Statistics::radius2).collect();
         if radius2.is_empty() {
             return Radii::default();
@@ -66,7 +66,7 @@ impl Ppm {
     /// The discs of a pixel's hit points, in the order of its samples. `pixel` counts along rows from the top left; one beyond
     /// the image has none.
     #[must_use]
-    pub fn discs(&self, pixel: usize) -> Vec<Disc> {
+    pub(crate) fn discs(&self, pixel: usize) -> Vec<Disc> {
         let hit_points = &self.hit_points;
         let Some(range) = hit_points.pixel_start.get(pixel..pixel + 2) else { return Vec::new() };
         let slots = &hit_points.slot_of[range[0] as usize..range[1] as usize];
@@ -88,7 +88,7 @@ impl Ppm {
 
     /// Photons of the last pass, `at_most` of them, spread evenly over the scene's cells.
     #[must_use]
-    pub fn stored_photons(&self, at_most: usize) -> Vec<StoredPhoton> {
+    pub(crate) fn stored_photons(&self, at_most: usize) -> Vec<StoredPhoton> {
         let photons = self.map.photons();
         let step = photons.len().div_ceil(at_most.max(1)).max(1);
         photons.iter().step_by(step).map(|p| self.stored(p)).collect()
@@ -96,7 +96,7 @@ impl Ppm {
 
     /// Photons of the last pass within `radius` of a point, `at_most` of them.
     #[must_use]
-    pub fn photons_near(&self, position: DVec3, radius: f64, at_most: usize) -> Vec<StoredPhoton> {
+    pub(crate) fn photons_near(&self, position: DVec3, radius: f64, at_most: usize) -> Vec<StoredPhoton> {
         let normalisation = self.scene.normalisation();
         let centre = normalisation.point(position);
         let radius2 = normalisation.length(radius).powi(2);
@@ -122,13 +122,13 @@ impl Ppm {
 
     /// Radiance of one pixel as it stands; black beyond the image.
     #[must_use]
-    pub fn radiance(&self, pixel: usize) -> Rgb {
+    pub(crate) fn radiance(&self, pixel: usize) -> Rgb {
         self.light.pixel(pixel, self.photons_emitted)
     }
 
     /// Mean radius of each pixel's hit points, in world units; 0 without hit points.
     #[must_use]
-    pub fn mean_radii(&self) -> Vec<f32> {
+    pub(crate) fn mean_radii(&self) -> Vec<f32> {
         let world = self.scene.normalisation().world_length(1.0);
         self.per_pixel(|statistics| {
             let n = statistics.len().max(1) as f64;
@@ -138,7 +138,7 @@ impl Ppm {
 
     /// Photons found by each pixel's hit points in all passes.
     #[must_use]
-    pub fn photons_found(&self) -> Vec<u32> {
+    pub(crate) fn photons_found(&self) -> Vec<u32> {
         self.per_pixel(|statistics| {
             let found = statistics.iter().map(Statistics::photons_found).sum::<u64>();
             u32::try_from(found).unwrap_or(u32::MAX)
@@ -147,7 +147,7 @@ impl Ppm {
 
     /// Per pixel, the share of its hit points that have found no photon in any pass: unknown, not dark.
     #[must_use]
-    pub fn unknown_share(&self) -> Vec<f32> {
+    pub(crate) fn unknown_share(&self) -> Vec<f32> {
         self.per_pixel(|statistics| {
             let unknown = statistics.iter().filter(|s| s.is_unknown()).count();
             unknown as f32 / statistics.len().max(1) as f32

@@ -23,13 +23,13 @@ impl Ppm {
 
     /// Radiance after all passes so far.
     #[must_use]
-    pub fn image(&self) -> Image {
+    pub(crate) fn image(&self) -> Image {
         self.as_image(self.light.total(self.photons_emitted))
     }
 
     /// The last pass's own, independent estimate of reflected radiance: the image is the mean of these, weighted by photons.
     #[must_use]
-    pub fn last_pass(&self) -> Image {
+    pub(crate) fn last_pass(&self) -> Image {
         let scale = 1.0 / self.last_photons.max(1) as f64;
         let pixels = self.light.last_pass().into_iter().map(|l| l * scale as f32);
         self.as_image(pixels.collect())
@@ -50,7 +50,7 @@ impl Ppm {
 
     /// A layer beside the image; `None` for a path class when [`RenderSettings::layers`](crate::RenderSettings::layers) is off.
     #[must_use]
-    pub fn layer(&self, kind: LayerKind) -> Option<Layer> {
+    pub(crate) fn layer(&self, kind: LayerKind) -> Option<Layer> {
         let rgb = |kind| self.colour_layer(kind).map(LayerData::Rgb);
         let (width, height) = self.size();
         let channels = match kind {
@@ -67,7 +67,7 @@ impl Ppm {
 
     /// A layer of light; `None` for one that is not kept, or no light.
     #[must_use]
-    pub fn colour_layer(&self, kind: LayerKind) -> Option<Image> {
+    pub(crate) fn colour_layer(&self, kind: LayerKind) -> Option<Image> {
         let class = |class| self.light.class(class, self.photons_emitted);
         let pixels = match kind {
             LayerKind::Direct => class(PathClass::Direct)?,
@@ -81,26 +81,26 @@ impl Ppm {
 
     /// How wrong the image still is; `None` without [`RenderSettings::error`](crate::RenderSettings::error), in the first passes, and in the dark.
     #[must_use]
-    pub fn error(&self) -> Option<ErrorEstimate> {
+    pub(crate) fn error(&self) -> Option<ErrorEstimate> {
         self.error.as_ref()?.estimate()
     }
 
     /// The means of all squares of 8 × 8 pixels with their errors, row by row; none without [`RenderSettings::error`](crate::RenderSettings::error).
     #[must_use]
-    pub fn error_tiles(&self) -> Vec<TileError> {
+    pub(crate) fn error_tiles(&self) -> Vec<TileError> {
         self.error.as_ref().map_or_else(Vec::new, ErrorSums::tiles)
     }
 
     /// What blur by the radius has added to each pixel's luminance, as estimated (W/m²/sr): with its sign, and √3 times as noisy as the
     /// pixel. `None` without [`RenderSettings::error`](crate::RenderSettings::error).
     #[must_use]
-    pub fn bias(&self) -> Option<Vec<f64>> {
+    pub(crate) fn bias(&self) -> Option<Vec<f64>> {
         Some(self.error.as_ref()?.bias())
     }
 
     /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`RenderSettings::error`](crate::RenderSettings::error).
     #[must_use]
-    pub fn error_plane(&self, kind: LayerKind) -> Option<Vec<f32>> {
+    pub(crate) fn error_plane(&self, kind: LayerKind) -> Option<Vec<f32>> {
         let (noise, bias) = self.light.error_planes(self.error.as_ref()?);
         match kind {
             LayerKind::ErrorNoise => Some(noise),

@@ -13,79 +13,79 @@ use crate::settings::{RenderSettings, SettingChange};
 
 impl Ppm {
     /// From now on a pass in which a value is not finite does not happen. Otherwise such values are left out and counted.
-    pub const fn stop_at_first_not_finite(&mut self) {
+    pub(crate) const fn stop_at_first_not_finite(&mut self) {
         self.strict = true;
     }
 
     /// The first value that was not finite since the render was started or restored, and was left out.
     #[must_use]
-    pub const fn first_not_finite(&self) -> Option<&NotFinite> {
+    pub(crate) const fn first_not_finite(&self) -> Option<&NotFinite> {
         self.not_finite.as_ref()
     }
 
     /// Changes a setting from the next pass on. The change stands in [`Ppm::changes`] with the number of passes before it.
-    pub fn change(&mut self, change: SettingChange) {
+    pub(crate) fn change(&mut self, change: SettingChange) {
         self.settings.change(change);
         self.changes.push((self.passes, change));
     }
 
     /// Passes so far.
     #[must_use]
-    pub const fn passes(&self) -> u64 {
+    pub(crate) const fn passes(&self) -> u64 {
         self.passes
     }
 
     /// Photons emitted so far.
     #[must_use]
-    pub const fn photons_emitted(&self) -> u64 {
+    pub(crate) const fn photons_emitted(&self) -> u64 {
         self.photons_emitted
     }
 
     /// All changes so far, each with the number of passes before it.
     #[must_use]
-    pub fn changes(&self) -> &[(u64, SettingChange)] {
+    pub(crate) fn changes(&self) -> &[(u64, SettingChange)] {
         &self.changes
     }
 
     /// The settings as they are now.
     #[must_use]
-    pub const fn settings(&self) -> &RenderSettings {
+    pub(crate) const fn settings(&self) -> &RenderSettings {
         &self.settings
     }
 
     /// The scene.
     #[must_use]
-    pub const fn scene(&self) -> &Arc<Scene> {
+    pub(crate) const fn scene(&self) -> &Arc<Scene> {
         &self.scene
     }
 
     /// What the eye pass found.
     #[must_use]
-    pub const fn start_report(&self) -> &Start {
+    pub(crate) const fn start_report(&self) -> &Start {
         &self.start
     }
 
     /// Where all emitted power went.
     #[must_use]
-    pub const fn ledger(&self) -> &Ledger {
+    pub(crate) const fn ledger(&self) -> &Ledger {
         &self.ledger
     }
 
     /// What the photons of each emitter were good for, in the order of the scene's emitters.
     #[must_use]
-    pub fn light_use(&self) -> &[LightUse] {
+    pub(crate) fn light_use(&self) -> &[LightUse] {
         &self.lights
     }
 
     /// What went missing at each material, in the order of the scene's materials.
     #[must_use]
-    pub fn material_losses(&self) -> &[Loss] {
+    pub(crate) fn material_losses(&self) -> &[Loss] {
         &self.losses
     }
 
     /// Bytes held, the scene included.
     #[must_use]
-    pub fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         let chunk =
             |c: &Chunk| c.photons.capacity() * size_of::<Photon>() + c.cells.capacity() * size_of::<u32>();
         self.scene.bytes()

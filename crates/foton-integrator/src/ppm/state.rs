@@ -17,7 +17,7 @@ impl Ppm {
     /// All that passes have changed. [`Ppm::restore`] takes it back into a render that was started with the same scene and
     /// settings, and the passes after that give the same bits as if there had been no break.
     #[must_use]
-    pub fn save(&self) -> Vec<u8> {
+    pub(crate) fn save(&self) -> Vec<u8> {
         let mut out = Writer::default();
         out.u64(self.passes);
         out.u64(self.photons_emitted);
@@ -70,7 +70,7 @@ impl Ppm {
     ///
     /// # Errors
     /// When the bytes are no state, or that of another render; see [`StateError`].
-    pub fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
+    pub(crate) fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
         let mut input = Reader::new(state);
         let passes = input.count()?;
         let (emitted, last) = (input.count()?, input.count()?);
