@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use foton_film::ToneMap;
 use foton_format::Options;
-use foton_integrator::{Cancel, Ppm, Settings, Stage};
+use foton_integrator::{Cancel, PpmSettings, Render, RenderSettings, Stage};
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Purpose, Ray, Rgb, Stream};
 use foton_scene::description::{Bsdf, MicrofacetDistribution, Microfacets};
@@ -139,26 +139,19 @@ fn of_bsdfs(criterion: &mut Criterion) {
 }
 
 /// A render after its sixteenth pass.
-fn warm(scene: &Arc<Scene>, error: bool) -> Ppm {
+fn warm(scene: &Arc<Scene>, error: bool) -> Render {
     let photons = NonZeroU32::new(PHOTONS).expect("above 0");
-    let settings = Settings {
-        photons_per_pass: photons,
-        first_pass: photons,
-        samples_per_pixel: NonZeroU32::MIN,
-        radius: Some(0.455),
-        error,
-        ..Settings::default()
-    };
+    let settings = RenderSettings { samples_per_pixel: NonZeroU32::MIN, error, ppm: PpmSettings { photons_per_pass: photons, first_pass: photons, radius: Some(0.455), ..PpmSettings::default() }, ..RenderSettings::default() };
     let cancel = Cancel::default();
-    let mut ppm = Ppm::start(Arc::clone(scene), settings, &mut |_| (), &cancel).expect("nobody cancels");
+    let mut render = Render::start(Arc::clone(scene), settings, &mut |_| (), &cancel).expect("nobody cancels");
     for _ in 0..16 {
-        ppm.advance(&mut |_| (), &cancel).expect("nobody cancels");
+        render.advance(&mut |_| (), &cancel).expect("nobody cancels");
     }
-    ppm
+    render
 }
 
 /// Time of one stage in so many passes.
-fn in_passes(ppm: &mut Ppm, wanted: Stage, passes: u64) -> Duration {
+fn in_passes(render: &mut Render, wanted: Stage, passes: u64) -> Duration {
     let mut spent = Duration::ZERO;
     for _ in 0..passes {
         let mut running: Option<(Stage, Instant)> = None;
@@ -170,7 +163,7 @@ fn in_passes(ppm: &mut Ppm, wanted: Stage, passes: u64) -> Duration {
             }
         };
         let next = &mut |stage| end(running.replace((stage, Instant::now())));
-        ppm.advance(next, &Cancel::default()).expect("nobody cancels");
+        render.advance(next, &Cancel::default()).expect("nobody cancels");
         end(running);
     }
     spent
@@ -182,7 +175,7 @@ fn of_passes(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("a pass");
     group.sample_size(10).measurement_time(Duration::from_secs(6));
     for error in [false, true] {
-        let mut ppm = warm(&scene, error);
+        let mut render = warm(&scene, error);
         let stages = [
             ("trace", Stage::Trace, u64::from(PHOTONS)),
             ("sort", Stage::Sort, u64::from(PHOTONS)),
@@ -192,7 +185,7 @@ fn of_passes(criterion: &mut Criterion) {
         for (name, stage, elements) in stages {
             group.throughput(Throughput::Elements(elements));
             let id = BenchmarkId::new(name, if error { "with the live error" } else { "plain" });
-            group.bench_function(id, |b| b.iter_custom(|passes| in_passes(&mut ppm, stage, passes)));
+            group.bench_function(id, |b| b.iter_custom(|passes| in_passes(&mut render, stage, passes)));
         }
     }
 }
@@ -201,9 +194,9 @@ fn of_images(criterion: &mut Criterion) {
     let scene = scene();
     let mut group = criterion.benchmark_group("images");
     group.sample_size(10).throughput(Throughput::Elements(u64::from(SIDE * SIDE)));
-    let settings = Settings { samples_per_pixel: NonZeroU32::MIN, ..Settings::default() };
+    let settings = RenderSettings { samples_per_pixel: NonZeroU32::MIN, ..RenderSettings::default() };
     group.bench_function("eye pass", |b| {
-        b.iter(|| Ppm::start(Arc::clone(&scene), settings.clone(), &mut |_| (), &Cancel::default()).is_ok());
+        b.iter(|| Render::start(Arc::clone(&scene), settings.clone(), &mut |_| (), &Cancel::default()).is_ok());
     });
     let colours: Vec<Rgb> = (0..SIDE * SIDE).map(|i| Rgb::new(i as f32 * 1e-5, 0.5, 2.0)).collect();
     for tone_map in [ToneMap::Linear, ToneMap::PbrNeutral, ToneMap::AgX] {

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use foton_format::{Opened, Options, read_str};
-use foton_integrator::{Cancel, Settings};
+use foton_integrator::{Cancel, PpmSettings, RenderSettings};
 use foton_scene::Scene;
 use foton_session::{SceneIdentity, Session, checkpoint};
 
@@ -196,21 +196,21 @@ fn genuine() -> Genuine {
     let scene = std::sync::Arc::new(Scene::build(&opened.description).expect("our own scene"));
     let identity = SceneIdentity { name: "f.xml".into(), hash: 1 };
     let number = |n| std::num::NonZeroU32::new(n).expect("above zero");
-    let settings = Settings {
-        photons_per_pass: number(500),
-        first_pass: number(500),
+    let settings = RenderSettings {
         samples_per_pixel: number(1),
         error: true,
-        ..Settings::default()
+        ppm: PpmSettings { photons_per_pass: number(500), first_pass: number(500), ..PpmSettings::default() },
+        ..RenderSettings::default()
     };
     let cancel = Cancel::default();
     let mut session = Session::start(scene, settings, Some(1), &cancel).expect("starts");
     session.advance(&cancel).expect("not cancelled");
     let path = scratch("genuine");
-    checkpoint::write(&path, session.ppm(), session.elapsed(), session.rays(), &identity).expect("written");
+    checkpoint::write(&path, session.render(), session.elapsed(), session.rays(), &identity)
+        .expect("written");
     let bytes = std::fs::read(&path).expect("just written");
     let _ = std::fs::remove_file(path);
-    let state = session.ppm().state();
+    let state = session.render().save();
     Genuine { session, identity, bytes, state }
 }
 
@@ -249,9 +249,9 @@ pub fn read_checkpoint(data: &[u8]) -> String {
         let Genuine { session, identity, .. } = &mut *genuine;
         match checkpoint::resume(&path, session, identity) {
             // What was taken up must render.
-            Ok(()) if session.ppm().settings().photons_per_pass.get() <= 1 << 16 => {
+            Ok(()) if session.render().settings().ppm.photons_per_pass.get() <= 1 << 16 => {
                 let report = session.advance(&Cancel::default()).expect("not cancelled");
-                let dark = session.ppm().image().pixels.iter().all(|p| p.is_black());
+                let dark = session.render().image().pixels.iter().all(|p| p.is_black());
                 format!("taken up, {} {dark}", report.floored > 0)
             }
             Ok(()) => "taken up".into(),

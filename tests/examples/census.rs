@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use foton_format::Options;
-use foton_integrator::{Cancel, DirectLight, Ppm, Settings};
+use foton_integrator::{Cancel, DirectLight, PpmSettings, Render, RenderSettings};
 use foton_scene::description::SceneDescription;
 use foton_scene::{Census, Scene};
 
@@ -32,12 +32,20 @@ fn main() {
         (sensor.width, sensor.height) = (256, 256);
     }
     let none = Census::default();
-    let settings =
-        || Settings { photons_per_pass: NonZeroU32::new(1 << 17).expect("above 0"), ..Settings::default() };
+    let settings = || RenderSettings {
+        ppm: PpmSettings {
+            photons_per_pass: NonZeroU32::new(1 << 17).expect("above 0"),
+            ..PpmSettings::default()
+        },
+        ..RenderSettings::default()
+    };
     let plain = settings();
-    let shadow_rays = Settings { direct_light: DirectLight::ShadowRays, ..settings() };
-    let error = Settings { error: true, ..settings() };
-    let layers = Settings { layers: true, ..settings() };
+    let shadow_rays = RenderSettings {
+        ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..settings().ppm },
+        ..settings()
+    };
+    let error = RenderSettings { error: true, ..settings() };
+    let layers = RenderSettings { layers: true, ..settings() };
     let rows = [
         ("nothing", none, &plain),
         ("shading normals' correction", Census { shading_normals: true, ..none }, &plain),
@@ -80,17 +88,17 @@ fn main() {
     }
 }
 
-fn render(description: &SceneDescription, forced: Census, settings: &Settings) -> Cost {
+fn render(description: &SceneDescription, forced: Census, settings: &RenderSettings) -> Cost {
     let scene = Arc::new(Scene::build_as_if(description, forced).expect("an asset"));
     let cancel = Cancel::default();
     let clock = Clock::new();
-    let mut ppm = Ppm::start(scene, settings.clone(), &mut |_| {}, &cancel).expect("not cancelled");
+    let mut render = Render::start(scene, settings.clone(), &mut |_| {}, &cancel).expect("not cancelled");
     let eye_seconds = clock.seconds();
     let clock = Clock::new();
     for _ in 0..PASSES {
-        ppm.advance(&mut |_| {}, &cancel).expect("not cancelled");
+        render.advance(&mut |_| {}, &cancel).expect("not cancelled");
     }
-    Cost { eye_seconds, pass_seconds: clock.seconds(), bytes: ppm.bytes() }
+    Cost { eye_seconds, pass_seconds: clock.seconds(), bytes: render.bytes() }
 }
 
 /// Time of this thread.

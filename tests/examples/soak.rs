@@ -9,7 +9,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use foton_integrator::{Cancel, Ppm, Settings};
+use foton_integrator::{Cancel, PpmSettings, Render, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
 use foton_scene::Scene;
@@ -48,7 +48,7 @@ struct Layout {
 
 impl Layout {
     fn of(scene: &Arc<Scene>) -> Self {
-        Self { without_error: start(scene, false).state().len() }
+        Self { without_error: start(scene, false).save().len() }
     }
 
     /// Each pixel's sum and last addend, channel by channel.
@@ -76,10 +76,14 @@ fn scene() -> Arc<Scene> {
         .expect("a sound scene")
 }
 
-fn start(scene: &Arc<Scene>, error: bool) -> Ppm {
+fn start(scene: &Arc<Scene>, error: bool) -> Render {
     let photons = NonZeroU32::new(PHOTONS).expect("above 0");
-    let settings = Settings { photons_per_pass: photons, first_pass: photons, error, ..Settings::default() };
-    Ppm::start(Arc::clone(scene), settings, &mut |_| (), &Cancel::default()).expect("not cancelled")
+    let settings = RenderSettings {
+        error,
+        ppm: PpmSettings { photons_per_pass: photons, first_pass: photons, ..PpmSettings::default() },
+        ..RenderSettings::default()
+    };
+    Render::start(Arc::clone(scene), settings, &mut |_| (), &Cancel::default()).expect("not cancelled")
 }
 
 /// Bytes in memory; 0 where the system does not say.
@@ -104,7 +108,7 @@ fn main() -> ExitCode {
 fn soak(time: Duration) -> bool {
     let scene = scene();
     let layout = Layout::of(&scene);
-    let mut ppm = start(&scene, true);
+    let mut render = start(&scene, true);
     let mut reference = vec![Kahan::default(); 3 * (SIDE * SIDE) as usize];
     let mut quarters = [0u64; 4];
     let mut drift = 0f64;
@@ -112,8 +116,8 @@ fn soak(time: Duration) -> bool {
     let begin = Instant::now();
     let mut told = Duration::ZERO;
     loop {
-        ppm.advance(&mut |_| (), &Cancel::default()).expect("not cancelled");
-        let state = ppm.state();
+        render.advance(&mut |_| (), &Cancel::default()).expect("not cancelled");
+        let state = render.save();
         for (reference, (_, last)) in reference.iter_mut().zip(layout.pixels(&state)) {
             reference.add(f64::from(last));
         }
@@ -124,18 +128,18 @@ fn soak(time: Duration) -> bool {
             for (reference, (sum, _)) in reference.iter().zip(layout.pixels(&state)) {
                 drift = drift.max((sum - reference.sum).abs() / reference.sum.max(f64::MIN_POSITIVE));
             }
-            finite &= ppm.image().pixels.iter().all(|p| p.is_finite() && p.g >= 0.0);
-            finite &= ppm.radii().smallest > 0.0 && ppm.ledger().imbalance().abs() < 1e-6;
+            finite &= render.image().pixels.iter().all(|p| p.is_finite() && p.g >= 0.0);
+            finite &= render.radii().smallest > 0.0 && render.ledger().imbalance().abs() < 1e-6;
             let quarter = (4.0 * elapsed.as_secs_f64() / time.as_secs_f64()) as usize;
             let quarter = &mut quarters[quarter.min(3)];
             *quarter = resident().max(*quarter);
             println!(
                 "{:6.1} min: {} passes, {:.2e} photons, drift {drift:.1e}, median radius {:.2e}, ledger off by {:.1e}, {} KiB",
                 elapsed.as_secs_f64() / 60.0,
-                ppm.passes(),
-                ppm.photons_emitted() as f64,
-                ppm.radii().median,
-                ppm.ledger().imbalance(),
+                render.passes(),
+                render.photons_emitted() as f64,
+                render.radii().median,
+                render.ledger().imbalance(),
                 resident() >> 10
             );
         }

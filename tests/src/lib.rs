@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use foton_film::Image;
-use foton_integrator::{Cancel, Ppm, Settings};
+use foton_integrator::{Cancel, Render, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{
@@ -125,14 +125,14 @@ impl Sketch {
     /// # Panics
     /// When the scene cannot be built: it is a test's own.
     #[must_use]
-    pub fn render(&self, settings: Settings, passes: u32) -> Ppm {
+    pub fn render(&self, settings: RenderSettings, passes: u32) -> Render {
         let scene = self.build().expect("a sound scene");
         let cancel = Cancel::default();
-        let mut ppm = Ppm::start(scene, settings, &mut |_| (), &cancel).expect("not cancelled");
+        let mut render = Render::start(scene, settings, &mut |_| (), &cancel).expect("not cancelled");
         for _ in 0..passes {
-            ppm.advance(&mut |_| (), &cancel).expect("not cancelled");
+            render.advance(&mut |_| (), &cancel).expect("not cancelled");
         }
-        ppm
+        render
     }
 }
 
@@ -171,9 +171,9 @@ pub fn mean_and_sigma(values: &[f64]) -> (f64, f64) {
 
 /// Mean green of a render under several seeds, with its standard error.
 #[must_use]
-pub fn seeds(sketch: &Sketch, base: &Settings, passes: u32, count: u64) -> (f64, f64) {
+pub fn seeds(sketch: &Sketch, base: &RenderSettings, passes: u32, count: u64) -> (f64, f64) {
     let means: Vec<f64> = (0..count)
-        .map(|seed| mean(&sketch.render(Settings { seed, ..base.clone() }, passes).image()))
+        .map(|seed| mean(&sketch.render(RenderSettings { seed, ..base.clone() }, passes).image()))
         .collect();
     mean_and_sigma(&means)
 }

@@ -5,7 +5,7 @@
 
 use std::num::NonZeroU32;
 
-use foton_integrator::{Alpha, DirectLight, RadiusFloor, RadiusRule, Settings};
+use foton_integrator::{Alpha, DirectLight, PpmSettings, RadiusFloor, RadiusRule, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{EmitterDescription, EmitterKind};
@@ -64,19 +64,21 @@ pub fn scene() -> Sketch {
     sketch
 }
 
-fn settings(alpha: f64, photons: u32, seed: u64) -> Settings {
+fn settings(alpha: f64, photons: u32, seed: u64) -> RenderSettings {
     let photons = NonZeroU32::new(photons).expect("above 0");
-    Settings {
-        alpha: Alpha::new(alpha).expect("in (0, 1]"),
-        photons_per_pass: photons,
-        first_pass: photons,
+    RenderSettings {
         samples_per_pixel: NonZeroU32::MIN,
-        radius: Some(RADIUS),
-        // Theory is of radii that shrink by α alone.
-        radius_floor: RadiusFloor::NONE,
-        radius_rule: RadiusRule::Local,
         seed,
-        ..Settings::default()
+        ppm: PpmSettings {
+            alpha: Alpha::new(alpha).expect("in (0, 1]"),
+            photons_per_pass: photons,
+            first_pass: photons,
+            radius: Some(RADIUS), // Theory is of radii that shrink by α alone.
+            radius_floor: RadiusFloor::NONE,
+            radius_rule: RadiusRule::Local,
+            ..PpmSettings::default()
+        },
+        ..RenderSettings::default()
     }
 }
 
@@ -88,13 +90,16 @@ fn settings(alpha: f64, photons: u32, seed: u64) -> Settings {
 pub fn measure(alpha: f64, photons: u32, seeds: u64, checkpoints: &[u64]) -> Vec<Parts> {
     let scene = scene().build().expect("a sound scene");
     let cancel = foton_integrator::Cancel::default();
-    let start = |settings: Settings, photons: u64| {
+    let start = |settings: RenderSettings, photons: u64| {
         let started = foton_integrator::Variants::start(&scene, &[settings], photons, &mut |_| (), &cancel);
         started.expect("not cancelled").expect("one variant")
     };
     // Eye samples of seed 0 for all: only photons differ.
     let base = settings(alpha, photons, 0);
-    let mut exact = start(Settings { direct_light: DirectLight::ShadowRays, ..base }, 0);
+    let mut exact = start(
+        RenderSettings { ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..base.ppm }, ..base },
+        0,
+    );
     exact.advance(&mut |_| (), &cancel).expect("not cancelled");
     let light = |runs: &foton_integrator::Variants| -> Vec<f64> {
         runs.runs()[0].image().pixels.iter().map(|p| f64::from(p.luminance())).collect()

@@ -5,18 +5,21 @@ mod extremes;
 use std::f64::consts::PI;
 use std::num::NonZeroU32;
 
-use foton_integrator::{Alpha, DirectLight, LayerKind, Settings};
+use foton_integrator::{Alpha, DirectLight, LayerKind, PpmSettings, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
 use foton_tests::{Sketch, glass, grey, mean, mean_and_sigma, seeds};
 
-fn settings(photons: u32, seed: u64) -> Settings {
-    Settings {
-        photons_per_pass: NonZeroU32::new(photons).expect("above 0"),
-        first_pass: NonZeroU32::new(photons).expect("above 0"),
+fn settings(photons: u32, seed: u64) -> RenderSettings {
+    RenderSettings {
         samples_per_pixel: NonZeroU32::MIN,
         seed,
-        ..Settings::default()
+        ppm: PpmSettings {
+            photons_per_pass: NonZeroU32::new(photons).expect("above 0"),
+            first_pass: NonZeroU32::new(photons).expect("above 0"),
+            ..PpmSettings::default()
+        },
+        ..RenderSettings::default()
     }
 }
 
@@ -30,9 +33,12 @@ fn an_integrating_sphere_has_the_irradiance_of_its_closed_form_at_a_large_radius
         .sphere(DVec3::ZERO, radius, grey(albedo as f32), None)
         .inside_out()
         .point(DVec3::ZERO, power);
-    let base = Settings {
-        radius: Some(radius / 4.0),
-        alpha: Alpha::new(1.0).expect("in range"),
+    let base = RenderSettings {
+        ppm: PpmSettings {
+            radius: Some(radius / 4.0),
+            alpha: Alpha::new(1.0).expect("in range"),
+            ..settings(20_000, 0).ppm
+        },
         ..settings(20_000, 0)
     };
     let expected = albedo / PI * power / (4.0 * PI * radius * radius * (1.0 - albedo));
@@ -46,7 +52,15 @@ fn an_integrating_sphere_has_the_irradiance_of_its_closed_form_at_a_large_radius
 fn a_closed_furnace_is_uniformly_bright_away_from_its_edges() {
     let sketch =
         Sketch::default().camera(DVec3::ZERO, -DVec3::Z, 60.0, 24).room(grey(0.5), Some(Rgb::splat(1.0)));
-    let (got, sigma) = seeds(&sketch, &Settings { radius: Some(0.1), ..settings(50_000, 0) }, 2, 6);
+    let (got, sigma) = seeds(
+        &sketch,
+        &RenderSettings {
+            ppm: PpmSettings { radius: Some(0.1), ..settings(50_000, 0).ppm },
+            ..settings(50_000, 0)
+        },
+        2,
+        6,
+    );
     assert!((got - 2.0).abs() < 4.0 * sigma + 2e-3, "{got} ± {sigma}");
     assert!(sigma < 0.01);
 }
@@ -66,8 +80,14 @@ fn the_deficit_at_an_edge_is_the_clipped_share_of_the_disc() {
             pixels,
         )
         .room(grey(0.5), Some(Rgb::splat(1.0)));
-    let base =
-        Settings { radius: Some(r), alpha: Alpha::new(1.0).expect("in range"), ..settings(200_000, 1) };
+    let base = RenderSettings {
+        ppm: PpmSettings {
+            radius: Some(r),
+            alpha: Alpha::new(1.0).expect("in range"),
+            ..settings(200_000, 1).ppm
+        },
+        ..settings(200_000, 1)
+    };
     let image = sketch.render(base, 4).image();
     let mut worst: f64 = 0.0;
     for column in 0..pixels {
@@ -94,9 +114,12 @@ fn blur_below_a_point_source_is_exactly_the_mean_over_the_disc() {
             .rectangle(DVec3::ZERO, DVec3::new(0.0, 0.0, 4.0), DVec3::new(4.0, 0.0, 0.0), grey(0.8), None)
             .point(DVec3::new(0.0, h, 0.0), power)
             .max_depth(2);
-        let base = Settings {
-            radius: Some(s * h),
-            alpha: Alpha::new(1.0).expect("in range"),
+        let base = RenderSettings {
+            ppm: PpmSettings {
+                radius: Some(s * h),
+                alpha: Alpha::new(1.0).expect("in range"),
+                ..settings(100_000, 0).ppm
+            },
             ..settings(100_000, 0)
         };
         let at_foot = power / (4.0 * PI * h * h);
@@ -138,7 +161,10 @@ fn glass_of_index_one_changes_nothing() {
             .point(DVec3::new(0.1, 0.5, 0.2), 10.0);
         if with_glass { s.sphere(DVec3::new(0.0, -0.2, -0.3), 0.4, glass(1.0), None) } else { s }
     };
-    let base = Settings { radius: Some(0.1), ..settings(50_000, 0) };
+    let base = RenderSettings {
+        ppm: PpmSettings { radius: Some(0.1), ..settings(50_000, 0).ppm },
+        ..settings(50_000, 0)
+    };
     let (a, sigma_a) = seeds(&scene(false), &base, 4, 5);
     let (b, sigma_b) = seeds(&scene(true), &base, 4, 5);
     assert!((a - b).abs() < 4.0 * sigma_a.hypot(sigma_b), "{a} ± {sigma_a}, {b} ± {sigma_b}");
@@ -163,8 +189,19 @@ fn photons_and_shadow_rays_agree_away_from_edges() {
             Some(Rgb::splat(10.0)),
         )
         .sphere(DVec3::new(0.2, -0.5, -0.4), 0.35, glass(1.5), None);
-    let base = Settings { radius: Some(0.05), layers: true, ..settings(60_000, 0) };
-    let run = |direct_light, seed| sketch.render(Settings { direct_light, seed, ..base.clone() }, 12).image();
+    let base = RenderSettings {
+        layers: true,
+        ppm: PpmSettings { radius: Some(0.05), ..settings(60_000, 0).ppm },
+        ..settings(60_000, 0)
+    };
+    let run = |direct_light, seed| {
+        sketch
+            .render(
+                RenderSettings { seed, ppm: PpmSettings { direct_light, ..base.ppm }, ..base.clone() },
+                12,
+            )
+            .image()
+    };
     let shapes = match sketch.render(base.clone(), 1).layer(LayerKind::ShapeId).expect("kept").channels {
         foton_film::LayerData::U32(plane) => plane.values,
         _ => panic!("shape ids are whole numbers"),
@@ -211,7 +248,10 @@ fn a_furnace_cut_at_each_depth_has_its_partial_sum() {
             .room(grey(0.5), Some(Rgb::splat(1.0)))
             .max_depth(depth);
         for direct_light in [DirectLight::Photons, DirectLight::ShadowRays] {
-            let base = Settings { radius: Some(0.1), direct_light, ..settings(40_000, 0) };
+            let base = RenderSettings {
+                ppm: PpmSettings { radius: Some(0.1), direct_light, ..settings(40_000, 0).ppm },
+                ..settings(40_000, 0)
+            };
             let (got, sigma) = seeds(&sketch, &base, 2, 5);
             let expected = (1.0 - 0.5f64.powi(depth as i32)) / 0.5;
             assert!(
@@ -233,7 +273,10 @@ fn edges_through_glass_count_for_each_pair() {
             .max_depth(depth);
         if pane { s.sphere(DVec3::ZERO, 0.1, glass(1.0), None) } else { s }
     };
-    let base = Settings { radius: Some(0.1), ..settings(40_000, 0) };
+    let base = RenderSettings {
+        ppm: PpmSettings { radius: Some(0.1), ..settings(40_000, 0).ppm },
+        ..settings(40_000, 0)
+    };
     // The eye leaves the ball through one face: depth d + 1 sees what depth d saw, less what photons lose that cross the
     // ball themselves (a share of about its size, bounded here by 2 %).
     for depth in [1, 2, 3] {

@@ -4,7 +4,7 @@ use std::num::NonZeroU32;
 use std::sync::Arc;
 
 use foton_film::Image;
-use foton_integrator::{Cancel, LightUse, Ppm, Settings};
+use foton_integrator::{Cancel, LightUse, PpmSettings, Render, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
 use foton_scene::{Census, Scene};
@@ -22,18 +22,24 @@ fn room() -> Sketch {
         .sphere(DVec3::new(-0.3, -0.6, 0.1), 0.4, grey(0.5), None)
 }
 
-fn settings() -> Settings {
-    Settings { photons_per_pass: NonZeroU32::new(20_000).expect("above 0"), ..Settings::default() }
+fn settings() -> RenderSettings {
+    RenderSettings {
+        ppm: PpmSettings {
+            photons_per_pass: NonZeroU32::new(20_000).expect("above 0"),
+            ..PpmSettings::default()
+        },
+        ..RenderSettings::default()
+    }
 }
 
 fn render(sketch: &Sketch, forced: Census) -> Image {
     let scene = Scene::build_as_if(&sketch.0, forced).expect("the room is sound");
     let cancel = Cancel::default();
-    let mut ppm = Ppm::start(Arc::new(scene), settings(), &mut |_| {}, &cancel).expect("not cancelled");
+    let mut render = Render::start(Arc::new(scene), settings(), &mut |_| {}, &cancel).expect("not cancelled");
     for _ in 0..4 {
-        ppm.advance(&mut |_| {}, &cancel).expect("not cancelled");
+        render.advance(&mut |_| {}, &cancel).expect("not cancelled");
     }
-    ppm.image()
+    render.image()
 }
 
 #[test]
@@ -64,10 +70,10 @@ fn a_light_behind_a_wall_is_starved_and_the_one_in_the_room_is_not() {
     let sketch = room().rectangle(hidden, 0.3 * z, 0.3 * x, grey(0.0), Some(Rgb::splat(18.0)));
     let scene = Arc::new(Scene::build(&sketch.0).expect("sound"));
     let cancel = Cancel::default();
-    let mut ppm = Ppm::start(scene, settings(), &mut |_| {}, &cancel).expect("not cancelled");
-    ppm.advance(&mut |_| {}, &cancel).expect("not cancelled");
-    let [room, hidden] = [0, 1].map(|i| ppm.light_use()[i]);
-    assert_eq!(room.emitted + hidden.emitted, ppm.photons_emitted());
+    let mut render = Render::start(scene, settings(), &mut |_| {}, &cancel).expect("not cancelled");
+    render.advance(&mut |_| {}, &cancel).expect("not cancelled");
+    let [room, hidden] = [0, 1].map(|i| render.light_use()[i]);
+    assert_eq!(room.emitted + hidden.emitted, render.photons_emitted());
     assert!(room.hit_rate() > 0.5 && !room.is_starved(20_000), "{room:?}");
     assert_eq!((hidden.reached, hidden.is_starved(20_000)), (0, true), "{hidden:?}");
     // A light with few photons, or few photons in all, is not worth a word.

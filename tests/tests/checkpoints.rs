@@ -5,7 +5,9 @@ use std::num::NonZeroU32;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use foton_integrator::{Alpha, Cancel, Change, DirectLight, Ppm, RadiusRule, Settings};
+use foton_integrator::{
+    Alpha, Cancel, DirectLight, PpmSettings, RadiusRule, Render, RenderSettings, SettingChange,
+};
 use foton_math::glam::DVec3;
 use foton_session::checkpoint::{self, ResumeError};
 use foton_session::{SceneIdentity, Session};
@@ -19,14 +21,17 @@ fn scene() -> Sketch {
         .point(DVec3::new(0.7, 0.7, 0.7), 2.0)
 }
 
-fn settings() -> Settings {
+fn settings() -> RenderSettings {
     let number = |n| NonZeroU32::new(n).expect("above 0");
-    Settings {
-        photons_per_pass: number(5000),
-        first_pass: number(1000),
+    RenderSettings {
         samples_per_pixel: number(2),
         error: true,
-        ..Settings::default()
+        ppm: PpmSettings {
+            photons_per_pass: number(5000),
+            first_pass: number(1000),
+            ..PpmSettings::default()
+        },
+        ..RenderSettings::default()
     }
 }
 
@@ -34,7 +39,7 @@ fn identity() -> SceneIdentity {
     SceneIdentity { name: "sketch".into(), hash: 7 }
 }
 
-fn start(settings: &Settings, threads: usize) -> Session {
+fn start(settings: &RenderSettings, threads: usize) -> Session {
     let scene = scene().build().expect("sound");
     Session::start(scene, settings.clone(), Some(threads), &Cancel::default()).expect("starts")
 }
@@ -51,13 +56,14 @@ fn path(name: &str) -> PathBuf {
 
 fn keep(session: &Session, name: &str) -> PathBuf {
     let path = path(name);
-    checkpoint::write(&path, session.ppm(), session.elapsed(), session.rays(), &identity()).expect("written");
+    checkpoint::write(&path, session.render(), session.elapsed(), session.rays(), &identity())
+        .expect("written");
     path
 }
 
-fn bits(ppm: &Ppm) -> (Vec<u8>, Vec<[u32; 3]>) {
-    let image = ppm.image();
-    (ppm.state(), image.pixels.iter().map(|p| p.to_array().map(f32::to_bits)).collect())
+fn bits(render: &Render) -> (Vec<u8>, Vec<[u32; 3]>) {
+    let image = render.image();
+    (render.save(), image.pixels.iter().map(|p| p.to_array().map(f32::to_bits)).collect())
 }
 
 #[test]
@@ -65,14 +71,18 @@ fn a_render_that_was_taken_up_has_the_bits_of_one_that_never_stopped() {
     let settings = settings();
     let others = [
         settings.clone(),
-        Settings { layers: true, direct_light: DirectLight::ShadowRays, ..settings.clone() },
-        Settings { radius_rule: RadiusRule::Adaptive, ..settings },
+        RenderSettings {
+            layers: true,
+            ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..settings.ppm },
+            ..settings.clone()
+        },
+        RenderSettings { ppm: PpmSettings { radius_rule: RadiusRule::Adaptive, ..settings.ppm }, ..settings },
     ];
     for (i, settings) in others.into_iter().enumerate() {
         let mut whole = start(&settings, 2);
         advance(&mut whole, 3);
-        whole.ppm_mut().change(Change::Alpha(Alpha::new(0.9).expect("in range")));
-        whole.ppm_mut().change(Change::PhotonsPerPass(NonZeroU32::new(7000).expect("above 0")));
+        whole.render_mut().change(SettingChange::Alpha(Alpha::new(0.9).expect("in range")));
+        whole.render_mut().change(SettingChange::PhotonsPerPass(NonZeroU32::new(7000).expect("above 0")));
         advance(&mut whole, 2);
         let path = keep(&whole, &format!("whole-{i}"));
         let (elapsed, rays) = (whole.elapsed(), whole.rays());
@@ -80,10 +90,10 @@ fn a_render_that_was_taken_up_has_the_bits_of_one_that_never_stopped() {
         let mut taken_up = start(&settings, 1);
         checkpoint::resume(&path, &mut taken_up, &identity()).expect("taken up");
         assert_eq!((taken_up.elapsed(), taken_up.rays()), (elapsed, rays));
-        assert_eq!(taken_up.ppm().changes(), whole.ppm().changes());
+        assert_eq!(taken_up.render().changes(), whole.render().changes());
         advance(&mut taken_up, 4);
         // How many photons start where no disc is may differ, since cells are marked anew; no sum may.
-        let (whole, taken_up) = (bits(whole.ppm()), bits(taken_up.ppm()));
+        let (whole, taken_up) = (bits(whole.render()), bits(taken_up.render()));
         assert!(whole.1 == taken_up.1, "the images are equal");
         assert_eq!(whole.0.len(), taken_up.0.len());
         let _ = fs::remove_file(path);
@@ -96,15 +106,18 @@ fn other_scenes_settings_and_versions_and_damaged_files_are_refused() {
     advance(&mut session, 2);
     let path = keep(&session, "refused");
     let bytes = fs::read(&path).expect("there");
-    let try_with = |settings: &Settings, scene: &SceneIdentity| {
+    let try_with = |settings: &RenderSettings, scene: &SceneIdentity| {
         checkpoint::resume(&path, &mut start(settings, 1), scene)
     };
-    let other = Settings { seed: 1, ..settings() };
+    let other = RenderSettings { seed: 1, ..settings() };
     assert!(matches!(try_with(&other, &identity()), Err(ResumeError::OtherRender { .. })));
     let scene = SceneIdentity { hash: 8, ..identity() };
     assert!(matches!(try_with(&settings(), &scene), Err(ResumeError::OtherRender { .. })));
     // α and photons a pass may change while it runs: they come from the checkpoint.
-    let steered = Settings { alpha: Alpha::new(0.5).expect("in range"), ..settings() };
+    let steered = RenderSettings {
+        ppm: PpmSettings { alpha: Alpha::new(0.5).expect("in range"), ..settings().ppm },
+        ..settings()
+    };
     assert!(try_with(&steered, &identity()).is_ok());
 
     let damage = |bytes: &[u8]| {

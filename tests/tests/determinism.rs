@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use foton_film::Image;
 use foton_integrator::{
-    Alpha, Cancel, Change, DirectLight, LayerKind, Ppm, RadiusRule, RadiusScale, Settings, Variants,
+    Alpha, Cancel, DirectLight, LayerKind, PpmSettings, RadiusRule, RadiusScale, Render, RenderSettings,
+    SettingChange, Variants,
 };
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
@@ -47,15 +48,18 @@ fn scene() -> Sketch {
 }
 
 /// More than one batch of photons and of hit points.
-fn settings(direct_light: DirectLight) -> Settings {
-    Settings {
-        photons_per_pass: NonZeroU32::new(30_001).expect("above 0"),
-        first_pass: NonZeroU32::new(30_001).expect("above 0"),
+fn settings(direct_light: DirectLight) -> RenderSettings {
+    RenderSettings {
         samples_per_pixel: NonZeroU32::new(3).expect("above 0"),
-        direct_light,
         layers: true,
         seed: 42,
-        ..Settings::default()
+        ppm: PpmSettings {
+            photons_per_pass: NonZeroU32::new(30_001).expect("above 0"),
+            first_pass: NonZeroU32::new(30_001).expect("above 0"),
+            direct_light,
+            ..PpmSettings::default()
+        },
+        ..RenderSettings::default()
     }
 }
 
@@ -65,9 +69,9 @@ fn hash(image: &Image) -> u64 {
     bits.fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
 }
 
-fn state(ppm: &Ppm) -> (u64, String, String) {
-    let layers: Vec<_> = LayerKind::ALL.into_iter().map(|k| ppm.layer(k)).collect();
-    (hash(&ppm.image()), format!("{layers:?}"), format!("{:?}", ppm.ledger()))
+fn state(render: &Render) -> (u64, String, String) {
+    let layers: Vec<_> = LayerKind::ALL.into_iter().map(|k| render.layer(k)).collect();
+    (hash(&render.image()), format!("{layers:?}"), format!("{:?}", render.ledger()))
 }
 
 #[test]
@@ -85,7 +89,7 @@ fn one_two_and_seven_threads_give_the_same_bits() {
 #[test]
 fn keeping_path_classes_apart_does_not_change_a_photon() {
     let apart = scene().render(settings(DirectLight::Photons), 3);
-    let whole = scene().render(Settings { layers: false, ..settings(DirectLight::Photons) }, 3);
+    let whole = scene().render(RenderSettings { layers: false, ..settings(DirectLight::Photons) }, 3);
     // Sums of three classes round otherwise than one sum.
     let close = |p: Rgb, q: Rgb| (p - q).max_component().abs() <= 1e-5 * p.max_component().max(1e-3);
     assert!(apart.image().pixels.iter().zip(&whole.image().pixels).all(|(&p, &q)| close(p, q)));
@@ -108,26 +112,26 @@ fn the_image_is_the_mean_of_the_passes_weighted_by_photons_while_settings_change
     let cancel = Cancel::default();
     let start = settings(DirectLight::Photons);
     let scene = scene().build().expect("sound");
-    let mut ppm = Ppm::start(scene, start, &mut |_| (), &cancel).expect("starts");
+    let mut render = Render::start(scene, start, &mut |_| (), &cancel).expect("starts");
     let mut sum = vec![0.0f64; 48 * 48];
     for pass in 0..6u32 {
         if pass == 2 {
-            ppm.change(Change::Alpha(Alpha::new(0.9).expect("in range")));
-            ppm.change(Change::PhotonsPerPass(NonZeroU32::new(70_000).expect("above 0")));
+            render.change(SettingChange::Alpha(Alpha::new(0.9).expect("in range")));
+            render.change(SettingChange::PhotonsPerPass(NonZeroU32::new(70_000).expect("above 0")));
         }
-        let report = ppm.advance(&mut |_| (), &cancel).expect("not cancelled");
+        let report = render.advance(&mut |_| (), &cancel).expect("not cancelled");
         assert_eq!(report.photons_in_pass, if pass < 2 { 30_001 } else { 70_000 });
-        for (sum, p) in sum.iter_mut().zip(&ppm.last_pass().pixels) {
+        for (sum, p) in sum.iter_mut().zip(&render.last_pass().pixels) {
             *sum += f64::from(p.g) * report.photons_in_pass as f64;
         }
     }
-    assert_eq!(ppm.changes().iter().map(|(pass, _)| *pass).collect::<Vec<_>>(), [2, 2]);
-    let Some(foton_film::LayerData::Rgb(emission)) = ppm.layer(LayerKind::Emission).map(|l| l.channels)
+    assert_eq!(render.changes().iter().map(|(pass, _)| *pass).collect::<Vec<_>>(), [2, 2]);
+    let Some(foton_film::LayerData::Rgb(emission)) = render.layer(LayerKind::Emission).map(|l| l.channels)
     else {
         panic!("emission is colour")
     };
-    for ((sum, p), e) in sum.iter().zip(&ppm.image().pixels).zip(&emission.pixels) {
-        let expected = sum / ppm.photons_emitted() as f64 + f64::from(e.g);
+    for ((sum, p), e) in sum.iter().zip(&render.image().pixels).zip(&emission.pixels) {
+        let expected = sum / render.photons_emitted() as f64 + f64::from(e.g);
         assert!((f64::from(p.g) - expected).abs() <= 1e-5 * expected.max(1e-3));
     }
 }
@@ -135,13 +139,13 @@ fn the_image_is_the_mean_of_the_passes_weighted_by_photons_while_settings_change
 #[test]
 fn a_cancelled_pass_has_not_happened() {
     let cancel = Cancel::default();
-    let mut ppm = scene().render(settings(DirectLight::Photons), 2);
-    let before = state(&ppm);
+    let mut render = scene().render(settings(DirectLight::Photons), 2);
+    let before = state(&render);
     cancel.request();
-    assert!(ppm.advance(&mut |_| (), &cancel).is_err());
-    assert!(before == state(&ppm) && ppm.passes() == 2);
-    ppm.advance(&mut |_| (), &Cancel::default()).expect("not cancelled");
-    assert!(state(&ppm) == state(&scene().render(settings(DirectLight::Photons), 3)));
+    assert!(render.advance(&mut |_| (), &cancel).is_err());
+    assert!(before == state(&render) && render.passes() == 2);
+    render.advance(&mut |_| (), &Cancel::default()).expect("not cancelled");
+    assert!(state(&render) == state(&scene().render(settings(DirectLight::Photons), 3)));
 }
 
 #[test]
@@ -172,23 +176,44 @@ fn power_of_two_multiples_of_a_scene_give_the_same_bits() {
 #[test]
 fn variants_over_shared_photons_have_the_bits_of_runs_of_their_own() {
     let photons = |n| NonZeroU32::new(n).expect("above 0");
-    let base = Settings {
-        photons_per_pass: photons(12_000),
-        first_pass: photons(4_000),
+    let base = RenderSettings {
         samples_per_pixel: NonZeroU32::MIN,
+        ppm: PpmSettings {
+            photons_per_pass: photons(12_000),
+            first_pass: photons(4_000),
+            ..settings(DirectLight::Photons).ppm
+        },
         ..settings(DirectLight::Photons)
     };
-    let alpha = |a| Settings { alpha: Alpha::new(a).expect("in range"), ..base.clone() };
-    let radius = |s| Settings { radius_scale: RadiusScale::new(s).expect("above 0"), ..base.clone() };
+    let alpha = |a| RenderSettings {
+        ppm: PpmSettings { alpha: Alpha::new(a).expect("in range"), ..base.ppm },
+        ..base.clone()
+    };
+    let radius = |s| RenderSettings {
+        ppm: PpmSettings { radius_scale: RadiusScale::new(s).expect("above 0"), ..base.ppm },
+        ..base.clone()
+    };
     let variants = [
         base.clone(),
         alpha(0.3),
         alpha(1.0),
         radius(0.25),
         radius(4.0),
-        Settings { direct_light: DirectLight::ShadowRays, ..base.clone() },
-        Settings { radius_rule: RadiusRule::Global, layers: false, error: true, ..base.clone() },
-        Settings { radius_rule: RadiusRule::Adaptive, error: true, ..base.clone() },
+        RenderSettings {
+            ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..base.ppm },
+            ..base.clone()
+        },
+        RenderSettings {
+            layers: false,
+            error: true,
+            ppm: PpmSettings { radius_rule: RadiusRule::Global, ..base.ppm },
+            ..base.clone()
+        },
+        RenderSettings {
+            error: true,
+            ppm: PpmSettings { radius_rule: RadiusRule::Adaptive, ..base.ppm },
+            ..base.clone()
+        },
     ];
     let (scene, cancel) = (scene().build().expect("a sound scene"), Cancel::default());
     let together = |photons| {
@@ -201,7 +226,8 @@ fn variants_over_shared_photons_have_the_bits_of_runs_of_their_own() {
     };
     let shared = together(base.seed);
     for (i, settings) in variants.iter().enumerate() {
-        let mut alone = Ppm::start(Arc::clone(&scene), settings.clone(), &mut |_| (), &cancel).expect("runs");
+        let mut alone =
+            Render::start(Arc::clone(&scene), settings.clone(), &mut |_| (), &cancel).expect("runs");
         for _ in 0..6 {
             alone.advance(&mut |_| (), &cancel).expect("not cancelled");
         }
@@ -212,7 +238,7 @@ fn variants_over_shared_photons_have_the_bits_of_runs_of_their_own() {
     }
     let other = together(base.seed + 1);
     assert_ne!(hash(&other.runs()[0].image()), hash(&shared.runs()[0].image()), "photons of their own");
-    let other_depth = Settings { max_depth: Some(3), ..base.clone() };
+    let other_depth = RenderSettings { max_depth: Some(3), ..base.clone() };
     let refused = Variants::start(&scene, &[base.clone(), other_depth], 0, &mut |_| (), &cancel);
     assert!(refused.expect("not cancelled").is_none(), "other photons");
 }

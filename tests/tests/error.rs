@@ -3,22 +3,24 @@
 use std::num::NonZeroU32;
 
 use foton_film::Image;
-use foton_integrator::{Alpha, DirectLight, Ppm, RadiusFloor, RadiusRule, Settings};
+use foton_integrator::{Alpha, DirectLight, PpmSettings, RadiusFloor, RadiusRule, Render, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
 use foton_tests::{Sketch, grey, slopes};
 
-fn settings(photons: u32, seed: u64) -> Settings {
+fn settings(photons: u32, seed: u64) -> RenderSettings {
     let photons_per_pass = NonZeroU32::new(photons).expect("above 0");
-    Settings {
-        photons_per_pass,
-        first_pass: NonZeroU32::new(photons / 8).expect("above 0"),
+    RenderSettings {
         samples_per_pixel: NonZeroU32::MIN,
-        // Theory is of radii that shrink for ever.
-        radius_floor: RadiusFloor::NONE,
         error: true,
         seed,
-        ..Settings::default()
+        ppm: PpmSettings {
+            photons_per_pass,
+            first_pass: NonZeroU32::new(photons / 8).expect("above 0"), // Theory is of radii that shrink for ever.
+            radius_floor: RadiusFloor::NONE,
+            ..PpmSettings::default()
+        },
+        ..RenderSettings::default()
     }
 }
 
@@ -39,8 +41,12 @@ fn lit_floor(height: f64) -> Sketch {
         .max_depth(2)
 }
 
-fn by_shadow_rays(sketch: &Sketch, base: &Settings) -> Vec<f64> {
-    let exact = Settings { direct_light: DirectLight::ShadowRays, error: false, ..base.clone() };
+fn by_shadow_rays(sketch: &Sketch, base: &RenderSettings) -> Vec<f64> {
+    let exact = RenderSettings {
+        error: false,
+        ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..base.ppm },
+        ..base.clone()
+    };
     sketch.render(exact, 1).image().pixels.iter().map(|p| f64::from(p.luminance())).collect()
 }
 
@@ -50,9 +56,15 @@ fn the_error_of_a_furnace_is_its_noise_at_16_and_64_passes() {
     let sketch =
         Sketch::default().camera(DVec3::ZERO, -DVec3::Z, 60.0, 32).room(grey(0.5), Some(Rgb::splat(1.0)));
     for passes in [16, 64] {
-        let ppm = sketch.render(Settings { radius: Some(0.1), ..settings(10_000, 3) }, passes);
+        let render = sketch.render(
+            RenderSettings {
+                ppm: PpmSettings { radius: Some(0.1), ..settings(10_000, 3).ppm },
+                ..settings(10_000, 3)
+            },
+            passes,
+        );
         let truth = vec![2.0; 32 * 32];
-        let (error, truth) = (ppm.error().expect("passes"), true_error(&ppm.image(), &truth, 1.0));
+        let (error, truth) = (render.error().expect("passes"), true_error(&render.image(), &truth, 1.0));
         let quotient = error.total / truth;
         assert!((quotient - 1.0).abs() < 0.2, "pass {passes}: {error:?}, true {truth}");
         assert!(error.low < truth && truth < error.high, "pass {passes}: {error:?}, true {truth}");
@@ -66,15 +78,18 @@ fn the_error_of_a_furnace_is_its_noise_at_16_and_64_passes() {
 fn blur_is_part_of_the_error_at_16_and_64_passes() {
     for (radius, alpha) in [(0.5, 1.0), (0.5, 2.0 / 3.0), (0.2, 2.0 / 3.0)] {
         let sketch = lit_floor(0.8);
-        let base = Settings {
-            radius: Some(radius),
-            alpha: Alpha::new(alpha).expect("in range"),
+        let base = RenderSettings {
+            ppm: PpmSettings {
+                radius: Some(radius),
+                alpha: Alpha::new(alpha).expect("in range"),
+                ..settings(20_000, 4).ppm
+            },
             ..settings(20_000, 4)
         };
         let truth = by_shadow_rays(&sketch, &base);
         for passes in [16, 64] {
-            let ppm = sketch.render(base.clone(), passes);
-            let (error, truth) = (ppm.error().expect("passes"), true_error(&ppm.image(), &truth, 0.0));
+            let render = sketch.render(base.clone(), passes);
+            let (error, truth) = (render.error().expect("passes"), true_error(&render.image(), &truth, 0.0));
             let quotient = error.total / truth;
             assert!((quotient - 1.0).abs() < 0.25, "{radius} {alpha} {passes}: {error:?}, true {truth}");
         }
@@ -86,10 +101,13 @@ fn blur_is_part_of_the_error_at_16_and_64_passes() {
 fn bounds_of_tiles_hold_about_as_often_as_they_say() {
     let (mut within, mut all) = (0.0, 0.0);
     for seed in 0..6 {
-        let base = Settings { radius: Some(0.3), ..settings(20_000, seed) };
+        let base = RenderSettings {
+            ppm: PpmSettings { radius: Some(0.3), ..settings(20_000, seed).ppm },
+            ..settings(20_000, seed)
+        };
         let truth = tile_means(&by_shadow_rays(&lit_floor(0.8), &base), 32);
-        let ppm = lit_floor(0.8).render(base, 32);
-        for (tile, truth) in ppm.error_tiles().iter().zip(&truth) {
+        let render = lit_floor(0.8).render(base, 32);
+        for (tile, truth) in render.error_tiles().iter().zip(&truth) {
             within += f64::from(u8::from((tile.mean - truth).abs() <= tile.bound(1.645)));
             all += 1.0;
         }
@@ -117,10 +135,16 @@ fn light_that_is_hardly_found_keeps_the_error_large() {
         .rectangle(DVec3::ZERO, DVec3::new(0.0, 0.0, 4.0), DVec3::new(4.0, 0.0, 0.0), grey(0.8), None)
         .point(DVec3::new(0.0, 3000.0, 0.0), 3e8)
         .max_depth(2);
-    let ppm = sketch.render(Settings { radius: Some(0.05), ..settings(20_000, 1) }, 12);
-    let unknown = ppm.unknown_share().iter().sum::<f32>() / 256.0;
+    let render = sketch.render(
+        RenderSettings {
+            ppm: PpmSettings { radius: Some(0.05), ..settings(20_000, 1).ppm },
+            ..settings(20_000, 1)
+        },
+        12,
+    );
+    let unknown = render.unknown_share().iter().sum::<f32>() / 256.0;
     assert!(unknown > 0.2, "hardly anything is found: {unknown}");
-    if let Some(error) = ppm.error() {
+    if let Some(error) = render.error() {
         assert!(error.total > 0.5 && error.unknown_share > 0.2, "{error:?}");
     }
 }
@@ -131,12 +155,12 @@ fn the_error_costs_no_bit_and_depends_on_no_thread() {
     let sketch = lit_floor(1.0);
     let base = settings(5_000, 9);
     let with = sketch.render(base.clone(), 5);
-    let without = sketch.render(Settings { error: false, ..settings(5_000, 9) }, 5);
+    let without = sketch.render(RenderSettings { error: false, ..settings(5_000, 9) }, 5);
     assert_eq!(with.image().pixels, without.image().pixels);
     assert!(without.error().is_none() && without.error_tiles().is_empty());
     let threads = |n| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build().expect("threads");
-        pool.install(|| Ppm::error(&sketch.render(base.clone(), 5)))
+        pool.install(|| Render::error(&sketch.render(base.clone(), 5)))
     };
     assert_eq!(threads(1), threads(3));
     assert_eq!(threads(1), with.error());
@@ -146,7 +170,11 @@ fn the_error_costs_no_bit_and_depends_on_no_thread() {
 #[test]
 fn the_error_of_one_class_is_all_of_the_error() {
     for layers in [false, true] {
-        let base = Settings { radius: Some(0.5), layers, ..settings(20_000, 2) };
+        let base = RenderSettings {
+            layers,
+            ppm: PpmSettings { radius: Some(0.5), ..settings(20_000, 2).ppm },
+            ..settings(20_000, 2)
+        };
         let error = lit_floor(0.8).render(base, 24).error().expect("passes");
         let [direct, caustic, indirect] = error.classes.expect("each was asked for");
         assert!((direct.noise / error.noise - 1.0).abs() < 1e-9, "{error:?}");
@@ -160,9 +188,9 @@ fn the_error_of_one_class_is_all_of_the_error() {
 fn classes_have_the_noise_of_their_photons() {
     let sketch =
         Sketch::default().camera(DVec3::ZERO, -DVec3::Z, 60.0, 32).room(grey(0.75), Some(Rgb::splat(1.0)));
-    let base = Settings {
-        radius: Some(0.1),
+    let base = RenderSettings {
         samples_per_pixel: NonZeroU32::new(3).expect("above 0"),
+        ppm: PpmSettings { radius: Some(0.1), ..settings(10_000, 3).ppm },
         ..settings(10_000, 3)
     };
     let error = sketch.render(base, 24).error().expect("passes");
@@ -195,19 +223,34 @@ fn noise_and_blur_fall_with_the_slopes_of_theory() {
 fn radii_that_adapt_leave_less_error_than_any_fixed_rule() {
     let furnace =
         Sketch::default().camera(DVec3::ZERO, -DVec3::Z, 60.0, 16).room(grey(0.5), Some(Rgb::splat(1.0)));
-    let adaptive = |base: Settings| Settings { radius_rule: RadiusRule::Adaptive, error: false, ..base };
-    let local = |settings: Settings| Settings { radius_rule: RadiusRule::Local, error: false, ..settings };
-    let base = local(Settings { radius: Some(0.1), ..settings(10_000, 3) });
+    let adaptive = |base: RenderSettings| RenderSettings {
+        error: false,
+        ppm: PpmSettings { radius_rule: RadiusRule::Adaptive, ..base.ppm },
+        ..base
+    };
+    let local = |settings: RenderSettings| RenderSettings {
+        error: false,
+        ppm: PpmSettings { radius_rule: RadiusRule::Local, ..settings.ppm },
+        ..settings
+    };
+    let base = local(RenderSettings {
+        ppm: PpmSettings { radius: Some(0.1), ..settings(10_000, 3).ppm },
+        ..settings(10_000, 3)
+    });
     let [kept, fixed] = [adaptive(base.clone()), base].map(|s| furnace.render(s, 32).radii().median);
     assert!(kept > 1.3 * fixed && fixed < 0.06, "{kept} {fixed}");
 
-    let base = local(Settings { radius: Some(0.4), ..settings(20_000, 3) });
+    let base = local(RenderSettings {
+        ppm: PpmSettings { radius: Some(0.4), ..settings(20_000, 3).ppm },
+        ..settings(20_000, 3)
+    });
     let truth = by_shadow_rays(&slopes::scene(), &base);
-    let after = |settings: Settings| true_error(&slopes::scene().render(settings, 32).image(), &truth, 0.0);
+    let after =
+        |settings: RenderSettings| true_error(&slopes::scene().render(settings, 32).image(), &truth, 0.0);
     let error = after(adaptive(base.clone()));
     for alpha in [0.4, 0.5, 0.6, 2.0 / 3.0, 0.8, 1.0] {
         let alpha = Alpha::new(alpha).expect("in range");
-        let fixed = after(Settings { alpha, ..base.clone() });
+        let fixed = after(RenderSettings { ppm: PpmSettings { alpha, ..base.ppm }, ..base.clone() });
         assert!(error < 0.9 * fixed, "{error} against {fixed} at {alpha}");
     }
 }

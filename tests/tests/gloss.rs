@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use foton_integrator::{DirectLight, Settings};
+use foton_integrator::{DirectLight, PpmSettings, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{
@@ -35,12 +35,15 @@ fn plastic(roughness: Option<f32>) -> Bsdf {
     }
 }
 
-fn settings(photons: u32) -> Settings {
-    Settings {
-        photons_per_pass: NonZeroU32::new(photons).expect("above 0"),
-        first_pass: NonZeroU32::new(photons).expect("above 0"),
+fn settings(photons: u32) -> RenderSettings {
+    RenderSettings {
         samples_per_pixel: NonZeroU32::new(4).expect("above 0"),
-        ..Settings::default()
+        ppm: PpmSettings {
+            photons_per_pass: NonZeroU32::new(photons).expect("above 0"),
+            first_pass: NonZeroU32::new(photons).expect("above 0"),
+            ..PpmSettings::default()
+        },
+        ..RenderSettings::default()
     }
 }
 
@@ -63,10 +66,14 @@ fn wall(material: Bsdf) -> Sketch {
 #[test]
 fn glossy_hit_points_weigh_photons_as_they_weigh_shadow_rays() {
     for material in [metal(0.25), metal(0.6), plastic(None), plastic(Some(0.3)), grey(0.5)] {
-        let base = Settings { radius: Some(0.04), ..settings(200_000) };
+        let base = RenderSettings {
+            ppm: PpmSettings { radius: Some(0.04), ..settings(200_000).ppm },
+            ..settings(200_000)
+        };
         let sketch = wall(material);
         let (photons, a) = seeds(&sketch, &base, 3, 4);
-        let by_rays = Settings { direct_light: DirectLight::ShadowRays, ..base };
+        let by_rays =
+            RenderSettings { ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..base.ppm }, ..base };
         let (rays, b) = seeds(&sketch, &by_rays, 3, 4);
         // Blur over r = 0.04 where the highlight curves: under a percent at these roughnesses.
         let bound = 4.0 * a.hypot(b) + 0.01 * rays;
@@ -77,14 +84,17 @@ fn glossy_hit_points_weigh_photons_as_they_weigh_shadow_rays() {
 /// A lobe just narrow enough to be followed and one just wide enough to be kept show the same lamp.
 #[test]
 fn following_a_lobe_and_keeping_it_give_the_same_light() {
-    let base = Settings {
-        radius: Some(0.03),
+    let base = RenderSettings {
         samples_per_pixel: NonZeroU32::new(64).expect("above 0"),
-        hit_points_per_sample: NonZeroU32::MIN,
+        ppm: PpmSettings {
+            radius: Some(0.03),
+            hit_points_per_sample: NonZeroU32::MIN,
+            ..settings(300_000).ppm
+        },
         ..settings(300_000)
     };
     let (followed, a) = seeds(&wall(metal(0.0999)), &base, 1, 4);
-    let few = Settings { samples_per_pixel: NonZeroU32::new(4).expect("above 0"), ..base };
+    let few = RenderSettings { samples_per_pixel: NonZeroU32::new(4).expect("above 0"), ..base };
     let (kept, b) = seeds(&wall(metal(0.1001)), &few, 4, 4);
     assert!((followed / kept - 1.0).abs() < 4.0 * a.hypot(b) / kept + 0.02, "{followed} ± {a}, {kept} ± {b}");
 }
@@ -137,7 +147,10 @@ fn lights_without_extent_show_in_narrow_gloss() {
         EmitterKind::Point { position, intensity: bright },
         EmitterKind::Directional { direction: DVec3::new(-0.1, 0.05, -2.0), irradiance: bright },
     ];
-    let rays = Settings { direct_light: DirectLight::ShadowRays, ..settings(1000) };
+    let rays = RenderSettings {
+        ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..settings(1000).ppm },
+        ..settings(1000)
+    };
     for kind in &kinds {
         // Nothing is random in either: the values of the lobes, which differ by their roughness alone.
         for (followed, kept) in [(metal(0.1), metal(0.1001)), (plastic(Some(0.1)), plastic(Some(0.1001)))] {
@@ -192,7 +205,10 @@ fn light_from_infinity_has_its_closed_form_with_and_without_casters() {
     for (kind, irradiance) in kinds {
         for casters in [false, true] {
             for direct_light in [DirectLight::Photons, DirectLight::ShadowRays] {
-                let base = Settings { radius: Some(0.1), direct_light, ..settings(100_000) };
+                let base = RenderSettings {
+                    ppm: PpmSettings { radius: Some(0.1), direct_light, ..settings(100_000).ppm },
+                    ..settings(100_000)
+                };
                 let sketch = lit_from_infinity(kind.clone(), casters);
                 let (got, sigma) = seeds(&sketch, &base, 2, 4);
                 let expected = 0.6 / PI * irradiance;
@@ -211,7 +227,15 @@ fn opacity_scales_what_is_seen() {
     let at = |opacity: Option<f32>| {
         let mut sketch = wall(grey(0.5));
         sketch.0.materials[0].opacity = opacity.map(|o| Colour::Constant(Rgb::splat(o)));
-        seeds(&sketch, &Settings { radius: Some(0.05), ..settings(50_000) }, 2, 4)
+        seeds(
+            &sketch,
+            &RenderSettings {
+                ppm: PpmSettings { radius: Some(0.05), ..settings(50_000).ppm },
+                ..settings(50_000)
+            },
+            2,
+            4,
+        )
     };
     let (full, a) = at(None);
     let (half, b) = at(Some(0.5));

@@ -3,18 +3,21 @@
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use foton_integrator::Settings;
+use foton_integrator::{PpmSettings, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{Geometry, Mesh};
 use foton_tests::{Sketch, glass, grey};
 
-fn settings() -> Settings {
-    Settings {
-        photons_per_pass: NonZeroU32::new(400_000).expect("above 0"),
-        first_pass: NonZeroU32::new(400_000).expect("above 0"),
+fn settings() -> RenderSettings {
+    RenderSettings {
         samples_per_pixel: NonZeroU32::MIN,
-        ..Settings::default()
+        ppm: PpmSettings {
+            photons_per_pass: NonZeroU32::new(400_000).expect("above 0"),
+            first_pass: NonZeroU32::new(400_000).expect("above 0"),
+            ..PpmSettings::default()
+        },
+        ..RenderSettings::default()
     }
 }
 
@@ -36,7 +39,10 @@ fn open_box() -> Sketch {
 fn no_bounce_in_a_million_is_lost() {
     // Ten times the photons: nearly four million bounces, of which a million to one loses more than three.
     let photons = NonZeroU32::new(4_000_000).expect("above 0");
-    let many = Settings { photons_per_pass: photons, first_pass: photons, ..settings() };
+    let many = RenderSettings {
+        ppm: PpmSettings { photons_per_pass: photons, first_pass: photons, ..settings().ppm },
+        ..settings()
+    };
     let ledger = *open_box().render(many, 1).ledger();
     assert!(ledger.imbalance().abs() < 0.1 * ONE_BOUNCE, "{}: {ledger:?}", ledger.imbalance());
     assert!(ledger.absorbed > 0.1 * ledger.emitted && ledger.escaped > 0.1 * ledger.emitted);
@@ -64,7 +70,10 @@ fn a_closed_white_room_ends_by_the_depth_cap_and_says_so() {
         .camera(DVec3::ZERO, DVec3::X, 60.0, 4)
         .room(grey(1.0), None)
         .point(DVec3::ZERO, 1.0);
-    let few = Settings { photons_per_pass: NonZeroU32::new(2000).expect("above 0"), ..settings() };
+    let few = RenderSettings {
+        ppm: PpmSettings { photons_per_pass: NonZeroU32::new(2000).expect("above 0"), ..settings().ppm },
+        ..settings()
+    };
     let ledger = *sketch.render(few, 1).ledger();
     assert!((ledger.truncated / ledger.emitted - 1.0).abs() < 1e-5, "{ledger:?}");
     assert_eq!(ledger.escaped, 0.0, "a closed room leaks nothing");
@@ -91,7 +100,7 @@ fn what_photons_gain_at_interpolated_normals_is_a_line_of_its_own() {
 #[test]
 fn without_light_the_image_is_black_and_the_ledger_empty() {
     let sketch = Sketch::default().camera(DVec3::ZERO, DVec3::X, 60.0, 4).room(grey(0.5), None);
-    let ppm = sketch.render(settings(), 1);
-    assert!(ppm.image().pixels.iter().all(|&p| p == Rgb::BLACK));
-    assert_eq!((ppm.ledger().emitted, ppm.ledger().imbalance()), (0.0, 0.0));
+    let render = sketch.render(settings(), 1);
+    assert!(render.image().pixels.iter().all(|&p| p == Rgb::BLACK));
+    assert_eq!((render.ledger().emitted, render.ledger().imbalance()), (0.0, 0.0));
 }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use foton_integrator::{DirectLight, Settings};
+use foton_integrator::{DirectLight, PpmSettings, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{
@@ -14,12 +14,15 @@ use foton_tests::{Sketch, glass, grey, mean, seeds};
 
 const WHITE: Colour = Colour::Constant(Rgb::WHITE);
 
-fn settings(photons: u32, samples: u32) -> Settings {
-    Settings {
-        photons_per_pass: NonZeroU32::new(photons).expect("above 0"),
-        first_pass: NonZeroU32::new(photons).expect("above 0"),
+fn settings(photons: u32, samples: u32) -> RenderSettings {
+    RenderSettings {
         samples_per_pixel: NonZeroU32::new(samples).expect("above 0"),
-        ..Settings::default()
+        ppm: PpmSettings {
+            photons_per_pass: NonZeroU32::new(photons).expect("above 0"),
+            first_pass: NonZeroU32::new(photons).expect("above 0"),
+            ..PpmSettings::default()
+        },
+        ..RenderSettings::default()
     }
 }
 
@@ -84,7 +87,10 @@ fn a_mask_lets_light_through_from_behind_too() {
         masked(wall().sphere(DVec3::new(0.0, 0.0, 4.0), 0.2, grey(0.5), None), opacity, false)
     };
     for direct_light in [DirectLight::Photons, DirectLight::ShadowRays] {
-        let base = Settings { direct_light, ..settings(50_000, 1) };
+        let base = RenderSettings {
+            ppm: PpmSettings { direct_light, ..settings(50_000, 1).ppm },
+            ..settings(50_000, 1)
+        };
         let open = seeds(&wall(), &base, 2, 4);
         for (opacity, share) in [(0.0, 1.0), (0.5, 0.5), (1.0, 0.0)] {
             let (seen, sigma) = seeds(&ball(opacity), &base, 2, 4);
@@ -242,9 +248,15 @@ fn shadow_rays_see_through_what_photons_pass_straight() {
     for (i, between) in betweens.into_iter().enumerate() {
         for (ground, by_point) in [(grey(0.5), false), (white_metal(0.3), false), (grey(0.5), true)] {
             let sketch = scene(between, ground, by_point);
-            let base = Settings { radius: Some(0.05), ..settings(100_000, 1) };
+            let base = RenderSettings {
+                ppm: PpmSettings { radius: Some(0.05), ..settings(100_000, 1).ppm },
+                ..settings(100_000, 1)
+            };
             let photons = seeds(&sketch, &base, 2, 4);
-            let by_rays = Settings { direct_light: DirectLight::ShadowRays, ..base };
+            let by_rays = RenderSettings {
+                ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..base.ppm },
+                ..base
+            };
             let rays = seeds(&sketch, &by_rays, 6, 4);
             near(&format!("sheet {i}, {ground:?}"), photons, rays, 0.015);
         }
@@ -314,7 +326,10 @@ fn light_by_mirrors_and_through_clear_things_shows_on_both_sides_of_the_followed
         ("nothing and a mirror", &by_nothing, false, false),
         ("slab", &slab, false, false),
     ];
-    let base = Settings { radius: Some(0.08), ..settings(60_000, 4) };
+    let base = RenderSettings {
+        ppm: PpmSettings { radius: Some(0.08), ..settings(60_000, 4).ppm },
+        ..settings(60_000, 4)
+    };
     for (way, by, sun, coated) in ways {
         let followed = seeds(&lit(by, sun, 0.0999, coated), &base, 3, 4);
         let kept = seeds(&lit(by, sun, 0.1001, coated), &base, 3, 4);
@@ -339,7 +354,10 @@ fn photons_in_narrow_gloss_bring_only_what_followed_paths_cannot() {
         let radiance = 100.0 / (4.0 * PI * PI * 0.12 * 0.12);
         s.sphere(DVec3::new(-1.0, 1.5, 0.0), 0.12, grey(0.0), Some(Rgb::splat(radiance as f32)))
     };
-    let base = Settings { radius: Some(0.05), ..settings(30_000, 64) };
+    let base = RenderSettings {
+        ppm: PpmSettings { radius: Some(0.05), ..settings(30_000, 64).ppm },
+        ..settings(30_000, 64)
+    };
     let [a, b, both] = [(true, false), (false, true), (true, true)]
         .map(|(lamp, point)| seeds(&scene(lamp, point), &base, 2, 4));
     near("both lights", both, (a.0 + b.0, a.1.hypot(b.1)), 0.02);
@@ -376,7 +394,10 @@ fn photons_in_narrow_gloss_bring_what_followed_paths_would_of_a_lamp_of_some_siz
     for (material, below) in
         [(white_metal(0.09), false), (rough_glass(0.25), false), (rough_glass(0.25), true)]
     {
-        let few = Settings { radius: Some(0.05), ..settings(60_000, 16) };
+        let few = RenderSettings {
+            ppm: PpmSettings { radius: Some(0.05), ..settings(60_000, 16).ppm },
+            ..settings(60_000, 16)
+        };
         let by_point = seeds(&scene(material, below, true), &few, 3, 4);
         let many = settings(10_000, 256);
         let by_lamp = seeds(&scene(material, below, false), &many, 1, 4);

@@ -29,7 +29,7 @@ impl Method {
 }
 
 /// Everything that decides an image, beside the scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct RenderSettings {
     /// The method.
     pub method: Method,

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use std::path::PathBuf;
 
 use foton_film::ToneMap;
-use foton_session::Change;
+use foton_session::SettingChange;
 use foton_session::engine::{Command, Configuration, Event, Frame, Picture, Shown, Source};
 
 use crate::files::FileDialog;
@@ -237,7 +237,7 @@ impl State {
         self.outbox.push(command);
     }
 
-    pub(crate) fn steer(&mut self, change: Change) {
+    pub(crate) fn steer(&mut self, change: SettingChange) {
         self.ask(Command::Steer(change));
     }
 

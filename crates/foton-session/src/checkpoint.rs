@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use foton_film::{WriteError, atomic_write};
-use foton_integrator::{Ppm, StateError};
+use foton_integrator::{Render, StateError};
 use thiserror::Error;
 
 use crate::metadata::SceneIdentity;
@@ -80,16 +80,16 @@ pub enum ResumeError {
 /// [`WriteError`] with the path.
 pub fn write(
     path: &Path,
-    ppm: &Ppm,
+    render: &Render,
     elapsed: Duration,
     rays: u64,
     scene: &SceneIdentity,
 ) -> Result<(), WriteError> {
-    let state = ppm.state();
+    let state = render.save();
     let nanoseconds = u64::try_from(elapsed.as_nanos()).unwrap_or(u64::MAX);
     atomic_write(path, |file| {
         let packed = zstd::bulk::compress(&state, COMPRESSION)?;
-        let text = fixed::of(ppm, scene);
+        let text = fixed::of(render, scene);
         let mut bytes = Vec::with_capacity(HEADER + text.len() + packed.len() + TRAILER);
         bytes.extend_from_slice(&MAGIC);
         bytes.extend_from_slice(&VERSION.to_le_bytes());
@@ -134,11 +134,11 @@ pub fn resume(path: &Path, session: &mut Session, scene: &SceneIdentity) -> Resu
     let (text, packed) =
         usize::try_from(number(12)).ok().and_then(|at| body.split_at_checked(at)).ok_or_else(damaged)?;
     if let Some(difference) =
-        fixed::difference(&String::from_utf8_lossy(text), &fixed::of(session.ppm(), scene))
+        fixed::difference(&String::from_utf8_lossy(text), &fixed::of(session.render(), scene))
     {
         return Err(ResumeError::OtherRender { path: owned(), difference });
     }
-    let expected = session.ppm().state().len() as u64;
+    let expected = session.render().save().len() as u64;
     let length = number(36);
     // Each change of a setting takes 24 bytes; no render has so many that the state grows eightfold.
     if length > 8 * expected.max(1 << 20) || number(28) > 1 << 60 {

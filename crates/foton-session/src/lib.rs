@@ -14,7 +14,7 @@
 //! let interrupt = Interrupt::default();
 //! let mut session = Session::start(scene, settings, None, interrupt.cancel())?;
 //! session.run(&StopRule::passes(2), &interrupt, &mut |_| ());
-//! assert_eq!(session.ppm().image().pixels.len(), 64);
+//! assert_eq!(session.render().image().pixels.len(), 64);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -34,8 +34,8 @@ mod threads;
 pub use clock::StageTimes;
 pub use engine::Engine;
 pub use foton_integrator::{
-    Alpha, Change, DirectLight, ErrorEstimate, Ledger, PathClass, Radii, RadiusFloor, RadiusRule,
-    RadiusScale, Settings, Stage,
+    Alpha, DirectLight, ErrorEstimate, Ledger, PathClass, Radii, RadiusFloor, RadiusRule, RadiusScale,
+    RenderSettings, SettingChange, Stage,
 };
 pub use interrupt::Interrupt;
 pub use metadata::SceneIdentity;

@@ -1,7 +1,7 @@
 //! What travels with an image: enough to make it again. Nothing of when or where, so that equal renders give equal files.
 
 use foton_film::Metadata;
-use foton_integrator::{DirectLight, Ppm, RadiusScale};
+use foton_integrator::{DirectLight, RadiusScale, Render};
 
 /// The scene as metadata names it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -13,38 +13,39 @@ pub struct SceneIdentity {
 }
 
 /// Metadata of a render as it stands.
-pub(crate) fn of(ppm: &Ppm, scene: &SceneIdentity) -> Metadata {
-    let s = ppm.settings();
-    let sensor = &ppm.scene().sensors()[s.sensor];
-    let radius = s.radius.map_or("footprint".to_owned(), |r| r.to_string());
-    let radius = if s.radius_scale == RadiusScale::default() {
+pub(crate) fn of(render: &Render, scene: &SceneIdentity) -> Metadata {
+    let s = render.settings();
+    let sensor = &render.scene().sensors()[s.sensor];
+    let radius = s.ppm.radius.map_or("footprint".to_owned(), |r| r.to_string());
+    let radius = if s.ppm.radius_scale == RadiusScale::default() {
         radius
     } else {
-        format!("{radius}*{}", s.radius_scale)
+        format!("{radius}*{}", s.ppm.radius_scale)
     };
-    let rule = s.radius_rule.name();
-    let direct = match s.direct_light {
+    let rule = s.ppm.radius_rule.name();
+    let direct = match s.ppm.direct_light {
         DirectLight::Photons => "photons",
         DirectLight::ShadowRays => "shadow-rays",
     };
     let settings = format!(
-        "integrator=ppm alpha={} photons={} first_pass={} radius={radius} radius_rule={rule} radius_floor={} direct={direct} max_depth={} spp={} \
+        "integrator={} alpha={} photons={} first_pass={} radius={radius} radius_rule={rule} radius_floor={} direct={direct} max_depth={} spp={} \
          size={}x{} sensor={} hit_points_per_sample={} layers={}",
-        s.alpha,
-        s.photons_per_pass,
-        s.first_pass,
-        s.radius_floor,
-        Ppm::max_depth(ppm.scene(), s),
+        s.method.name(),
+        s.ppm.alpha,
+        s.ppm.photons_per_pass,
+        s.ppm.first_pass,
+        s.ppm.radius_floor,
+        s.max_depth_in(render.scene()),
         s.samples_per_pixel,
         sensor.width,
         sensor.height,
         sensor.name,
-        s.hit_points_per_sample,
+        s.ppm.hit_points_per_sample,
         s.layers,
     );
     let changes: Vec<String> =
-        ppm.changes().iter().map(|(pass, change)| format!("{pass} {change}")).collect();
-    let error = ppm.error().map(|e| {
+        render.changes().iter().map(|(pass, change)| format!("{pass} {change}")).collect();
+    let error = render.error().map(|e| {
         let classes = e.classes.map_or_else(String::new, |classes| {
             let [direct, caustic, indirect] = classes.map(|c| c.total());
             format!(" direct={direct:.4} caustic={caustic:.4} indirect={indirect:.4}")
@@ -58,8 +59,8 @@ pub(crate) fn of(ppm: &Ppm, scene: &SceneIdentity) -> Metadata {
         ("foton:version", env!("CARGO_PKG_VERSION").to_owned()),
         ("foton:scene", scene.name.clone()),
         ("foton:scene-hash", format!("{:016x}", scene.hash)),
-        ("foton:passes", ppm.passes().to_string()),
-        ("foton:photons", ppm.photons_emitted().to_string()),
+        ("foton:passes", render.passes().to_string()),
+        ("foton:photons", render.photons_emitted().to_string()),
         ("foton:seed", s.seed.to_string()),
         ("foton:settings", settings),
         ("foton:changes", changes.join("\n")),

@@ -1,8 +1,8 @@
-//! Settings for a purpose, as `foton measure` found them: docs/measure.md has the figures.
+//! RenderSettings for a purpose, as `foton measure` found them: docs/measure.md has the figures.
 
 use std::num::NonZeroU32;
 
-use foton_integrator::{Alpha, Settings};
+use foton_integrator::{Alpha, PpmSettings, RenderSettings};
 
 /// What an image is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,14 +19,20 @@ pub enum Preset {
 impl Preset {
     /// `settings` with what the preset says.
     #[must_use]
-    pub fn apply(self, settings: Settings) -> Settings {
+    pub fn apply(self, settings: RenderSettings) -> RenderSettings {
         match self {
-            Self::Preview => Settings {
-                photons_per_pass: NonZeroU32::new(1 << 16).unwrap_or(settings.photons_per_pass),
+            Self::Preview => RenderSettings {
+                ppm: PpmSettings {
+                    photons_per_pass: NonZeroU32::new(1 << 16).unwrap_or(settings.ppm.photons_per_pass),
+                    ..settings.ppm
+                },
                 ..settings
             },
             Self::Balanced => settings,
-            Self::Final => Settings { alpha: Alpha::new(0.8).unwrap_or(settings.alpha), ..settings },
+            Self::Final => RenderSettings {
+                ppm: PpmSettings { alpha: Alpha::new(0.8).unwrap_or(settings.ppm.alpha), ..settings.ppm },
+                ..settings
+            },
         }
     }
 }

@@ -5,7 +5,7 @@ use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 
 use foton_integrator::{
-    Cancel, Cancelled, Halt, MemoryEstimate, NotFinite, PassReport, Ppm, Settings, StateError,
+    Cancel, Cancelled, Halt, MemoryEstimate, NotFinite, PassReport, Render, RenderSettings, StateError,
 };
 use foton_scene::Scene;
 use rayon::{ThreadPool, ThreadPoolBuildError};
@@ -70,7 +70,7 @@ pub enum StopCause {
 /// How a render stands after a pass.
 pub struct Progress<'a> {
     /// The render.
-    pub ppm: &'a Ppm,
+    pub render: &'a Render,
     /// The pass.
     pub report: PassReport,
     /// Time of rendering so far, eye pass included, loading and what callers did after passes not.
@@ -83,7 +83,7 @@ pub struct Progress<'a> {
 
 /// A render under way.
 pub struct Session {
-    ppm: Ppm,
+    render: Render,
     pool: Arc<ThreadPool>,
     stages: StageTimes,
     elapsed: Duration,
@@ -95,9 +95,13 @@ pub struct Session {
 impl Session {
     /// What a render would take in memory on `threads` threads, by default as many as the machine has.
     #[must_use]
-    pub fn estimate_memory(scene: &Scene, settings: &Settings, threads: Option<usize>) -> MemoryEstimate {
+    pub fn estimate_memory(
+        scene: &Scene,
+        settings: &RenderSettings,
+        threads: Option<usize>,
+    ) -> MemoryEstimate {
         let threads = threads.or_else(|| available_parallelism().ok().map(usize::from)).unwrap_or(1);
-        MemoryEstimate::pilot(scene, settings, Ppm::max_depth(scene, settings), threads)
+        MemoryEstimate::pilot(scene, settings, threads)
     }
 
     /// Collects hit points on `threads` threads, by default as many as the machine has.
@@ -106,7 +110,7 @@ impl Session {
     /// When cancelled, when the system gives no threads, or by a fault of our own.
     pub fn start(
         scene: Arc<Scene>,
-        settings: Settings,
+        settings: RenderSettings,
         threads: Option<usize>,
         cancel: &Cancel,
     ) -> Result<Self, StartError> {
@@ -125,22 +129,22 @@ impl Session {
     pub(crate) fn start_on(
         pool: Arc<ThreadPool>,
         scene: Arc<Scene>,
-        settings: Settings,
+        settings: RenderSettings,
         cancel: &Cancel,
     ) -> Result<Self, StartError> {
         let mut stages = StageTimes::default();
         let begin = Instant::now();
-        let ppm = {
+        let render = {
             let mut clock = StageClock::new(&mut stages);
             let seed = settings.seed;
             let mut watch = |stage| {
                 clock.begin(stage);
                 strike(seed, stage, 0);
             };
-            let started = contained(|| pool.install(|| Ppm::start(scene, settings, &mut watch, cancel)));
+            let started = contained(|| pool.install(|| Render::start(scene, settings, &mut watch, cancel)));
             started.map_err(|message| Panic { stage: clock.stage(), message })??
         };
-        Ok(Self { ppm, pool, stages, elapsed: begin.elapsed(), rays: 0, panic: None, not_finite: None })
+        Ok(Self { render, pool, stages, elapsed: begin.elapsed(), rays: 0, panic: None, not_finite: None })
     }
 
     /// Runs passes until `rule` or `interrupt` says stop. `after_pass` sees each pass, and its time is not counted. It cannot
@@ -153,11 +157,11 @@ impl Session {
     ) -> StopCause {
         let mut last = Duration::ZERO;
         loop {
-            let passes = self.ppm.passes();
+            let passes = self.render.passes();
             if interrupt.is_requested() && passes > 0 {
                 return StopCause::Interrupted;
             }
-            if rule.is_reached(passes, self.elapsed, last, self.ppm.error().as_ref()) {
+            if rule.is_reached(passes, self.elapsed, last, self.render.error().as_ref()) {
                 return StopCause::Rule;
             }
             let before = self.elapsed;
@@ -170,7 +174,7 @@ impl Session {
                 Err(PassError::NotFinite(_)) => return StopCause::NotFinite,
             };
             after_pass(&Progress {
-                ppm: &self.ppm,
+                render: &self.render,
                 report,
                 elapsed: self.elapsed,
                 rays: self.rays,
@@ -193,13 +197,13 @@ impl Session {
         let begin = Instant::now();
         let report = {
             let mut clock = StageClock::new(&mut self.stages);
-            let ppm = &mut self.ppm;
-            let (seed, pass) = (ppm.settings().seed, ppm.passes() + 1);
+            let render = &mut self.render;
+            let (seed, pass) = (render.settings().seed, render.passes() + 1);
             let mut watch = |stage| {
                 clock.begin(stage);
                 strike(seed, stage, pass);
             };
-            let outcome = contained(|| self.pool.install(|| ppm.advance(&mut watch, cancel)));
+            let outcome = contained(|| self.pool.install(|| render.advance(&mut watch, cancel)));
             outcome.map_err(|message| Panic { stage: clock.stage(), message })
         };
         self.elapsed = self.elapsed.saturating_add(begin.elapsed());
@@ -226,7 +230,7 @@ impl Session {
 
     /// Takes a render's state back, with the time and rays that it took.
     pub(crate) fn restore(&mut self, state: &[u8], elapsed: Duration, rays: u64) -> Result<(), StateError> {
-        self.ppm.restore(state)?;
+        self.render.restore(state)?;
         self.elapsed = elapsed;
         self.rays = rays;
         Ok(())
@@ -234,13 +238,13 @@ impl Session {
 
     /// The render.
     #[must_use]
-    pub const fn ppm(&self) -> &Ppm {
-        &self.ppm
+    pub const fn render(&self) -> &Render {
+        &self.render
     }
 
     /// The render, to change its settings between runs.
-    pub const fn ppm_mut(&mut self) -> &mut Ppm {
-        &mut self.ppm
+    pub const fn render_mut(&mut self) -> &mut Render {
+        &mut self.render
     }
 
     /// Time by stage so far.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use foton_film::tone_map::ToneMap;
 use foton_film::{WriteError, write_exr, write_png};
-use foton_integrator::{LayerKind, Ppm};
+use foton_integrator::{LayerKind, Render};
 
 use crate::metadata::{self, SceneIdentity};
 
@@ -37,17 +37,17 @@ impl Format {
 pub fn write(
     path: &Path,
     format: Format,
-    ppm: &Ppm,
+    render: &Render,
     layers: &[LayerKind],
     scene: &SceneIdentity,
 ) -> Result<(), WriteError> {
-    let metadata = metadata::of(ppm, scene);
+    let metadata = metadata::of(render, scene);
     match format {
         Format::Exr => {
-            let layers: Vec<_> = layers.iter().filter_map(|&kind| ppm.layer(kind)).collect();
-            write_exr(path, &ppm.image(), &layers, &metadata)
+            let layers: Vec<_> = layers.iter().filter_map(|&kind| render.layer(kind)).collect();
+            write_exr(path, &render.image(), &layers, &metadata)
         }
-        Format::Png => write_png(path, &ppm.image(), ToneMap::default(), 0.0, &metadata),
+        Format::Png => write_png(path, &render.image(), ToneMap::default(), 0.0, &metadata),
     }
 }
 

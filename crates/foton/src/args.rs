@@ -9,7 +9,7 @@ use std::str::FromStr;
 use std::time::Duration;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
-use foton_integrator::{Alpha, DirectLight, LayerKind, RadiusFloor, RadiusRule, RadiusScale, Settings};
+use foton_integrator::{Alpha, DirectLight, LayerKind, RadiusFloor, RadiusRule, RadiusScale, RenderSettings};
 use foton_session::Preset;
 use foton_session::snapshot::Format;
 
@@ -33,7 +33,7 @@ pub(crate) struct Args {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Render a scene to an image file
-    Render(Box<Render>),
+    Render(Box<RenderArgs>),
     /// Write any readable scene as Mitsuba 3 XML with PLY meshes
     Convert(Convert),
     /// Say what a scene contains, what that switches on, and what a render of it would take
@@ -95,7 +95,7 @@ pub(crate) struct Info {
 
 /// `foton render`.
 #[derive(Debug, ClapArgs)]
-pub(crate) struct Render {
+pub(crate) struct RenderArgs {
     /// Scene file (Mitsuba 3 XML)
     pub(crate) scene: PathBuf,
     /// Image to write, .exr (linear radiance) or .png (tone-mapped)
@@ -111,32 +111,32 @@ pub(crate) struct Render {
     /// samples as they are. `off` leaves the estimate out, which saves a little time
     #[arg(long, value_name = "SHARE|off", value_parser = error_wish)]
     pub(crate) error: Option<ErrorWish>,
-    /// Settings for a purpose: something to look at soon, the defaults, or minutes of rendering. What is set by itself comes
+    /// RenderSettings for a purpose: something to look at soon, the defaults, or minutes of rendering. What is set by itself comes
     /// before it, and it comes before what the scene says
     #[arg(long, value_name = "NAME", value_enum)]
     pub(crate) preset: Option<PresetName>,
     #[arg(long, value_name = "N", help = with_default(
         "Photons emitted in a pass: fewer answer sooner, more cost less a photon [as the scene says, else ",
-        Settings::default().photons_per_pass,
+        RenderSettings::default().ppm.photons_per_pass,
     ))]
     pub(crate) photons: Option<NonZeroU32>,
     #[arg(long, value_name = "A", value_parser = alpha, help = with_default(
         "Share of new photons kept, in (0, 1]: small shrinks radii fast (less blur, more noise) [as the scene says, else ",
-        Settings::default().alpha,
+        RenderSettings::default().ppm.alpha,
     ))]
     pub(crate) alpha: Option<Alpha>,
     /// First radius: in world units, or x0.5 for half of what each pixel's footprint gives (x1)
     #[arg(long, value_name = "R|xF", value_parser = radius)]
     pub(crate) radius: Option<Radius>,
     /// How radii shrink
-    #[arg(long, value_name = "RULE", value_enum, default_value_t = Settings::default().radius_rule.into())]
+    #[arg(long, value_name = "RULE", value_enum, default_value_t = RenderSettings::default().ppm.radius_rule.into())]
     pub(crate) radius_rule: Rule,
     /// Smallest radius in spacings of the eye samples, which stand still: light narrower than what discs cover is lost between
     /// them. 0 for none
-    #[arg(long, value_name = "N", value_parser = radius_floor, default_value_t = Settings::default().radius_floor)]
+    #[arg(long, value_name = "N", value_parser = radius_floor, default_value_t = RenderSettings::default().ppm.radius_floor)]
     pub(crate) radius_floor: RadiusFloor,
     /// Seed of all random numbers
-    #[arg(long, value_name = "N", default_value_t = Settings::default().seed)]
+    #[arg(long, value_name = "N", default_value_t = RenderSettings::default().seed)]
     pub(crate) seed: u64,
     /// Threads [as many as the machine has]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -145,7 +145,7 @@ pub(crate) struct Render {
     #[arg(long, value_name = "WxH")]
     pub(crate) size: Option<Size>,
     /// Eye samples a pixel
-    #[arg(long, value_name = "N", default_value_t = Settings::default().samples_per_pixel)]
+    #[arg(long, value_name = "N", default_value_t = RenderSettings::default().samples_per_pixel)]
     pub(crate) spp: NonZeroU32,
     /// Longest path in edges, as Mitsuba counts them: 1 emitters seen directly, 2 one bounce [as the scene says]
     #[arg(long, value_name = "N")]

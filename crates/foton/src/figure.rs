@@ -1,6 +1,6 @@
 //! The live error in words and in JSON.
 
-use foton_integrator::{ClassError, ErrorEstimate, PassReport, Ppm};
+use foton_integrator::{ClassError, ErrorEstimate, PassReport, Render};
 use serde_json::{Value, json};
 
 /// Passes after which bias at the smallest radii is known.
@@ -50,7 +50,12 @@ pub(crate) fn add_error(event: &mut Value, error: Option<&ErrorEstimate>) {
 }
 
 /// Why the error will not fall to a goal however long the render goes on, if that is so: bias that the smallest radii leave.
-pub(crate) fn out_of_reach(goal: f64, e: &ErrorEstimate, report: &PassReport, ppm: &Ppm) -> Option<String> {
+pub(crate) fn out_of_reach(
+    goal: f64,
+    e: &ErrorEstimate,
+    report: &PassReport,
+    render: &Render,
+) -> Option<String> {
     let is_floor = e.bias > goal && e.noise < LITTLE * e.bias && report.floored > 0;
     (is_floor && e.effective_passes >= ENOUGH_PASSES).then(|| {
         format!(
@@ -58,7 +63,7 @@ pub(crate) fn out_of_reach(goal: f64, e: &ErrorEstimate, report: &PassReport, pp
              --radius-floor 0 lower it",
             100.0 * goal,
             100.0 * e.bias,
-            4 * ppm.settings().samples_per_pixel.get()
+            4 * render.settings().samples_per_pixel.get()
         )
     })
 }

@@ -3,7 +3,7 @@
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use foton_integrator::{Cancel, Feature, Ppm, Settings, features};
+use foton_integrator::{Cancel, Feature, PpmSettings, Render, RenderSettings, features};
 use foton_scene::Scene;
 use foton_scene::description::SceneDescription;
 use foton_session::Session;
@@ -24,7 +24,7 @@ pub(crate) fn print(args: &Info, talk: &Talk) -> Result<(), Failure> {
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let probed = opened.description.clone();
     let (scene, identity) = build(opened, &name, sensor, (None, args.memory), talk)?;
-    let settings = Settings { sensor, ..Settings::default() };
+    let settings = RenderSettings { sensor, ..RenderSettings::default() };
     if args.json {
         talk.event(&as_json(&scene, &settings, &name, identity.hash));
     } else {
@@ -41,7 +41,7 @@ pub(crate) fn print(args: &Info, talk: &Talk) -> Result<(), Failure> {
 }
 
 /// One pass of few photons at few pixels; `None` where nothing emits light.
-fn probe(mut description: SceneDescription, settings: &Settings) -> Option<Ppm> {
+fn probe(mut description: SceneDescription, settings: &RenderSettings) -> Option<Render> {
     for sensor in &mut description.sensors {
         let longest = f64::from(sensor.width.max(sensor.height));
         let shrunk = |side: u32| (f64::from(side) * f64::from(PROBE_SIZE) / longest).ceil().max(1.0) as u32;
@@ -53,19 +53,18 @@ fn probe(mut description: SceneDescription, settings: &Settings) -> Option<Ppm> 
     if scene.emitters().is_empty() {
         return None;
     }
-    let settings = Settings {
+    let settings = RenderSettings {
         samples_per_pixel: NonZeroU32::MIN,
-        first_pass: PROBE_PHOTONS,
-        photons_per_pass: PROBE_PHOTONS,
+        ppm: PpmSettings { first_pass: PROBE_PHOTONS, photons_per_pass: PROBE_PHOTONS, ..settings.ppm },
         ..settings.clone()
     };
     let cancel = Cancel::default();
-    let mut ppm = Ppm::start(Arc::new(scene), settings, &mut |_| {}, &cancel).ok()?;
-    ppm.advance(&mut |_| {}, &cancel).ok()?;
-    Some(ppm)
+    let mut render = Render::start(Arc::new(scene), settings, &mut |_| {}, &cancel).ok()?;
+    render.advance(&mut |_| {}, &cancel).ok()?;
+    Some(render)
 }
 
-fn as_json(scene: &Scene, settings: &Settings, name: &str, hash: u64) -> Value {
+fn as_json(scene: &Scene, settings: &RenderSettings, name: &str, hash: u64) -> Value {
     let c = scene.census();
     let memory = Session::estimate_memory(scene, settings, None);
     let emitters: Vec<Value> = emitters(scene)
@@ -99,7 +98,7 @@ fn as_json(scene: &Scene, settings: &Settings, name: &str, hash: u64) -> Value {
     })
 }
 
-fn as_text(scene: &Scene, settings: &Settings, name: &str, hash: u64) -> Vec<String> {
+fn as_text(scene: &Scene, settings: &RenderSettings, name: &str, hash: u64) -> Vec<String> {
     let c = scene.census();
     let mut lines = vec![
         format!("{name}  (hash {hash:016x})"),

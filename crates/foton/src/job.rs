@@ -7,12 +7,12 @@ use std::time::Duration;
 
 use foton_film::check_writable;
 use foton_format::{Opened, Options, Severity, Suggested};
-use foton_integrator::{Alpha, Cancelled, Change, LayerKind, Ppm, Settings};
+use foton_integrator::{Alpha, Cancelled, LayerKind, PpmSettings, Render, RenderSettings, SettingChange};
 use foton_scene::Scene;
 use foton_session::snapshot::{self, Format};
 use foton_session::{Interrupt, Preset, SceneIdentity, Session, StartError, StopRule, checkpoint};
 
-use crate::args::{ErrorWish, Radius, Render, Size};
+use crate::args::{ErrorWish, Radius, RenderArgs, Size};
 use crate::memory;
 use crate::talk::{Failure, Talk};
 
@@ -23,7 +23,7 @@ const DEFAULT_TIME: Duration = Duration::from_secs(60);
 const FEW_STEPS: f32 = 100.0;
 
 /// Runs `foton render`.
-pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
+pub(crate) fn render(args: &RenderArgs, talk: &mut Talk) -> Result<(), Failure> {
     let (path, format) = &args.output;
     check_writable(path)?;
     args.checkpoint.as_deref().map_or(Ok(()), check_writable)?;
@@ -34,29 +34,32 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
     let (scene, identity) = build(opened, &name, sensor, (args.size, args.memory), talk)?;
     let (defaults, suggested) = match args.preset {
         Some(preset) => (
-            Preset::from(preset).apply(Settings::default()),
+            Preset::from(preset).apply(RenderSettings::default()),
             Suggested { passes: suggested.passes, ..Suggested::default() },
         ),
-        None => (Settings::default(), suggested),
+        None => (RenderSettings::default(), suggested),
     };
     let suggested_alpha = suggested.alpha.and_then(Alpha::new);
     let suggested_photons = suggested.photons_per_pass.and_then(NonZeroU32::new);
-    let (radius, radius_scale) = Radius::split(args.radius, suggested.radius, defaults.radius_scale);
-    let settings = Settings {
-        alpha: args.alpha.or(suggested_alpha).unwrap_or(defaults.alpha),
-        photons_per_pass: args.photons.or(suggested_photons).unwrap_or(defaults.photons_per_pass),
+    let (radius, radius_scale) = Radius::split(args.radius, suggested.radius, defaults.ppm.radius_scale);
+    let settings = RenderSettings {
         samples_per_pixel: args.spp,
-        radius,
-        radius_scale,
-        radius_floor: args.radius_floor,
-        radius_rule: args.radius_rule.into(),
-        direct_light: args.direct.into(),
         max_depth: args.max_depth,
         seed: args.seed,
         sensor,
         layers: args.layers.iter().any(|l| l.needs_classes()),
         error: args.error != Some(ErrorWish::Off) || args.layers.iter().any(|l| l.needs_error()),
-        ..Settings::default()
+        ppm: PpmSettings {
+            alpha: args.alpha.or(suggested_alpha).unwrap_or(defaults.ppm.alpha),
+            photons_per_pass: args.photons.or(suggested_photons).unwrap_or(defaults.ppm.photons_per_pass),
+            radius,
+            radius_scale,
+            radius_floor: args.radius_floor,
+            radius_rule: args.radius_rule.into(),
+            direct_light: args.direct.into(),
+            ..PpmSettings::default()
+        },
+        ..RenderSettings::default()
     };
     let error = match args.error {
         Some(ErrorWish::Below(share)) => Some(share),
@@ -73,7 +76,7 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
         }
     }
     let largest = scene.normalisation().world_length(2.0 * f64::from(scene.bounds().radius()));
-    if settings.radius.is_some_and(|r| r > largest) {
+    if settings.ppm.radius.is_some_and(|r| r > largest) {
         talk.warning(&format!("--radius is larger than the whole scene and is cut to that, {largest:.4}"));
     }
     let threads = args.threads.map(usize::from);
@@ -82,16 +85,16 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
     talk.begin();
     let mut session = Session::start(scene, settings, threads, interrupt.cancel())?;
     if args.strict {
-        session.ppm_mut().stop_at_first_not_finite();
+        session.render_mut().stop_at_first_not_finite();
     }
     if let Some(path) = &args.resume {
         checkpoint::resume(path, &mut session, &identity)?;
-        if args.strict && session.ppm().ledger().dropped > 0 {
-            return Err(Failure::LeftOut { path: path.clone(), values: session.ppm().ledger().dropped });
+        if args.strict && session.render().ledger().dropped > 0 {
+            return Err(Failure::LeftOut { path: path.clone(), values: session.render().ledger().dropped });
         }
         go_on(args, path, &mut session, &rule, talk);
         // Passes may be larger than a render from the beginning would have had them.
-        refuse_beyond_memory(session.ppm().scene(), session.ppm().settings(), threads, args.memory)?;
+        refuse_beyond_memory(session.render().scene(), session.render().settings(), threads, args.memory)?;
     }
     let mut keeper = Keeper::new(args, session.elapsed());
     let layers = if *format == Format::Exr { &args.layers[..] } else { &[] };
@@ -100,41 +103,41 @@ pub(crate) fn render(args: &Render, talk: &mut Talk) -> Result<(), Failure> {
         talk.pass(progress, &rule);
         if args.every.is_some_and(|e| e.is_due(progress.report.pass)) {
             let path = snapshot::numbered(path, progress.report.pass);
-            match snapshot::write(&path, *format, progress.ppm, layers, &identity) {
+            match snapshot::write(&path, *format, progress.render, layers, &identity) {
                 Ok(()) => outputs.push(path.display().to_string()),
                 // The passes are still there for the next image.
                 Err(error) => talk.warning(&format!("an image on the way is missing: {error}")),
             }
         }
         if keeper.is_due(progress.elapsed) {
-            keeper.keep(progress.ppm, progress.elapsed, progress.rays, &identity, talk);
+            keeper.keep(progress.render, progress.elapsed, progress.rays, &identity, talk);
         }
     });
     // After a fault hit points may be half-way between two passes: the last checkpoint is the one to go on from.
     if session.panic().is_none() && session.not_finite().is_none() {
-        keeper.keep(session.ppm(), session.elapsed(), session.rays(), &identity, talk);
+        keeper.keep(session.render(), session.elapsed(), session.rays(), &identity, talk);
     }
     finish(&session, &[(path.clone(), *format)], layers, &identity, outputs, talk)
 }
 
 /// Says where a render goes on from. Of what is asked for by name, that which may change between passes changes with the next one;
 /// all else is as in the checkpoint, or it would not have been taken up.
-fn go_on(args: &Render, path: &Path, session: &mut Session, rule: &StopRule, talk: &Talk) {
-    let passes = session.ppm().passes();
+fn go_on(args: &RenderArgs, path: &Path, session: &mut Session, rule: &StopRule, talk: &Talk) {
+    let passes = session.render().passes();
     talk.line(&format!("going on from {} after {passes} passes", path.display()));
-    let preset = args.preset.map(|preset| Preset::from(preset).apply(Settings::default()));
-    let alpha = args.alpha.or(preset.as_ref().map(|p| p.alpha));
-    let photons = args.photons.or(preset.as_ref().map(|p| p.photons_per_pass));
-    let now = session.ppm().settings();
+    let preset = args.preset.map(|preset| Preset::from(preset).apply(RenderSettings::default()));
+    let alpha = args.alpha.or(preset.as_ref().map(|p| p.ppm.alpha));
+    let photons = args.photons.or(preset.as_ref().map(|p| p.ppm.photons_per_pass));
+    let now = session.render().settings();
     let changes = [
-        alpha.filter(|&alpha| alpha != now.alpha).map(Change::Alpha),
-        photons.filter(|&photons| photons != now.photons_per_pass).map(Change::PhotonsPerPass),
+        alpha.filter(|&alpha| alpha != now.ppm.alpha).map(SettingChange::Alpha),
+        photons.filter(|&photons| photons != now.ppm.photons_per_pass).map(SettingChange::PhotonsPerPass),
     ];
     for change in changes.into_iter().flatten() {
-        session.ppm_mut().change(change);
+        session.render_mut().change(change);
         talk.line(&format!("{change} from pass {} on", passes + 1));
     }
-    if rule.is_reached(passes, session.elapsed(), Duration::ZERO, session.ppm().error().as_ref()) {
+    if rule.is_reached(passes, session.elapsed(), Duration::ZERO, session.render().error().as_ref()) {
         talk.warning(&format!(
             "the checkpoint has {passes} passes in {:.1} s and is past --passes, --time or --error already, which count from its \
              beginning: nothing is added",
@@ -151,7 +154,7 @@ struct Keeper<'a> {
 }
 
 impl<'a> Keeper<'a> {
-    fn new(args: &'a Render, elapsed: Duration) -> Self {
+    fn new(args: &'a RenderArgs, elapsed: Duration) -> Self {
         Self { path: args.checkpoint.as_deref(), every: args.checkpoint_every, last: elapsed }
     }
 
@@ -160,10 +163,10 @@ impl<'a> Keeper<'a> {
     }
 
     /// Writes one, if they were asked for. One that cannot be written is a warning: the render goes on.
-    fn keep(&mut self, ppm: &Ppm, elapsed: Duration, rays: u64, scene: &SceneIdentity, talk: &Talk) {
-        let Some(path) = self.path.filter(|_| ppm.passes() > 0) else { return };
+    fn keep(&mut self, render: &Render, elapsed: Duration, rays: u64, scene: &SceneIdentity, talk: &Talk) {
+        let Some(path) = self.path.filter(|_| render.passes() > 0) else { return };
         self.last = elapsed;
-        if let Err(error) = checkpoint::write(path, ppm, elapsed, rays, scene) {
+        if let Err(error) = checkpoint::write(path, render, elapsed, rays, scene) {
             talk.warning(&format!("no checkpoint: {error}"));
         }
     }
@@ -246,7 +249,7 @@ pub(crate) fn choose_sensor(opened: &Opened, name: Option<&str>) -> Result<usize
 /// Looks before it leaps: a render that would not fit is refused with the numbers.
 pub(crate) fn refuse_beyond_memory(
     scene: &Scene,
-    settings: &Settings,
+    settings: &RenderSettings,
     threads: Option<usize>,
     asked: Option<u64>,
 ) -> Result<(), Failure> {
@@ -279,7 +282,7 @@ pub(crate) fn finish(
             session.not_finite().cloned().map(|place| Failure::NotFinite { place: Box::new(place), passes })
         })
     };
-    if session.ppm().passes() == 0 {
+    if session.render().passes() == 0 {
         // Without a fault it was interrupted twice in the first pass: there is no picture yet.
         return Err(fault(None).unwrap_or_else(|| StartError::Cancelled(Cancelled).into()));
     }
@@ -289,7 +292,7 @@ pub(crate) fn finish(
     // One that cannot be written does not keep the others from it.
     let mut unwritten = None;
     for (path, format) in files {
-        match snapshot::write(path, *format, session.ppm(), layers, identity) {
+        match snapshot::write(path, *format, session.render(), layers, identity) {
             Ok(()) => outputs.push(path.display().to_string()),
             Err(error) => {
                 if let Some(spare) = rescue(path, *format, session, layers, identity) {
@@ -302,13 +305,13 @@ pub(crate) fn finish(
             }
         }
     }
-    talk.check_ledger(session.ppm());
-    talk.check_lights(session.ppm());
+    talk.check_ledger(session.render());
+    talk.check_lights(session.render());
     talk.done(session, &outputs);
     if let Some(error) = unwritten {
         return Err(error.into());
     }
-    fault(Some(session.ppm().passes())).map_or(Ok(()), Err)
+    fault(Some(session.render().passes())).map_or(Ok(()), Err)
 }
 
 /// Writes an image that cannot be written where it was asked for into the system's folder for temporary files, under a name that
@@ -325,6 +328,6 @@ fn rescue(
     let spare = (1..NAMES)
         .map(|n| std::env::temp_dir().join(format!("foton-{stem}-{n:03}.{extension}")))
         .find(|spare| !spare.exists())?;
-    snapshot::write(&spare, format, session.ppm(), layers, identity).ok()?;
+    snapshot::write(&spare, format, session.render(), layers, identity).ok()?;
     Some(spare)
 }

@@ -3,7 +3,7 @@
 use std::num::NonZeroU32;
 
 use foton_film::read_exr;
-use foton_integrator::{Alpha, Settings};
+use foton_integrator::{Alpha, PpmSettings, RenderSettings};
 use foton_measure::sweep::{Event, Outcome, Sweep};
 use foton_session::{Session, StartError};
 use serde_json::json;
@@ -21,22 +21,25 @@ pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let suggested = opened.suggested;
     let (scene, identity) = build(opened, &name, sensor, (args.size, None), talk)?;
-    let defaults = Settings::default();
+    let defaults = RenderSettings::default();
     let suggested_alpha = suggested.alpha.and_then(Alpha::new);
     let suggested_photons = suggested.photons_per_pass.and_then(NonZeroU32::new);
-    let (radius, radius_scale) = Radius::split(args.radius, suggested.radius, defaults.radius_scale);
-    let centre = Settings {
-        alpha: args.alpha.or(suggested_alpha).unwrap_or(defaults.alpha),
-        photons_per_pass: args.photons.or(suggested_photons).unwrap_or(defaults.photons_per_pass),
+    let (radius, radius_scale) = Radius::split(args.radius, suggested.radius, defaults.ppm.radius_scale);
+    let centre = RenderSettings {
         samples_per_pixel: args.spp,
-        radius,
-        radius_scale,
-        radius_floor: args.radius_floor,
-        radius_rule: args.radius_rule.into(),
-        direct_light: args.direct.into(),
         max_depth: args.max_depth,
         seed: args.seed,
         sensor,
+        ppm: PpmSettings {
+            alpha: args.alpha.or(suggested_alpha).unwrap_or(defaults.ppm.alpha),
+            photons_per_pass: args.photons.or(suggested_photons).unwrap_or(defaults.ppm.photons_per_pass),
+            radius,
+            radius_scale,
+            radius_floor: args.radius_floor,
+            radius_rule: args.radius_rule.into(),
+            direct_light: args.direct.into(),
+            ..defaults.ppm
+        },
         ..defaults
     };
     let given = given.map(|(image, _)| {

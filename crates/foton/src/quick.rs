@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use foton_film::check_writable;
 use foton_format::Options;
-use foton_integrator::Settings;
+use foton_integrator::RenderSettings;
 use foton_session::snapshot::{self, Format};
 use foton_session::{Session, StopRule};
 
@@ -30,7 +30,7 @@ pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failur
         None => (ALL[0].open(&options), ALL[0].name.into()),
     };
     let (scene, identity) = build(opened.map_err(Failure::Open)?, &name, 0, (None, None), talk)?;
-    let settings = Settings { error: true, ..Settings::default() };
+    let settings = RenderSettings { error: true, ..RenderSettings::default() };
     refuse_beyond_memory(&scene, &settings, None, None)?;
     let stem = snapshot::next_free(Path::new(""));
     let (png, exr) = (stem.with_extension("png"), stem.with_extension("exr"));
@@ -45,7 +45,7 @@ pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failur
         talk.pass(progress, &rule);
         if !first_picture && progress.elapsed >= FIRST_PICTURE {
             first_picture = true;
-            if let Err(error) = snapshot::write(&png, Format::Png, progress.ppm, &[], &identity) {
+            if let Err(error) = snapshot::write(&png, Format::Png, progress.render, &[], &identity) {
                 talk.warning(&format!("the first picture is missing: {error}"));
             }
         }

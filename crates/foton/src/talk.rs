@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use foton_film::{ReadError, WriteError};
 use foton_format::{Diagnostic, OpenError, Opened, Severity};
-use foton_integrator::{DirectLight, Ledger, NotFinite, Ppm};
+use foton_integrator::{DirectLight, Ledger, NotFinite, Render};
 use foton_measure::CompareError;
 use foton_measure::sweep::SweepError;
 use foton_scene::BuildError;
@@ -253,7 +253,7 @@ impl Talk {
         let seconds = p.elapsed.as_secs_f64();
         let rate = |n: u64| n as f64 / seconds.max(1e-9);
         let r = &p.report;
-        let error = p.ppm.error();
+        let error = p.render.error();
         if self.json {
             let mut event = json!({
                 "event": "pass",
@@ -262,9 +262,9 @@ impl Talk {
                 "seconds": seconds,
                 "photons_per_s": rate(r.photons),
                 "rays_per_s": rate(p.rays),
-                "radius_median": p.ppm.radii().median,
+                "radius_median": p.render.radii().median,
                 "no_photon_share": r.no_photon_share,
-                "bytes": p.ppm.bytes(),
+                "bytes": p.render.bytes(),
                 "stored": r.stored,
                 "candidates": r.candidates,
                 "accepted": r.accepted,
@@ -273,7 +273,8 @@ impl Talk {
             add_error(&mut event, error.as_ref());
             self.event(&event);
         }
-        let too_high = rule.error.zip(error).and_then(|(goal, e)| figure::out_of_reach(goal, &e, r, p.ppm));
+        let too_high =
+            rule.error.zip(error).and_then(|(goal, e)| figure::out_of_reach(goal, &e, r, p.render));
         if let Some(why) = too_high.filter(|_| !self.said_floor.swap(true, Ordering::Relaxed)) {
             self.warning(&why);
         }
@@ -293,23 +294,23 @@ impl Talk {
     /// Says that a render is done, what it wrote, and where its light went.
     pub(crate) fn done(&self, session: &Session, outputs: &[String]) {
         self.bar.finish_and_clear();
-        let ppm = session.ppm();
+        let render = session.render();
         let seconds = session.elapsed().as_secs_f64();
         let stages: serde_json::Map<_, _> =
             session.stages().iter().map(|(s, t)| (s.name().to_owned(), json!(t.as_secs_f64()))).collect();
         let mut done = json!({
             "event": "done",
-            "passes": ppm.passes(),
-            "photons": ppm.photons_emitted(),
+            "passes": render.passes(),
+            "photons": render.photons_emitted(),
             "seconds": seconds,
             "outputs": outputs,
-            "ledger": ledger_json(ppm.ledger(), ppm.photons_emitted(), ppm.scene().normalisation().scale()),
-            "hit_points": ppm.start_report().hit_points,
-            "eye_rays": ppm.start_report().eye_rays,
+            "ledger": ledger_json(render.ledger(), render.photons_emitted(), render.scene().normalisation().scale()),
+            "hit_points": render.start_report().hit_points,
+            "eye_rays": render.start_report().eye_rays,
             "stages": stages,
-            "lights": lights_json(ppm),
+            "lights": lights_json(render),
         });
-        add_error(&mut done, ppm.error().as_ref());
+        add_error(&mut done, render.error().as_ref());
         self.event(&done);
         if self.json {
             return;
@@ -322,12 +323,12 @@ impl Talk {
             .collect();
         self.line(&format!(
             "{} passes, {:.1} M photons in {seconds:.1} s ({:.2} M/s): {}",
-            ppm.passes(),
-            ppm.photons_emitted() as f64 / 1e6,
-            ppm.photons_emitted() as f64 / 1e6 / seconds.max(1e-9),
+            render.passes(),
+            render.photons_emitted() as f64 / 1e6,
+            render.photons_emitted() as f64 / 1e6 / seconds.max(1e-9),
             shares.join(", ")
         ));
-        if let Some(error) = ppm.error() {
+        if let Some(error) = render.error() {
             self.line(&format!(
                 "{}{}; 90 % confidence {:.2} to {:.2} %, {}; without what eye samples miss and what no photon has found",
                 error_text(&error),
@@ -343,13 +344,13 @@ impl Talk {
     }
 
     /// Warns of emitters that most photons leave in vain.
-    pub(crate) fn check_lights(&self, ppm: &Ppm) {
+    pub(crate) fn check_lights(&self, render: &Render) {
         // With shadow rays the photons of a light need not reach anything that it lights directly.
-        if ppm.settings().direct_light == DirectLight::ShadowRays {
+        if render.settings().ppm.direct_light == DirectLight::ShadowRays {
             return;
         }
-        let photons = ppm.photons_emitted();
-        for (emitter, light) in ppm.scene().emitters().iter().zip(ppm.light_use()) {
+        let photons = render.photons_emitted();
+        for (emitter, light) in render.scene().emitters().iter().zip(render.light_use()) {
             if light.is_starved(photons) {
                 self.warning(&format!(
                     "\"{}\" takes {:.0} % of the photons, and {:.2} % of those come near anything that is seen: what it lights \
@@ -363,9 +364,10 @@ impl Talk {
     }
 
     /// Warns of light that went missing, and says where.
-    pub(crate) fn check_ledger(&self, ppm: &Ppm) {
-        let ledger = ppm.ledger();
-        let materials = || ppm.scene().materials().iter().map(|m| m.name.as_str()).zip(ppm.material_losses());
+    pub(crate) fn check_ledger(&self, render: &Render) {
+        let ledger = render.ledger();
+        let materials =
+            || render.scene().materials().iter().map(|m| m.name.as_str()).zip(render.material_losses());
         let share = ledger.truncated / ledger.emitted.max(f64::MIN_POSITIVE);
         if share > WORTH_A_WARNING {
             let most = materials().max_by(|a, b| a.1.truncated.total_cmp(&b.1.truncated));
@@ -377,12 +379,12 @@ impl Talk {
                 share * 100.0
             ));
         }
-        let eye_paths = ppm.start_report().dropped;
+        let eye_paths = render.start_report().dropped;
         if eye_paths > 0 {
             self.warning(&format!("{eye_paths} eye paths were dropped because their weight was not finite"));
         }
         if ledger.dropped > 0 {
-            let lights = ppm.scene().emitters().iter().zip(ppm.light_use());
+            let lights = render.scene().emitters().iter().zip(render.light_use());
             let lights = lights.map(|(emitter, light)| (emitter.name.as_str(), light.dropped));
             let all: Vec<_> = lights.chain(materials().map(|(name, loss)| (name, loss.dropped))).collect();
             let gathered = ledger.dropped - all.iter().map(|(_, n)| n).sum::<u64>().min(ledger.dropped);
@@ -395,7 +397,7 @@ impl Talk {
                 places.join(", ")
             ));
         }
-        if let Some(place) = ppm.first_not_finite() {
+        if let Some(place) = render.first_not_finite() {
             self.event(&not_finite(place));
             self.line(&format!("the first of those: {place}; --strict stops there"));
         }
@@ -415,8 +417,8 @@ fn located(event: &str, d: &Diagnostic) -> Value {
 }
 
 /// What each emitter's photons were good for.
-fn lights_json(ppm: &Ppm) -> Value {
-    let lights = ppm.scene().emitters().iter().zip(ppm.light_use());
+fn lights_json(render: &Render) -> Value {
+    let lights = render.scene().emitters().iter().zip(render.light_use());
     lights
         .map(|(emitter, light)| {
             json!({

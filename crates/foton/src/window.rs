@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use foton_format::{Opened, Options, Saved, Severity, Suggested, save_edited};
-use foton_integrator::{Alpha, Settings};
+use foton_integrator::{Alpha, PpmSettings, RenderSettings};
 use foton_preview::WindowError;
 use foton_scene::BuildError;
 use foton_scene::description::SceneDescription;
@@ -85,14 +85,17 @@ impl Loader for Files {
 }
 
 /// The settings of `foton render`, with what a file asks for.
-fn settings(suggested: &Suggested) -> Settings {
-    let defaults = Settings::default();
+fn settings(suggested: &Suggested) -> RenderSettings {
+    let defaults = RenderSettings::default();
     let photons = suggested.photons_per_pass.and_then(NonZeroU32::new);
-    Settings {
-        alpha: suggested.alpha.and_then(Alpha::new).unwrap_or(defaults.alpha),
-        photons_per_pass: photons.unwrap_or(defaults.photons_per_pass),
-        radius: suggested.radius,
+    RenderSettings {
         error: true,
+        ppm: PpmSettings {
+            alpha: suggested.alpha.and_then(Alpha::new).unwrap_or(defaults.ppm.alpha),
+            photons_per_pass: photons.unwrap_or(defaults.ppm.photons_per_pass),
+            radius: suggested.radius,
+            ..defaults.ppm
+        },
         ..defaults
     }
 }

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use foton_integrator::{Alpha, Cancel, DirectLight, Ppm, RadiusScale, Settings};
+use foton_integrator::{Alpha, Cancel, DirectLight, PpmSettings, RadiusScale, Render, RenderSettings};
 use foton_measure::processor_time;
 use foton_scene::Scene;
 
@@ -40,22 +40,43 @@ pub(crate) fn print() {
     println!(
         "| settings | 1 | 2 | 4 | 6 | 15 | 30 | 60 CPU s | to 0.06 | to 0.03 |\n|---|---|---|---|---|---|---|---|---|---|"
     );
-    let base = || Settings { first_pass: rig::number(1 << 14), ..rig::settings() };
+    let base = || RenderSettings {
+        ppm: PpmSettings { first_pass: rig::number(1 << 14), ..rig::settings().ppm },
+        ..rig::settings()
+    };
     let alpha = |alpha| Alpha::new(alpha).expect("in range");
     let rows = [
         ("2^18 photons a pass, α 2/3", base()),
-        ("2^16", Settings { photons_per_pass: rig::number(1 << 16), ..base() }),
-        ("2^18, shadow rays", Settings { direct_light: DirectLight::ShadowRays, ..base() }),
         (
-            "2^16, shadow rays",
-            Settings {
-                photons_per_pass: rig::number(1 << 16),
-                direct_light: DirectLight::ShadowRays,
+            "2^16",
+            RenderSettings {
+                ppm: PpmSettings { photons_per_pass: rig::number(1 << 16), ..base().ppm },
                 ..base()
             },
         ),
-        ("2^18, α 0.8", Settings { alpha: alpha(0.8), ..base() }),
-        ("2^18, the radius of the pixel's footprint", Settings { radius: None, ..base() }),
+        (
+            "2^18, shadow rays",
+            RenderSettings {
+                ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..base().ppm },
+                ..base()
+            },
+        ),
+        (
+            "2^16, shadow rays",
+            RenderSettings {
+                ppm: PpmSettings {
+                    photons_per_pass: rig::number(1 << 16),
+                    direct_light: DirectLight::ShadowRays,
+                    ..base().ppm
+                },
+                ..base()
+            },
+        ),
+        ("2^18, α 0.8", RenderSettings { ppm: PpmSettings { alpha: alpha(0.8), ..base().ppm }, ..base() }),
+        (
+            "2^18, the radius of the pixel's footprint",
+            RenderSettings { ppm: PpmSettings { radius: None, ..base().ppm }, ..base() },
+        ),
     ];
     for (name, settings) in rows {
         let course = course(&settings, &reference);
@@ -72,31 +93,31 @@ pub(crate) fn print() {
 }
 
 /// Processor seconds and error after each pass.
-fn course(settings: &Settings, reference: &Reference) -> Vec<(f64, f64)> {
+fn course(settings: &RenderSettings, reference: &Reference) -> Vec<(f64, f64)> {
     let scene = Arc::new(Scene::build(&rig::box_spheres(SIDE, SIDE)).expect("a sound scene"));
     let cancel = Cancel::default();
     let mut spent = 0.0;
     let mut begin = processor_time();
-    let mut ppm = Ppm::start(scene, settings.clone(), &mut |_| (), &cancel).expect("nobody cancels");
+    let mut render = Render::start(scene, settings.clone(), &mut |_| (), &cancel).expect("nobody cancels");
     let mut course = Vec::new();
     while spent < BUDGET {
-        ppm.advance(&mut |_| (), &cancel).expect("nobody cancels");
+        render.advance(&mut |_| (), &cancel).expect("nobody cancels");
         spent += (processor_time() - begin).as_secs_f64();
-        course.push((spent, error(&ppm, reference)));
+        course.push((spent, error(&render, reference)));
         begin = processor_time();
     }
     course
 }
 
 /// Root mean squared error of luminance over the spot.
-pub(crate) fn error(ppm: &Ppm, reference: &Reference) -> f64 {
-    let squares = spot(ppm).into_iter().zip(&reference.pixels).map(|(a, b)| (a - b) * (a - b));
+pub(crate) fn error(render: &Render, reference: &Reference) -> f64 {
+    let squares = spot(render).into_iter().zip(&reference.pixels).map(|(a, b)| (a - b) * (a - b));
     let mean = squares.sum::<f64>() / reference.pixels.len() as f64;
     (mean - reference.noise * reference.noise).max(0.0).sqrt()
 }
 
-fn spot(ppm: &Ppm) -> Vec<f64> {
-    let image = ppm.image();
+fn spot(render: &Render) -> Vec<f64> {
+    let image = render.image();
     let [columns, rows] = SPOT;
     rows.flat_map(|y| columns.clone().map(move |x| (y * SIDE + x) as usize))
         .map(|i| f64::from(image.pixels[i].luminance()))
@@ -132,14 +153,17 @@ impl Reference {
 }
 
 fn render(seed: u64) -> Vec<f64> {
-    let settings = Settings {
-        photons_per_pass: rig::number(REFERENCE_PHOTONS),
-        radius_scale: RadiusScale::new(REFERENCE_SCALE).expect("above 0"),
+    let settings = RenderSettings {
         // Pixels' centres need no seed; photons do.
         seed: 1000 + seed,
+        ppm: PpmSettings {
+            photons_per_pass: rig::number(REFERENCE_PHOTONS),
+            radius_scale: RadiusScale::new(REFERENCE_SCALE).expect("above 0"),
+            ..rig::settings().ppm
+        },
         ..rig::settings()
     };
-    spot(&rig::run(&rig::box_spheres(SIDE, SIDE), &settings, 2, REFERENCE_PASSES as usize).ppm)
+    spot(&rig::run(&rig::box_spheres(SIDE, SIDE), &settings, 2, REFERENCE_PASSES as usize).render)
 }
 
 fn parse(text: &str) -> Option<Vec<Vec<f64>>> {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use foton_format::Options;
-use foton_integrator::{Cancel, PassReport, Ppm, Settings, Stage};
+use foton_integrator::{Cancel, PassReport, PpmSettings, Render, RenderSettings, Stage};
 use foton_scene::Scene;
 use foton_scene::description::{Filter, SceneDescription};
 
@@ -26,7 +26,7 @@ pub(crate) struct Run {
     /// Seconds on the wall by pass and stage.
     pub(crate) passes: Vec<[f64; STAGES]>,
     pub(crate) reports: Vec<PassReport>,
-    pub(crate) ppm: Ppm,
+    pub(crate) render: Render,
 }
 
 /// The benchmark box.
@@ -51,24 +51,33 @@ pub(crate) fn number(n: u32) -> NonZeroU32 {
 }
 
 /// One sample a pixel, passes of [`PHOTONS`] from the first on, and nothing that was not asked for.
-pub(crate) fn settings() -> Settings {
-    Settings {
-        photons_per_pass: number(PHOTONS),
-        first_pass: number(PHOTONS),
+pub(crate) fn settings() -> RenderSettings {
+    RenderSettings {
         samples_per_pixel: NonZeroU32::MIN,
-        radius: Some(RADIUS),
-        ..Settings::default()
+        ppm: PpmSettings {
+            photons_per_pass: number(PHOTONS),
+            first_pass: number(PHOTONS),
+            radius: Some(RADIUS),
+            ..PpmSettings::default()
+        },
+        ..RenderSettings::default()
     }
 }
 
 /// Builds the scene and renders it on so many threads.
-pub(crate) fn run(description: &SceneDescription, settings: &Settings, threads: usize, passes: usize) -> Run {
+pub(crate) fn run(
+    description: &SceneDescription,
+    settings: &RenderSettings,
+    threads: usize,
+    passes: usize,
+) -> Run {
     let scene = Arc::new(Scene::build(description).expect("a sound scene"));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     pool.install(|| {
         let cancel = Cancel::default();
         let clock = Instant::now();
-        let mut ppm = Ppm::start(scene, settings.clone(), &mut |_| (), &cancel).expect("nobody cancels");
+        let mut render =
+            Render::start(scene, settings.clone(), &mut |_| (), &cancel).expect("nobody cancels");
         let eye_seconds = clock.elapsed().as_secs_f64();
         let mut timed = Vec::new();
         let mut reports = Vec::new();
@@ -80,12 +89,12 @@ pub(crate) fn run(description: &SceneDescription, settings: &Settings, threads: 
                     seconds[stage as usize] += begin.elapsed().as_secs_f64();
                 }
             };
-            let report = ppm.advance(&mut |stage| end(running.replace((stage, Instant::now()))), &cancel);
+            let report = render.advance(&mut |stage| end(running.replace((stage, Instant::now()))), &cancel);
             end(running);
             reports.push(report.expect("nobody cancels"));
             timed.push(seconds);
         }
-        Run { eye_seconds, passes: timed, reports, ppm }
+        Run { eye_seconds, passes: timed, reports, render }
     })
 }
 
@@ -108,7 +117,7 @@ impl Run {
 
     /// FNV-1a of the image's bits.
     pub(crate) fn hash(&self) -> u64 {
-        let bits = self.ppm.image().pixels;
+        let bits = self.render.image().pixels;
         let bytes = bits.iter().flat_map(|p| p.to_array()).flat_map(|c| c.to_bits().to_le_bytes());
         bytes.fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
     }

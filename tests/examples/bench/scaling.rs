@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use foton_integrator::{Settings, Stage};
+use foton_integrator::{PpmSettings, RenderSettings, Stage};
 use foton_math::glam::{DAffine3, DVec3};
 use foton_measure::plot::{Plot, Series, colour};
 use foton_scene::description::{Geometry, Mesh, SceneDescription, ShapeDescription};
@@ -31,9 +31,12 @@ pub(crate) fn print() {
         .step_by(2)
         .map(|power| {
             let photons = 1 << power;
-            let settings = Settings {
-                photons_per_pass: rig::number(photons),
-                first_pass: rig::number(photons),
+            let settings = RenderSettings {
+                ppm: PpmSettings {
+                    photons_per_pass: rig::number(photons),
+                    first_pass: rig::number(photons),
+                    ..rig::settings().ppm
+                },
                 ..rig::settings()
             };
             (f64::from(photons), rig::run(&rig::box_spheres(SIDE, SIDE), &settings, THREADS, PASSES))
@@ -45,7 +48,7 @@ pub(crate) fn print() {
     let hit_points: Vec<(f64, Run)> = [32, 64, 128, 256, 512, 1024]
         .map(|side| {
             let run = rig::run(&rig::box_spheres(side, side), &rig::settings(), THREADS, PASSES);
-            (run.ppm.start_report().hit_points as f64, run)
+            (run.render.start_report().hit_points as f64, run)
         })
         .into();
     table("hit points", &hit_points);
@@ -61,7 +64,7 @@ fn table(what: &str, runs: &[(f64, Run)]) {
         let stages = [Stage::Trace, Stage::Sort, Stage::Gather, Stage::Radiance].map(ms).join(" | ");
         let seconds = run.median(FIRST);
         let rate = run.mean(FIRST, |r| r.photons_in_pass) / seconds / 1e6;
-        let bytes = run.ppm.bytes() as f64 / f64::from(1 << 20);
+        let bytes = run.render.bytes() as f64 / f64::from(1 << 20);
         println!("| {x} | {:.1} | {stages} | {rate:.3} | {bytes:.0} |", 1e3 * seconds);
     }
 }

@@ -1,6 +1,6 @@
 //! Whole runs of the benchmark box: stages, rates, efficiency, and beside them the image's hash and its error.
 
-use foton_integrator::{Settings, Stage};
+use foton_integrator::{RenderSettings, Stage};
 
 use crate::accuracy::{self, Reference};
 use crate::rig::{self, PHOTONS, Run, WARM_UP};
@@ -69,23 +69,23 @@ fn report(run: &Run, bare: &Run, threads: usize) {
         100.0 * found / (16.0 * tests)
     );
     println!("- efficiency {:.0} %: tracing alone takes {:.1} ms", 100.0 * alone / whole, 1e3 * alone);
-    println!("- {:.1} MiB held", run.ppm.bytes() as f64 / f64::from(1 << 20));
+    println!("- {:.1} MiB held", run.render.bytes() as f64 / f64::from(1 << 20));
 }
 
 /// At the size for which there is a reference.
-fn error_of_those_photons(settings: &Settings) -> f64 {
+fn error_of_those_photons(settings: &RenderSettings) -> f64 {
     let run = rig::run(&rig::box_spheres(accuracy::SIDE, accuracy::SIDE), settings, 2, PASSES);
-    accuracy::error(&run.ppm, &Reference::load_or_render())
+    accuracy::error(&run.render, &Reference::load_or_render())
 }
 
 fn eye_pass() {
     for (threads, samples) in [(1, 1), (2, 4)] {
-        let settings = Settings { samples_per_pixel: rig::number(samples), ..rig::settings() };
+        let settings = RenderSettings { samples_per_pixel: rig::number(samples), ..rig::settings() };
         let mut description = rig::box_spheres(1024, 768);
         description.sensors[0].filter = foton_scene::description::Filter::Box { radius: 0.5 };
         let runs = [0; 5].map(|_| rig::run(&description, &settings, threads, 0));
         let seconds = rig::median(runs.iter().map(|r| r.eye_seconds));
-        let rays = runs[0].ppm.start_report().eye_rays as f64;
+        let rays = runs[0].render.start_report().eye_rays as f64;
         println!(
             "eye pass at 1024x768, {samples} samples a pixel, {threads} threads, laying out included: {seconds:.3} s, {:.2} M rays/s",
             rays / seconds / 1e6

@@ -2,7 +2,7 @@
 //! hundredfold, a mesh of a million triangles. Each beside the plain box, in turns.
 
 use foton_film::LayerData;
-use foton_integrator::{LayerKind, Ppm, Settings};
+use foton_integrator::{LayerKind, PpmSettings, Render, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
@@ -20,10 +20,10 @@ const TURNS: usize = 3;
 
 pub(crate) fn print() {
     let plain = || rig::box_spheres(SIDE, SIDE);
-    let four = Settings { samples_per_pixel: rig::number(4), ..rig::settings() };
+    let four = RenderSettings { samples_per_pixel: rig::number(4), ..rig::settings() };
     let mut million = on_a_fine_floor(707);
     million.sensors[0].resize(SIDE, SIDE);
-    let rows: [(&str, SceneDescription, Settings); 7] = [
+    let rows: [(&str, SceneDescription, RenderSettings); 7] = [
         ("plain", plain(), rig::settings()),
         ("4 samples a pixel", plain(), four),
         ("textures on all walls", textured(plain()), rig::settings()),
@@ -32,7 +32,7 @@ pub(crate) fn print() {
         (
             "close to the caustic, radii of the footprint",
             close(plain()),
-            Settings { radius: None, ..rig::settings() },
+            RenderSettings { ppm: PpmSettings { radius: None, ..rig::settings().ppm }, ..rig::settings() },
         ),
         ("a floor of a million triangles", million, rig::settings()),
     ];
@@ -43,8 +43,8 @@ pub(crate) fn print() {
         for (i, (_, description, settings)) in rows.iter().enumerate() {
             let run = rig::run(description, settings, THREADS, PASSES);
             seconds[i].push(run.median(WARM_UP));
-            held[i] = run.ppm.bytes() as f64 / f64::from(1 << 20);
-            radii[i] = spread_of_radii(&run.ppm);
+            held[i] = run.render.bytes() as f64 / f64::from(1 << 20);
+            radii[i] = spread_of_radii(&run.render);
         }
     }
     println!(
@@ -65,8 +65,8 @@ pub(crate) fn print() {
 }
 
 /// The largest over the smallest mean radius of a pixel.
-fn spread_of_radii(ppm: &Ppm) -> f32 {
-    let Some(LayerData::F32(plane)) = ppm.layer(LayerKind::Radius).map(|l| l.channels) else { return 1.0 };
+fn spread_of_radii(render: &Render) -> f32 {
+    let Some(LayerData::F32(plane)) = render.layer(LayerKind::Radius).map(|l| l.channels) else { return 1.0 };
     let radii = || plane.values.iter().copied().filter(|r| *r > 0.0);
     radii().fold(0.0, f32::max) / radii().fold(f32::MAX, f32::min)
 }

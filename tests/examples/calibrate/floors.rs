@@ -3,7 +3,7 @@
 
 use std::num::NonZeroU32;
 
-use foton_integrator::{Cancel, RadiusFloor, Settings, Variants};
+use foton_integrator::{Cancel, PpmSettings, RadiusFloor, RenderSettings, Variants};
 
 use crate::truth::{self, Truth};
 
@@ -21,12 +21,12 @@ pub(crate) fn print(named: &[&str], samples: u64, passes: u64) {
     let samples = NonZeroU32::new(samples as u32).expect("above 0");
     for name in if named.is_empty() { crate::ASSETS.to_vec() } else { named.to_vec() } {
         let scene = truth::open(name, SIDE);
-        let base = Settings { samples_per_pixel: samples, ..crate::settings(crate::PHOTONS, 1) };
+        let base = RenderSettings { samples_per_pixel: samples, ..crate::settings(crate::PHOTONS, 1) };
         let same_eyes = Truth::render(&scene, &base, passes);
-        let other = Settings { samples_per_pixel: MANY_SAMPLES, seed: 1001, ..base.clone() };
+        let other = RenderSettings { samples_per_pixel: MANY_SAMPLES, seed: 1001, ..base.clone() };
         let many_eyes = Truth::render(&scene, &other, passes / 4);
-        let settings = FLOORS.map(|floor| Settings {
-            radius_floor: RadiusFloor::new(floor).expect("not below 0"),
+        let settings = FLOORS.map(|floor| RenderSettings {
+            ppm: PpmSettings { radius_floor: RadiusFloor::new(floor).expect("not below 0"), ..base.ppm },
             ..base.clone()
         });
         let started = Variants::start(&scene, &settings, base.seed, &mut |_| (), &Cancel::default());
@@ -37,8 +37,8 @@ pub(crate) fn print(named: &[&str], samples: u64, passes: u64) {
                 let cells: Vec<String> = runs
                     .runs()
                     .iter()
-                    .map(|ppm| {
-                        let [same, many] = [&same_eyes, &many_eyes].map(|t| 100.0 * t.error(ppm).value);
+                    .map(|render| {
+                        let [same, many] = [&same_eyes, &many_eyes].map(|t| 100.0 * t.error(render).value);
                         format!(" {same:.1}, {many:.1} |")
                     })
                     .collect();

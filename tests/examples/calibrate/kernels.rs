@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use foton_integrator::{Cancel, RadiusRule, RadiusScale, Settings, Variants};
+use foton_integrator::{Cancel, PpmSettings, RadiusRule, RadiusScale, RenderSettings, Variants};
 use foton_scene::Scene;
 
 use crate::truth::{self, Truth};
@@ -32,10 +32,16 @@ pub(crate) fn print(named: &[&str], seeds: u64, truth_passes: u64) {
 
 fn rows(name: &str, scene: &Arc<Scene>, seeds: u64, truth_passes: u64) {
     // Radii that adapt go by the box's noise and blur, whatever the kernel.
-    let base = Settings { error: true, radius_rule: RadiusRule::Local, ..crate::settings(PHOTONS, 1) };
+    let base = RenderSettings {
+        error: true,
+        ppm: PpmSettings { radius_rule: RadiusRule::Local, ..crate::settings(PHOTONS, 1).ppm },
+        ..crate::settings(PHOTONS, 1)
+    };
     let truth = Truth::render(scene, &base, truth_passes);
-    let of_scale =
-        |scale| Settings { radius_scale: RadiusScale::new(scale).expect("above 0"), ..base.clone() };
+    let of_scale = |scale| RenderSettings {
+        ppm: PpmSettings { radius_scale: RadiusScale::new(scale).expect("above 0"), ..base.ppm },
+        ..base.clone()
+    };
     let all = SCALES.map(of_scale);
     let cancel = Cancel::default();
     // By shown pass, scale and kernel.
@@ -46,8 +52,9 @@ fn rows(name: &str, scene: &Arc<Scene>, seeds: u64, truth_passes: u64) {
         for pass in 1..=SHOWN[SHOWN.len() - 1] {
             runs.advance(&mut |_| (), &cancel).expect("not cancelled");
             let Some(shown) = SHOWN.iter().position(|s| *s == pass) else { continue };
-            for (ppm, squares) in runs.runs().iter().zip(&mut squares[shown]) {
-                let (light, blur) = (truth::reflected(ppm), ppm.blur().expect("the error is estimated"));
+            for (render, squares) in runs.runs().iter().zip(&mut squares[shown]) {
+                let (light, blur) =
+                    (truth::reflected(render), render.bias().expect("the error is estimated"));
                 for (square, share) in squares.iter_mut().zip(KERNELS) {
                     let image: Vec<f64> = light.iter().zip(&blur).map(|(l, b)| l - share * b).collect();
                     *square += truth.squares(&image)[0].value / seeds as f64;

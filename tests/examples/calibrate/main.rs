@@ -17,7 +17,7 @@ use std::num::NonZeroU32;
 use std::path::Path;
 use std::sync::Arc;
 
-use foton_integrator::{Ppm, RadiusFloor, RadiusRule, Settings, TileError};
+use foton_integrator::{PpmSettings, RadiusFloor, RadiusRule, Render, RenderSettings, TileError};
 use foton_measure::plot::{Plot, Series, colour};
 use foton_scene::Scene;
 use foton_tests::slopes;
@@ -60,12 +60,15 @@ struct Found {
 }
 
 /// One eye sample a pixel.
-fn settings(photons: u32, seed: u64) -> Settings {
-    Settings {
-        photons_per_pass: NonZeroU32::new(photons).expect("above 0"),
+fn settings(photons: u32, seed: u64) -> RenderSettings {
+    RenderSettings {
         samples_per_pixel: NonZeroU32::MIN,
         seed,
-        ..Settings::default()
+        ppm: PpmSettings {
+            photons_per_pass: NonZeroU32::new(photons).expect("above 0"),
+            ..PpmSettings::default()
+        },
+        ..RenderSettings::default()
     }
 }
 
@@ -179,8 +182,12 @@ fn run(
     (seed, (radius_rule, radius_floor)): (u64, (RadiusRule, RadiusFloor)),
     passes: u64,
 ) -> Vec<Found> {
-    let settings =
-        Settings { error: true, layers: true, radius_floor, radius_rule, ..settings(PHOTONS, seed) };
+    let settings = RenderSettings {
+        error: true,
+        layers: true,
+        ppm: PpmSettings { radius_floor, radius_rule, ..settings(PHOTONS, seed).ppm },
+        ..settings(PHOTONS, seed)
+    };
     let truth = Truth::render(scene, &settings, passes);
     eprintln!(
         "noise of the truth {:.1} %, smooth {:.0} %",
@@ -198,11 +205,11 @@ fn run(
     found
 }
 
-fn judge(ppm: &Ppm, truth: &Truth) -> Found {
-    let error = ppm.error().expect("passes and light");
-    let relative = truth.error(ppm);
+fn judge(render: &Render, truth: &Truth) -> Found {
+    let error = render.error().expect("passes and light");
+    let relative = truth.error(render);
     let (mut covered, mut unknown) = ([([0.0; 3], 0.0); 2], [0.0; 2]);
-    for (i, (tile, (t, variance))) in ppm.error_tiles().iter().zip(&truth.tiles).enumerate() {
+    for (i, (tile, (t, variance))) in render.error_tiles().iter().zip(&truth.tiles).enumerate() {
         if tile.pixels < (TILE * TILE) as u32 {
             continue;
         }
@@ -233,7 +240,7 @@ fn judge(ppm: &Ppm, truth: &Truth) -> Found {
         is_within: (error.low..=error.high).contains(&relative.value),
         covered,
         unknown,
-        classes: [estimated, truth.class_shares(ppm)],
+        classes: [estimated, truth.class_shares(render)],
     }
 }
 

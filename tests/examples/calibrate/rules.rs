@@ -7,7 +7,7 @@ use std::num::NonZeroU32;
 use std::sync::Arc;
 use std::time::Duration;
 
-use foton_integrator::{Alpha, Cancel, RadiusRule, RadiusScale, Settings, Step, Variants};
+use foton_integrator::{Alpha, Cancel, PpmSettings, RadiusRule, RadiusScale, RenderSettings, Step, Variants};
 use foton_measure::sweep::processor_time;
 use foton_scene::Scene;
 
@@ -48,32 +48,44 @@ pub(crate) fn print(named: &[&str], seeds: u64, truth_passes: u64) {
 fn rows(name: &str, seeds: u64, truth_passes: u64) {
     let scene = truth::open(name, SIDE);
     let photons = NonZeroU32::new(PHOTONS).expect("above 0");
-    let base =
-        Settings { first_pass: photons, radius_rule: RadiusRule::Local, ..crate::settings(PHOTONS, 1) };
+    let base = RenderSettings {
+        ppm: PpmSettings {
+            first_pass: photons,
+            radius_rule: RadiusRule::Local,
+            ..crate::settings(PHOTONS, 1).ppm
+        },
+        ..crate::settings(PHOTONS, 1)
+    };
     let truth = Truth::render(&scene, &base, truth_passes);
-    let fixed: Vec<Settings> = SCALES
+    let fixed: Vec<RenderSettings> = SCALES
         .iter()
         .flat_map(|&scale| ALPHAS.map(|alpha| (alpha, scale)))
-        .map(|(alpha, scale)| Settings {
-            alpha: Alpha::new(alpha).expect("in range"),
-            radius_scale: RadiusScale::new(scale).expect("above 0"),
+        .map(|(alpha, scale)| RenderSettings {
+            ppm: PpmSettings {
+                alpha: Alpha::new(alpha).expect("in range"),
+                radius_scale: RadiusScale::new(scale).expect("above 0"),
+                ..base.ppm
+            },
             ..base.clone()
         })
         .collect();
-    let adaptive = |alpha: f64, scale: f64| Settings {
-        alpha: Alpha::new(alpha).expect("in range"),
-        radius_scale: RadiusScale::new(scale).expect("above 0"),
-        radius_rule: RadiusRule::Adaptive,
+    let adaptive = |alpha: f64, scale: f64| RenderSettings {
+        ppm: PpmSettings {
+            alpha: Alpha::new(alpha).expect("in range"),
+            radius_scale: RadiusScale::new(scale).expect("above 0"),
+            radius_rule: RadiusRule::Adaptive,
+            ..base.ppm
+        },
         ..base.clone()
     };
     let central = Alpha::default().get();
-    let adaptive: Vec<Settings> = [adaptive(central, 1.0)]
+    let adaptive: Vec<RenderSettings> = [adaptive(central, 1.0)]
         .into_iter()
         .chain(OTHER_ALPHAS.map(|alpha| adaptive(alpha, 1.0)))
         .chain(OTHER_SCALES.map(|scale| adaptive(central, scale)))
         .collect();
     let adapting = adaptive.len();
-    let all: Vec<Settings> = adaptive.into_iter().chain([base.clone()]).chain(fixed).collect();
+    let all: Vec<RenderSettings> = adaptive.into_iter().chain([base.clone()]).chain(fixed).collect();
     let courses = run(&scene, &all, &truth, seeds);
     for (i, at) in courses[0].iter().enumerate().filter(|(i, _)| SHOWN.contains(&(1 << i))) {
         let percent = |which: usize, part: usize| 100.0 * error_at(&courses[which], at.seconds, part);
@@ -81,7 +93,8 @@ fn rows(name: &str, seeds: u64, truth_passes: u64) {
             of.min_by(|a, b| percent(*a, 0).total_cmp(&percent(*b, 0))).expect("some")
         };
         let (best_fixed, best_adaptive) = (best(adapting..all.len()), best(0..adapting));
-        let which = |i: usize| format!("α {:.2}, × {}", all[i].alpha.get(), all[i].radius_scale.get());
+        let which =
+            |i: usize| format!("α {:.2}, × {}", all[i].ppm.alpha.get(), all[i].ppm.radius_scale.get());
         let least = |part| (adapting..all.len()).map(|i| percent(i, part)).fold(f64::INFINITY, f64::min);
         println!(
             "| {name} | {} | {:.2} | {:.2} | {:.2} ({}) | {:.2} | {:.2} | {:.2} ({}) | {:.2}, {:.2} | {:.2}, {:.2} |",
@@ -104,7 +117,7 @@ fn rows(name: &str, seeds: u64, truth_passes: u64) {
 }
 
 /// All renders over the same photons, seed after seed.
-fn run(scene: &Arc<Scene>, all: &[Settings], truth: &Truth, seeds: u64) -> Vec<Course> {
+fn run(scene: &Arc<Scene>, all: &[RenderSettings], truth: &Truth, seeds: u64) -> Vec<Course> {
     let mut courses: Vec<Course> = vec![Vec::new(); all.len()];
     let cancel = Cancel::default();
     for seed in 0..seeds {
@@ -118,10 +131,10 @@ fn run(scene: &Arc<Scene>, all: &[Settings], truth: &Truth, seeds: u64) -> Vec<C
             if !pass.is_power_of_two() {
                 continue;
             }
-            for ((course, ppm), seconds) in courses.iter_mut().zip(runs.runs()).zip(&clock.spent) {
+            for ((course, render), seconds) in courses.iter_mut().zip(runs.runs()).zip(&clock.spent) {
                 let i = pass.ilog2() as usize;
                 course.resize(course.len().max(i + 1), At::default());
-                let squares = truth.squares(&truth::reflected(ppm)).map(|known| known.value);
+                let squares = truth.squares(&truth::reflected(render)).map(|known| known.value);
                 course[i].seconds += seconds / seeds as f64;
                 for (sum, square) in course[i].squares.iter_mut().zip(squares) {
                     *sum += square / seeds as f64;

@@ -3,7 +3,7 @@
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use foton_integrator::Settings;
+use foton_integrator::RenderSettings;
 use foton_scene::Scene;
 use foton_session::StopRule;
 
@@ -30,31 +30,32 @@ pub(crate) fn print(named: &[&str], seed: u64, passes: u64) {
 }
 
 fn rows(name: &str, scene: &Arc<Scene>, seed: u64, truth_passes: u64) {
-    let settings = Settings { error: true, ..crate::settings(PHOTONS, seed) };
+    let settings = RenderSettings { error: true, ..crate::settings(PHOTONS, seed) };
     let same_eyes = Truth::render(scene, &settings, truth_passes);
-    let other = Settings { samples_per_pixel: MANY_SAMPLES, seed: seed + 1000, ..settings };
+    let other = RenderSettings { samples_per_pixel: MANY_SAMPLES, seed: seed + 1000, ..settings };
     let many_eyes = Truth::render(scene, &other, truth_passes / 8);
     let mut runs = truth::start(scene, settings, seed);
     for goal in GOALS {
         let rule = StopRule { error: Some(goal), ..StopRule::default() };
         let time = std::time::Duration::ZERO;
         loop {
-            let ppm = &runs.runs()[0];
-            if rule.is_reached(ppm.passes(), time, time, ppm.error().as_ref()) || ppm.passes() >= MOST_PASSES
+            let render = &runs.runs()[0];
+            if rule.is_reached(render.passes(), time, time, render.error().as_ref())
+                || render.passes() >= MOST_PASSES
             {
                 break;
             }
             truth::advance(&mut runs);
         }
-        let ppm = &runs.runs()[0];
-        let Some(error) = ppm.error() else { continue };
-        let real = same_eyes.error(ppm);
-        let total = many_eyes.error(ppm).value;
-        let never = if ppm.passes() >= MOST_PASSES { " (never stopped)" } else { "" };
+        let render = &runs.runs()[0];
+        let Some(error) = render.error() else { continue };
+        let real = same_eyes.error(render);
+        let total = many_eyes.error(render).value;
+        let never = if render.passes() >= MOST_PASSES { " (never stopped)" } else { "" };
         println!(
             "| {name} | {:.0} | {}{never} | {:.1} ({:.1}–{:.1}) | {:.1} ± {:.1} | {:.2} | {:.1} |",
             100.0 * goal,
-            ppm.passes(),
+            render.passes(),
             100.0 * error.total,
             100.0 * error.low,
             100.0 * error.high,

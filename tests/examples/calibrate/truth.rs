@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use foton_format::Options;
-use foton_integrator::{Cancel, LayerKind, Ppm, Settings, Variants};
+use foton_integrator::{Cancel, LayerKind, Render, RenderSettings, Variants};
 use foton_measure::sweep::reference::{OwnRun, Reference, extrapolated, luminance};
 use foton_scene::Scene;
 
@@ -56,7 +56,7 @@ pub(crate) fn open(name: &str, side: u32) -> Arc<Scene> {
 }
 
 /// A run whose eye samples are of the settings' seed and whose photons are of another.
-pub(crate) fn start(scene: &Arc<Scene>, settings: Settings, photons: u64) -> Variants {
+pub(crate) fn start(scene: &Arc<Scene>, settings: RenderSettings, photons: u64) -> Variants {
     let started = Variants::start(scene, &[settings], photons, &mut |_| (), &Cancel::default());
     started.expect("not cancelled").expect("one variant")
 }
@@ -66,14 +66,14 @@ pub(crate) fn advance(runs: &mut Variants) {
 }
 
 /// Luminance without what emitters themselves show.
-pub(crate) fn reflected(ppm: &Ppm) -> Vec<f64> {
-    let emission = ppm.colour_layer(LayerKind::Emission).expect("always kept");
-    luminance(&ppm.image()).iter().zip(luminance(&emission)).map(|(all, e)| all - e).collect()
+pub(crate) fn reflected(render: &Render) -> Vec<f64> {
+    let emission = render.colour_layer(LayerKind::Emission).expect("always kept");
+    luminance(&render.image()).iter().zip(luminance(&emission)).map(|(all, e)| all - e).collect()
 }
 
 impl Truth {
     /// Of the eye samples of `like`, by `passes` passes of small fixed radii, direct light by shadow rays.
-    pub(crate) fn render(scene: &Arc<Scene>, like: &Settings, passes: u64) -> Self {
+    pub(crate) fn render(scene: &Arc<Scene>, like: &RenderSettings, passes: u64) -> Self {
         let cancel = Cancel::default();
         let width = scene.sensors()[like.sensor].width as usize;
         let mut tiles = vec![(0.0, 0.0); (width / TILE).pow(2)];
@@ -125,8 +125,8 @@ impl Truth {
     }
 
     /// Root mean square difference over what is seen, relative to the mean.
-    pub(crate) fn error(&self, ppm: &Ppm) -> Figure {
-        self.squares(&reflected(ppm))[0].root()
+    pub(crate) fn error(&self, render: &Render) -> Figure {
+        self.squares(&reflected(render))[0].root()
     }
 
     /// Mean square difference of reflected luminance relative to the squared mean: over all that is seen, over what is smooth of
@@ -157,12 +157,12 @@ impl Truth {
         })
     }
 
-    /// What direct, caustic and indirect light have of the squared error: Σ (x − t)(x_c − t_c), each over their sum. `ppm` keeps
+    /// What direct, caustic and indirect light have of the squared error: Σ (x − t)(x_c − t_c), each over their sum. `render` keeps
     /// them apart.
-    pub(crate) fn class_shares(&self, ppm: &Ppm) -> [f64; 3] {
-        let image = reflected(ppm);
+    pub(crate) fn class_shares(&self, render: &Render) -> [f64; 3] {
+        let image = reflected(render);
         let kinds = [LayerKind::Direct, LayerKind::Caustic, LayerKind::Indirect];
-        let layers = kinds.map(|kind| luminance(&ppm.colour_layer(kind).expect("classes are kept apart")));
+        let layers = kinds.map(|kind| luminance(&render.colour_layer(kind).expect("classes are kept apart")));
         let of = |class: usize| -> f64 {
             let pixels = (0..image.len()).filter(|pixel| self.seen()[*pixel]);
             let off = |half: usize, pixel: usize| {

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use foton_film::LayerData;
-use foton_integrator::{Alpha, DirectLight, LayerKind, Settings};
+use foton_integrator::{Alpha, DirectLight, LayerKind, PpmSettings, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DVec3};
 use foton_scene::BuildError;
@@ -26,7 +26,10 @@ fn hollow(sketch: Sketch, x: f64, power: f64) -> Sketch {
 fn a_dim_room_beside_one_a_hundred_million_times_brighter_is_right() {
     let sketch = Sketch::default().camera(DVec3::new(0.3, 0.1, 0.0), DVec3::new(0.3, 0.4, 1.0), 80.0, 12);
     let sketch = hollow(hollow(sketch, 0.0, 1.0), 5.0, 1e8);
-    let settings = Settings { alpha: Alpha::new(1.0).expect("in range"), ..with_radius(0.25, 60_000) };
+    let settings = RenderSettings {
+        ppm: PpmSettings { alpha: Alpha::new(1.0).expect("in range"), ..with_radius(0.25, 60_000).ppm },
+        ..with_radius(0.25, 60_000)
+    };
     let expected = 0.5 / PI / (4.0 * PI * 0.5);
     let (got, sigma) = seeds(&sketch, &settings, 3, 6);
     assert!((got - expected).abs() < 4.0 * sigma + 1e-3 * expected, "{got} ± {sigma}, expected {expected}");
@@ -63,11 +66,11 @@ fn photons_too_heavy_for_a_number_are_dropped_and_counted_at_their_light() {
         .room(grey(0.5), None)
         .point(DVec3::Y * 0.5, 5e31)
         .point(DVec3::Y * -0.5, 5e31);
-    let ppm = sketch.render(with_radius(0.2, 2000), 2);
-    let dropped: Vec<u64> = ppm.light_use().iter().map(|l| l.dropped).collect();
+    let render = sketch.render(with_radius(0.2, 2000), 2);
+    let dropped: Vec<u64> = render.light_use().iter().map(|l| l.dropped).collect();
     assert!(dropped.iter().all(|&n| n > 100), "{dropped:?}");
-    assert_eq!(ppm.ledger().dropped, dropped.iter().sum::<u64>());
-    assert!(ppm.ledger().imbalance().is_finite() && ppm.image().pixels.iter().all(|p| p.is_finite()));
+    assert_eq!(render.ledger().dropped, dropped.iter().sum::<u64>());
+    assert!(render.ledger().imbalance().is_finite() && render.image().pixels.iter().all(|p| p.is_finite()));
 }
 
 /// A source that lies on the floor is infinitely bright where it lies, and nowhere else.
@@ -78,8 +81,14 @@ fn a_light_on_a_surface_makes_no_pixel_infinite() {
             .camera(DVec3::Z, DVec3::ZERO, 20.0, 9)
             .rectangle(DVec3::ZERO, DVec3::X, DVec3::Y, grey(0.5), None)
             .point(DVec3::ZERO, 1.0);
-        let ppm = sketch.render(Settings { direct_light, ..with_radius(0.1, 5000) }, 2);
-        assert!(ppm.image().pixels.iter().all(|p| p.is_finite()), "{direct_light:?}");
+        let render = sketch.render(
+            RenderSettings {
+                ppm: PpmSettings { direct_light, ..with_radius(0.1, 5000).ppm },
+                ..with_radius(0.1, 5000)
+            },
+            2,
+        );
+        assert!(render.image().pixels.iter().all(|p| p.is_finite()), "{direct_light:?}");
     }
 }
 
@@ -92,14 +101,14 @@ fn where_no_photon_lands_the_image_is_black_and_counted_as_unknown() {
         .rectangle(DVec3::Z * 2.0, DVec3::X * 0.1, DVec3::Y * 0.1, grey(0.0), Some(Rgb::WHITE));
     let scene = sketch.build().expect("sound");
     let cancel = foton_integrator::Cancel::default();
-    let mut ppm =
-        foton_integrator::Ppm::start(scene, with_radius(0.1, 500), &mut |_| (), &cancel).expect("starts");
-    let before = ppm.image();
+    let mut render =
+        foton_integrator::Render::start(scene, with_radius(0.1, 500), &mut |_| (), &cancel).expect("starts");
+    let before = render.image();
     assert!(before.pixels.iter().all(|&p| p == Rgb::BLACK), "before the first pass, too");
-    let report = ppm.advance(&mut |_| (), &cancel).expect("not cancelled");
+    let report = render.advance(&mut |_| (), &cancel).expect("not cancelled");
     assert_eq!((report.no_photon_share, report.accepted), (1.0, 0));
-    assert!(ppm.image().pixels.iter().all(|&p| p == Rgb::BLACK));
-    let Some(LayerData::F32(radii)) = ppm.layer(LayerKind::Radius).map(|l| l.channels) else {
+    assert!(render.image().pixels.iter().all(|&p| p == Rgb::BLACK));
+    let Some(LayerData::F32(radii)) = render.layer(LayerKind::Radius).map(|l| l.channels) else {
         panic!("radii are numbers")
     };
     assert!(radii.values.iter().all(|r| r.is_finite() && *r > 0.0), "radii stay as they were");

@@ -12,13 +12,20 @@ mod wide;
 use std::num::NonZeroU32;
 
 use foton_film::Image;
-use foton_integrator::{Cancel, Ppm, RadiusFloor, Settings};
+use foton_integrator::{Cancel, PpmSettings, RadiusFloor, Render, RenderSettings};
 
 use crate::settings;
 
 /// One sample a pixel, a first radius in world units that shrinks for ever.
-fn with_radius(radius: f64, photons: u32) -> Settings {
-    Settings { radius: Some(radius), radius_floor: RadiusFloor::NONE, ..settings(photons, 3) }
+fn with_radius(radius: f64, photons: u32) -> RenderSettings {
+    RenderSettings {
+        ppm: PpmSettings {
+            radius: Some(radius),
+            radius_floor: RadiusFloor::NONE,
+            ..settings(photons, 3).ppm
+        },
+        ..settings(photons, 3)
+    }
 }
 
 /// Everything below a bit of an image.
@@ -30,8 +37,8 @@ fn number(n: u32) -> NonZeroU32 {
     NonZeroU32::new(n).expect("above 0")
 }
 
-fn advance(ppm: &mut Ppm, passes: u32) {
+fn advance(render: &mut Render, passes: u32) {
     for _ in 0..passes {
-        ppm.advance(&mut |_| (), &Cancel::default()).expect("not cancelled");
+        render.advance(&mut |_| (), &Cancel::default()).expect("not cancelled");
     }
 }

@@ -1,6 +1,6 @@
 //! Light that is narrower than the gaps between eye samples.
 
-use foton_integrator::{DirectLight, RadiusFloor, RadiusRule, Settings};
+use foton_integrator::{DirectLight, PpmSettings, RadiusFloor, RadiusRule, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DQuat, DVec3};
 use foton_scene::description::{EmitterDescription, EmitterKind};
@@ -29,18 +29,18 @@ fn pixel() -> f64 {
 }
 
 /// Reflected flux over what there is of it, after some passes, for spots all over a few pixels.
-fn share_of_flux(degrees: f64, base: &Settings, passes: &[u32], side: u32) -> Vec<(f64, f64)> {
+fn share_of_flux(degrees: f64, base: &RenderSettings, passes: &[u32], side: u32) -> Vec<(f64, f64)> {
     let solid_angle = 4.0 * std::f64::consts::PI * (0.5 * degrees.to_radians()).sin().powi(2);
     // The mean over the picture.
     let expected = solid_angle * 0.5 / std::f64::consts::PI / (16.0 * pixel()).powi(2);
     let mut shares = vec![Vec::new(); passes.len()];
     for i in 0..side * side {
         let place = |k: u32| pixel() * (3.7 * (f64::from(k) + 0.5) / f64::from(side) - 1.9);
-        let mut ppm = spot(degrees, place(i % side), place(i / side)).render(base.clone(), 0);
+        let mut render = spot(degrees, place(i % side), place(i / side)).render(base.clone(), 0);
         for (shares, passes) in shares.iter_mut().zip(passes) {
-            let done = ppm.passes() as u32;
-            super::advance(&mut ppm, passes - done);
-            let image = ppm.image();
+            let done = render.passes() as u32;
+            super::advance(&mut render, passes - done);
+            let image = render.image();
             let mean = image.pixels.iter().map(|p| f64::from(p.g)).sum::<f64>() / image.pixels.len() as f64;
             shares.push(mean / expected);
         }
@@ -53,7 +53,11 @@ fn share_of_flux(degrees: f64, base: &Settings, passes: &[u32], side: u32) -> Ve
 #[test]
 fn a_beam_between_the_eye_samples_keeps_its_flux() {
     for (radius_rule, side) in [(RadiusRule::Global, 8), (RadiusRule::Adaptive, 18)] {
-        let base = Settings { samples_per_pixel: number(4), radius_rule, ..settings(40, 7) };
+        let base = RenderSettings {
+            samples_per_pixel: number(4),
+            ppm: PpmSettings { radius_rule, ..settings(40, 7).ppm },
+            ..settings(40, 7)
+        };
         for (share, sigma) in share_of_flux(0.1, &base, &[8, 128, 1024], side) {
             assert!((share - 1.0).abs() < 0.03 && sigma < 0.02, "{radius_rule:?}: {share} ± {sigma}");
         }
@@ -61,11 +65,19 @@ fn a_beam_between_the_eye_samples_keeps_its_flux() {
     // Where radii shrink by what each disc finds, those at the rim of light stay wider than those within, and flux is gained
     // around anything about as wide as the radius: 5 to 16 % for the beam above. A narrower one tells of the smallest radius alone.
     let radius_rule = RadiusRule::Local;
-    let base = Settings { samples_per_pixel: number(4), radius_rule, ..settings(40, 7) };
+    let base = RenderSettings {
+        samples_per_pixel: number(4),
+        ppm: PpmSettings { radius_rule, ..settings(40, 7).ppm },
+        ..settings(40, 7)
+    };
     for (share, sigma) in share_of_flux(0.001, &base, &[8, 128, 1024], 14) {
         assert!((share - 1.0).abs() < 0.03 && sigma < 0.02, "{radius_rule:?}: {share} ± {sigma}");
     }
-    let base = Settings { samples_per_pixel: number(4), radius_floor: RadiusFloor::NONE, ..settings(40, 7) };
+    let base = RenderSettings {
+        samples_per_pixel: number(4),
+        ppm: PpmSettings { radius_floor: RadiusFloor::NONE, ..settings(40, 7).ppm },
+        ..settings(40, 7)
+    };
     let (_, bare) = share_of_flux(0.1, &base, &[256], 10)[0];
     assert!(bare > 0.03, "the test can tell: {bare}");
 }
@@ -74,18 +86,26 @@ fn a_beam_between_the_eye_samples_keeps_its_flux() {
 #[test]
 fn the_error_of_a_beam_that_is_smeared_over_its_surroundings_is_claimed() {
     for radius_rule in RadiusRule::ALL {
-        let base = Settings { samples_per_pixel: number(4), error: true, radius_rule, ..settings(2000, 3) };
+        let base = RenderSettings {
+            samples_per_pixel: number(4),
+            error: true,
+            ppm: PpmSettings { radius_rule, ..settings(2000, 3).ppm },
+            ..settings(2000, 3)
+        };
         let (mut truth2, mut high2) = (0.0, 0.0);
         for i in 0..36 {
             let place = |k: u32| pixel() * (f64::from(k) / 6.0 + 0.07);
             let sketch = spot(0.1, place(i % 6), place(i / 6));
-            let ppm = sketch.render(base.clone(), 24);
+            let render = sketch.render(base.clone(), 24);
             // By shadow rays the same eye samples see the beam as it is, or miss it.
-            let exact = Settings { direct_light: DirectLight::ShadowRays, ..base.clone() };
+            let exact = RenderSettings {
+                ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..base.ppm },
+                ..base.clone()
+            };
             let exact = sketch.render(exact, 1).image();
-            let image = ppm.image();
+            let image = render.image();
             let squares = image.pixels.iter().zip(&exact.pixels).map(|(a, b)| f64::from(a.g - b.g).powi(2));
-            let error = ppm.error().expect("passes");
+            let error = render.error().expect("passes");
             truth2 += squares.sum::<f64>() / image.pixels.len() as f64 / error.mean_luminance.powi(2);
             high2 += error.high.powi(2);
             assert!(error.bias > error.noise, "it is bias: {error:?}");
@@ -100,11 +120,16 @@ fn the_error_of_a_beam_that_is_smeared_over_its_surroundings_is_claimed() {
 fn the_error_counts_on_beams_that_hardly_a_sample_meets() {
     let degrees = 0.02f64;
     for radius_rule in RadiusRule::ALL {
-        let base = Settings { samples_per_pixel: number(4), error: true, radius_rule, ..settings(2000, 3) };
+        let base = RenderSettings {
+            samples_per_pixel: number(4),
+            error: true,
+            ppm: PpmSettings { radius_rule, ..settings(2000, 3).ppm },
+            ..settings(2000, 3)
+        };
         for i in 0..4u32 {
             let place = |k: u32| pixel() * (f64::from(k) / 2.0 + 0.13);
-            let ppm = spot(degrees, place(i % 2), place(i / 2)).render(base.clone(), 24);
-            let error = ppm.error().expect("passes");
+            let render = spot(degrees, place(i % 2), place(i / 2)).render(base.clone(), 24);
+            let error = render.error().expect("passes");
             // In pixels; of four samples each that the beam meets makes its pixel a quarter as bright as the beam.
             let area = std::f64::consts::PI * (3.0 * degrees.to_radians().tan() / pixel()).powi(2);
             let beam = 0.5 / std::f64::consts::PI / 9.0;

@@ -1,6 +1,6 @@
 //! Sizes and counts: units of length, radii beyond the scene, more photons than 32 bits count.
 
-use foton_integrator::{Alpha, Cancel, Ppm, RadiusRule, Settings};
+use foton_integrator::{Alpha, Cancel, PpmSettings, RadiusRule, Render, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{EmitterKind, Geometry};
@@ -39,7 +39,10 @@ fn a_scene_in_another_unit_gives_the_same_picture() {
     for (radius_rule, of_mean, of_pixels) in
         [(RadiusRule::Local, 1e-5, 100), (RadiusRule::Adaptive, 1e-4, 10)]
     {
-        let settings = |unit: f64| Settings { radius_rule, ..with_radius(0.1 * unit, 50_000) };
+        let settings = |unit: f64| RenderSettings {
+            ppm: PpmSettings { radius_rule, ..with_radius(0.1 * unit, 50_000).ppm },
+            ..with_radius(0.1 * unit, 50_000)
+        };
         let image = |unit: f64| room(unit).render(settings(unit), 3).image();
         let original = image(1.0);
         for unit in [1e-4, 1e6] {
@@ -72,7 +75,10 @@ fn lights_without_extent_shine_in_any_unit() {
             }
         }
         // Squares of such light, by which radii would adapt, are no numbers.
-        let settings = Settings { radius_rule: RadiusRule::Local, ..with_radius(0.1 * unit, 2000) };
+        let settings = RenderSettings {
+            ppm: PpmSettings { radius_rule: RadiusRule::Local, ..with_radius(0.1 * unit, 2000).ppm },
+            ..with_radius(0.1 * unit, 2000)
+        };
         sketch.render(settings, 2).image()
     };
     let (small, large) = (lit(1.0), lit(2f64.powi(90)));
@@ -86,58 +92,61 @@ fn lights_without_extent_shine_in_any_unit() {
 #[test]
 fn a_radius_beyond_the_scene_is_cut_to_it() {
     for radius in [1e3, 1e30, 1e300] {
-        let ppm = room(1.0).render(with_radius(radius, 500), 2);
-        assert!(ppm.image().pixels.iter().all(|p| p.is_finite() && !p.is_black()), "{radius}");
-        assert!(ppm.radii().largest.is_finite() && ppm.radii().largest < 10.0, "{:?}", ppm.radii());
+        let render = room(1.0).render(with_radius(radius, 500), 2);
+        assert!(render.image().pixels.iter().all(|p| p.is_finite() && !p.is_black()), "{radius}");
+        assert!(render.radii().largest.is_finite() && render.radii().largest < 10.0, "{:?}", render.radii());
     }
 }
 
 /// Numbers of photons beyond 2³² are counted, and the image is the mean over all of them.
 #[test]
 fn photons_beyond_two_to_the_32_are_counted_and_shared_by_the_image() {
-    let mut ppm = room(1.0).render(with_radius(0.1, 1000), 1);
-    let (one, mut many) = (ppm.image(), ppm.state());
+    let mut render = room(1.0).render(with_radius(0.1, 1000), 1);
+    let (one, mut many) = (render.image(), render.save());
     // The second number of a state is that of photons emitted so far.
     let before = 1u64 << 33;
     many[8..16].copy_from_slice(&before.to_le_bytes());
-    ppm.restore(&many).expect("a state of this render");
-    assert_eq!(ppm.photons_emitted(), before);
-    let emission = ppm.colour_layer(foton_integrator::LayerKind::Emission).expect("kept").pixels;
-    for ((a, b), e) in one.pixels.iter().zip(&ppm.image().pixels).zip(&emission) {
+    render.restore(&many).expect("a state of this render");
+    assert_eq!(render.photons_emitted(), before);
+    let emission = render.colour_layer(foton_integrator::LayerKind::Emission).expect("kept").pixels;
+    for ((a, b), e) in one.pixels.iter().zip(&render.image().pixels).zip(&emission) {
         let (reflected, shared) = (f64::from(a.g - e.g), f64::from(b.g - e.g));
         assert!((shared - reflected * 1000.0 / before as f64).abs() <= 1e-6 * f64::from(a.g), "{a:?} {b:?}");
     }
-    advance(&mut ppm, 1);
-    assert_eq!(ppm.photons_emitted(), before + 1000);
+    advance(&mut render, 1);
+    assert_eq!(render.photons_emitted(), before + 1000);
 }
 
 /// States with numbers that no render has are refused, although their checksum may be right.
 #[test]
 fn a_state_with_impossible_numbers_is_refused() {
-    let mut ppm = room(1.0).render(with_radius(0.1, 1000), 2);
-    let state = ppm.state();
-    assert_eq!(ppm.restore(&state), Ok(()));
+    let mut render = room(1.0).render(with_radius(0.1, 1000), 2);
+    let state = render.save();
+    assert_eq!(render.restore(&state), Ok(()));
     let mut refused = 0;
     for at in (0..state.len() / 8).step_by(7) {
         let mut bad = state.clone();
         bad[8 * at..8 * at + 8].copy_from_slice(&f64::NAN.to_bits().to_le_bytes());
-        refused += u32::from(ppm.restore(&bad).is_err());
+        refused += u32::from(render.restore(&bad).is_err());
     }
     // Whole numbers take any bits.
     let all = (state.len() / 8).div_ceil(7) as u32;
     assert!(2 * refused > all, "{refused} of {all}");
-    ppm.restore(&state).expect("sound");
-    advance(&mut ppm, 1);
-    assert!(ppm.image().pixels.iter().all(|p| p.is_finite()));
+    render.restore(&state).expect("sound");
+    advance(&mut render, 1);
+    assert!(render.image().pixels.iter().all(|p| p.is_finite()));
 }
 
 #[test]
 fn alpha_of_a_thousandth_and_of_one_render_finite_images() {
     for alpha in [1e-3, 1.0] {
-        let settings = Settings { alpha: Alpha::new(alpha).expect("in range"), ..with_radius(0.1, 2000) };
-        let ppm = room(1.0).render(settings, 20);
-        let (largest, smallest) = (ppm.radii().largest, ppm.radii().smallest);
-        assert!(ppm.image().pixels.iter().all(|p| p.is_finite()) && smallest > 0.0, "α {alpha}");
+        let settings = RenderSettings {
+            ppm: PpmSettings { alpha: Alpha::new(alpha).expect("in range"), ..with_radius(0.1, 2000).ppm },
+            ..with_radius(0.1, 2000)
+        };
+        let render = room(1.0).render(settings, 20);
+        let (largest, smallest) = (render.radii().largest, render.radii().smallest);
+        assert!(render.image().pixels.iter().all(|p| p.is_finite()) && smallest > 0.0, "α {alpha}");
         assert!(alpha < 1.0 || (largest - 0.1).abs() < 1e-6, "α = 1 keeps the radius: {largest}");
     }
 }
@@ -169,11 +178,14 @@ fn sixty_four_threads_on_few_cores_give_the_bits_of_one() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         pool.install(|| {
             let scene = room(1.0).build().expect("sound");
-            let settings = Settings { photons_per_pass: number(9000), ..with_radius(0.1, 9000) };
+            let settings = RenderSettings {
+                ppm: PpmSettings { photons_per_pass: number(9000), ..with_radius(0.1, 9000).ppm },
+                ..with_radius(0.1, 9000)
+            };
             let cancel = Cancel::default();
-            let mut ppm = Ppm::start(scene, settings, &mut |_| (), &cancel).expect("starts");
-            advance(&mut ppm, 2);
-            bits(&ppm.image())
+            let mut render = Render::start(scene, settings, &mut |_| (), &cancel).expect("starts");
+            advance(&mut render, 2);
+            bits(&render.image())
         })
     };
     let one = run(1);

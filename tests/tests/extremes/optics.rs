@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use foton_integrator::{Alpha, DirectLight, Settings};
+use foton_integrator::{Alpha, DirectLight, PpmSettings, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
 use foton_scene::description::{Bsdf, Colour};
@@ -92,12 +92,18 @@ fn a_light_inside_glass_gives_its_power_to_the_room() {
         .inside_out()
         .sphere(DVec3::ZERO, 0.5, glass(1.5), None)
         .point(DVec3::ZERO, 5.0);
-    let settings = Settings { alpha: Alpha::new(1.0).expect("in range"), ..with_radius(0.5, 20_000) };
+    let settings = RenderSettings {
+        ppm: PpmSettings { alpha: Alpha::new(1.0).expect("in range"), ..with_radius(0.5, 20_000).ppm },
+        ..with_radius(0.5, 20_000)
+    };
     let expected = 0.6 / PI * 5.0 / (4.0 * PI * 4.0 * 0.4);
     let (got, sigma) = seeds(&sketch, &settings, 2, 6);
     assert!((got - expected).abs() < 4.0 * sigma + 0.01 * expected, "{got} ± {sigma}, expected {expected}");
     // A shadow ray cannot pass the glass, so only photons may bring this light.
-    let by_rays = Settings { direct_light: DirectLight::ShadowRays, ..settings };
+    let by_rays = RenderSettings {
+        ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..settings.ppm },
+        ..settings
+    };
     let (rays, sigma_rays) = seeds(&sketch, &by_rays, 2, 6);
     assert!((rays - got).abs() < 4.0 * sigma.hypot(sigma_rays), "{rays} ± {sigma_rays}, {got} ± {sigma}");
 }

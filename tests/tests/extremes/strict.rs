@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use foton_integrator::{Cancel, DirectLight, NotFinite, Ppm, Quantity, Settings};
+use foton_integrator::{Cancel, DirectLight, NotFinite, PpmSettings, Quantity, Render, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{Bsdf, Colour, Geometry, Mesh, MicrofacetDistribution, Microfacets};
@@ -20,12 +20,12 @@ fn floor(front: Bsdf) -> Sketch {
 }
 
 /// A render of up to `passes` that stops at the first value that is not finite, on so many threads.
-fn strict(sketch: &Sketch, settings: &Settings, passes: u64, threads: usize) -> (Session, StopCause) {
+fn strict(sketch: &Sketch, settings: &RenderSettings, passes: u64, threads: usize) -> (Session, StopCause) {
     let interrupt = Interrupt::default();
     let scene = sketch.build().expect("a sound scene");
     let mut session =
         Session::start(scene, settings.clone(), Some(threads), interrupt.cancel()).expect("starts");
-    session.ppm_mut().stop_at_first_not_finite();
+    session.render_mut().stop_at_first_not_finite();
     let cause = session.run(&StopRule::passes(passes), &interrupt, &mut |_| ());
     (session, cause)
 }
@@ -33,22 +33,22 @@ fn strict(sketch: &Sketch, settings: &Settings, passes: u64, threads: usize) -> 
 /// The place where it stops, the same on any number of threads; what it leaves is the image of the passes before, bit for bit, and a
 /// render that goes on leaves the same value out.
 #[track_caller]
-fn first(sketch: &Sketch, settings: &Settings, quantity: Quantity) -> NotFinite {
+fn first(sketch: &Sketch, settings: &RenderSettings, quantity: Quantity) -> NotFinite {
     let (session, cause) = strict(sketch, settings, 200, 1);
     assert_eq!(cause, StopCause::NotFinite);
     let place = session.not_finite().expect("a place").clone();
     assert_eq!(place.quantity, quantity, "{place}");
-    let complete = session.ppm().passes();
+    let complete = session.render().passes();
     assert_eq!(place.pass.saturating_sub(1), complete, "{place}");
     for threads in [2, 7] {
         let (mut other, _) = strict(sketch, settings, 200, threads);
         assert_eq!(other.not_finite(), Some(&place), "{threads} threads");
-        assert!(bits(&other.ppm().image()) == bits(&session.ppm().image()));
+        assert!(bits(&other.render().image()) == bits(&session.render().image()));
         let again = other.advance(&Cancel::default());
         assert_eq!(again.err(), Some(PassError::NotFinite(Box::new(place.clone()))), "no pass follows");
     }
     let before = sketch.render(settings.clone(), complete as u32);
-    assert!(bits(&session.ppm().image()) == bits(&before.image()));
+    assert!(bits(&session.render().image()) == bits(&before.image()));
     assert_eq!(before.first_not_finite().is_some(), place.pass == 0, "nothing but at the start");
     let on = sketch.render(settings.clone(), complete as u32 + 1);
     assert_eq!(on.first_not_finite(), Some(&place), "left out, and noted all the same");
@@ -133,7 +133,10 @@ fn what_all_photons_together_bring_to_a_hit_point() {
 
 #[test]
 fn what_a_shadow_ray_brings() {
-    let settings = Settings { direct_light: DirectLight::ShadowRays, ..with_radius(0.2, 2000) };
+    let settings = RenderSettings {
+        ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..with_radius(0.2, 2000).ppm },
+        ..with_radius(0.2, 2000)
+    };
     let under = DVec3::new(0.1, 0.1, 0.0);
     let sketch = seen_from(under + DVec3::Z * 0.05, floor(grey(0.5)).point(under + DVec3::Z * 0.002, 7e31));
     let place = first(&sketch, &settings, Quantity::DirectLight);
@@ -149,7 +152,7 @@ fn what_an_eye_path_sees() {
     let lamp = Some(Rgb::splat(3e38));
     let sketch =
         floor(grey(0.5)).rectangle(DVec3::Z * tiny.z, DVec3::X * tiny.x, DVec3::Y * tiny.y, grey(0.0), lamp);
-    let settings = Settings { samples_per_pixel: number(64), ..with_radius(0.2, 2000) };
+    let settings = RenderSettings { samples_per_pixel: number(64), ..with_radius(0.2, 2000) };
     let from = DVec3::Z * 0.1002;
     let place = first(&seen_from(from, sketch), &settings, Quantity::SeenEmission);
     assert_eq!((place.pass, &place.light, &place.surface), (0, &None, &None));
@@ -170,8 +173,8 @@ fn a_sound_render_notes_nothing_and_strictness_changes_no_bit() {
     let sketch = floor(grey(0.5)).point(DVec3::Z * 1.5, 1.0);
     let settings = with_radius(0.2, 2000);
     let (session, cause) = strict(&sketch, &settings, 3, 2);
-    assert_eq!((cause, session.ppm().passes()), (StopCause::Rule, 3));
-    let plain: Ppm = sketch.render(settings, 3);
+    assert_eq!((cause, session.render().passes()), (StopCause::Rule, 3));
+    let plain: Render = sketch.render(settings, 3);
     assert!(plain.first_not_finite().is_none() && session.not_finite().is_none());
-    assert!(bits(&plain.image()) == bits(&session.ppm().image()));
+    assert!(bits(&plain.image()) == bits(&session.render().image()));
 }

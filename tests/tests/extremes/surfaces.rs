@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use foton_integrator::{Alpha, Settings};
+use foton_integrator::{Alpha, PpmSettings, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{EmitterDescription, EmitterKind, Geometry, Material, Mesh};
@@ -42,8 +42,12 @@ fn from_above() -> Sketch {
     Sketch::default().camera(DVec3::new(0.1, 3.0, 0.2), DVec3::new(0.1, 0.0, 0.2), 6.0, 8)
 }
 
-fn fixed(radius: f64) -> Settings {
-    Settings { alpha: Alpha::new(1.0).expect("in range"), error: true, ..with_radius(radius, 60_000) }
+fn fixed(radius: f64) -> RenderSettings {
+    RenderSettings {
+        error: true,
+        ppm: PpmSettings { alpha: Alpha::new(1.0).expect("in range"), ..with_radius(radius, 60_000).ppm },
+        ..with_radius(radius, 60_000)
+    }
 }
 
 /// Under light of irradiance 1 from above a card of opacity a lies on a floor of opacity b, both of reflectance ½. Of the light
@@ -72,12 +76,12 @@ fn a_card_above_a_floor_has_its_own_light_and_so_has_the_floor() {
                 sun(masked(mesh(from_above(), both), opacity))
             };
             for (sketch, floor, name) in [(apart, 1.0, "apart"), (together, opacity, "together")] {
-                let ppm = sketch.render(fixed(0.05), 12);
-                let (got, expected) = (mean(&ppm.image()), card_on_floor(opacity, floor));
+                let render = sketch.render(fixed(0.05), 12);
+                let (got, expected) = (mean(&render.image()), card_on_floor(opacity, floor));
                 // A few thousand photons are found; their noise is about 1.5 %.
                 let close = (got - expected).abs() <= 0.05 * expected;
                 assert!(close, "{name}, opacity {opacity}, gap {gap}: {got}, expected {expected}");
-                if let Some(error) = ppm.error() {
+                if let Some(error) = render.error() {
                     let off = (got - expected).abs() / expected;
                     assert!(off < error.high, "{name}, {opacity}, {gap}: {off} off, {error:?}");
                 }
@@ -120,9 +124,9 @@ fn the_inside_of_a_folded_leaf_is_dark() {
     let mut sketch = sun(mesh(sketch, leaf));
     let material = sketch.0.materials.last_mut().expect("a material");
     material.back = Some(material.front);
-    let ppm = sketch.render(fixed(0.1), 6);
-    assert!(ppm.start_report().hit_points == 64, "the lower half is seen");
-    assert!(ppm.ledger().emitted > 0.0 && mean(&ppm.image()) == 0.0, "{}", mean(&ppm.image()));
+    let render = sketch.render(fixed(0.1), 6);
+    assert!(render.start_report().hit_points == 64, "the lower half is seen");
+    assert!(render.ledger().emitted > 0.0 && mean(&render.image()) == 0.0, "{}", mean(&render.image()));
 }
 
 /// A sphere, the same of flat triangles and the same of smooth ones are as bright as each other.

@@ -1,7 +1,7 @@
 //! Scenes of which little is seen: what is far away must not spoil what is near.
 
 use foton_film::Image;
-use foton_integrator::{DirectLight, Ppm, Settings};
+use foton_integrator::{DirectLight, PpmSettings, Render, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DQuat, DVec3};
 use foton_scene::description::{EmitterDescription, EmitterKind};
@@ -10,8 +10,8 @@ use foton_tests::{Sketch, grey, mean};
 use super::number;
 use crate::settings;
 
-fn photons(n: u32) -> Settings {
-    Settings { samples_per_pixel: number(4), ..settings(n, 5) }
+fn photons(n: u32) -> RenderSettings {
+    RenderSettings { samples_per_pixel: number(4), ..settings(n, 5) }
 }
 
 /// A lamp over a ground of that half-size with a wall behind.
@@ -85,7 +85,10 @@ fn under_a_far_lamp() -> Sketch {
 #[test]
 fn a_far_lamp_lights_by_photons_as_by_shadow_rays() {
     let settings = photons(20_000);
-    let by_rays = Settings { direct_light: DirectLight::ShadowRays, ..photons(20_000) };
+    let by_rays = RenderSettings {
+        ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..photons(20_000).ppm },
+        ..photons(20_000)
+    };
     let [photons, rays] = [settings, by_rays].map(|s| mean(&under_a_far_lamp().render(s, 16).image()));
     // 0.1278 in an independent renderer; discs lose a little at the edges.
     assert!((rays / 0.1278 - 1.0).abs() < 0.02 && (photons / rays - 1.0).abs() < 0.04, "{photons} {rays}");
@@ -102,14 +105,22 @@ fn shadow_rays_do_not_make_indirect_light_known() {
     let kind = EmitterKind::Spot { to_world, intensity: Rgb::WHITE, cutoff_degrees, beam_degrees };
     sketch.0.emitters.push(EmitterDescription { name: "spot".into(), kind });
     // So few photons that they cannot all be found.
-    let base =
-        Settings { direct_light: DirectLight::ShadowRays, radius: Some(0.02), error: true, ..photons(100) };
-    let after = |passes: u32| -> Ppm { sketch.render(base.clone(), passes) };
+    let base = RenderSettings {
+        error: true,
+        ppm: PpmSettings { direct_light: DirectLight::ShadowRays, radius: Some(0.02), ..photons(100).ppm },
+        ..photons(100)
+    };
+    let after = |passes: u32| -> Render { sketch.render(base.clone(), passes) };
     let few = after(12);
     let error = few.error().expect("passes");
     assert!(error.unknown_share > 0.5 && error.high > 0.3, "{error:?}");
-    let many = Settings { radius: Some(0.3), ..photons(20_000) };
-    let many = Settings { direct_light: DirectLight::ShadowRays, error: true, ..many };
+    let many =
+        RenderSettings { ppm: PpmSettings { radius: Some(0.3), ..photons(20_000).ppm }, ..photons(20_000) };
+    let many = RenderSettings {
+        error: true,
+        ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..many.ppm },
+        ..many
+    };
     let error = sketch.render(many, 12).error().expect("passes");
     assert!(error.unknown_share == 0.0 && error.high < 0.2, "{error:?}");
 }

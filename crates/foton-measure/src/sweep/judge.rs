@@ -1,7 +1,7 @@
 //! One image against the reference, and the images of several seeds: bias² and variance apart.
 
 use foton_film::Image;
-use foton_integrator::Ppm;
+use foton_integrator::Render;
 
 use super::masks::mean;
 use super::reference::{CLASSES, Reference, luminance};
@@ -86,7 +86,7 @@ impl Judge {
     /// Takes one seed's image.
     pub(crate) fn add(
         &mut self,
-        ppm: &Ppm,
+        render: &Render,
         image: &Image,
         reference: &Reference,
     ) -> Result<Judged, CompareError> {
@@ -95,7 +95,7 @@ impl Judge {
         self.seeds += 1.0;
         if let (Some(sums), Some(truth)) = (&mut self.classes, &reference.classes) {
             for ((sum, truth), kind) in sums.iter_mut().zip(truth).zip(CLASSES) {
-                if let Some(layer) = ppm.colour_layer(kind) {
+                if let Some(layer) = render.colour_layer(kind) {
                     sum.add(&luminance(&layer), truth);
                 }
             }

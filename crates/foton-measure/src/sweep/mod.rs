@@ -21,7 +21,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use foton_film::{Image, ReadError, WriteError};
-use foton_integrator::{Cancel, Cancelled, MemoryEstimate, Ppm, Settings};
+use foton_integrator::{Cancel, Cancelled, MemoryEstimate, Render, RenderSettings};
 use foton_scene::Scene;
 use thiserror::Error;
 
@@ -52,7 +52,7 @@ pub struct Sweep {
     /// What the scene was read from, as a hash.
     pub hash: u64,
     /// The centre of the star; its seed is that of the eye samples, and of the reference.
-    pub centre: Settings,
+    pub centre: RenderSettings,
     /// Runs of each configuration, at least 2.
     pub seeds: u64,
     /// Time for all of it, on the wall.
@@ -158,8 +158,7 @@ impl Sweep {
     /// What the largest job takes on so many threads: its runs stand side by side.
     #[must_use]
     pub fn memory(&self, threads: usize) -> Option<MemoryEstimate> {
-        let depth = Ppm::max_depth(&self.scene, &self.centre);
-        let estimate = |settings: &Settings| MemoryEstimate::pilot(&self.scene, settings, depth, threads);
+        let estimate = |settings: &RenderSettings| MemoryEstimate::pilot(&self.scene, settings, threads);
         let of_job = |job: &Job| {
             let runs: Vec<MemoryEstimate> = job.settings(&self.centre).iter().map(estimate).collect();
             MemoryEstimate::together(&runs)
@@ -179,7 +178,7 @@ impl Sweep {
         tell: &mut dyn FnMut(&Event),
     ) -> Result<Outcome, SweepError> {
         let begin = Instant::now();
-        let eye = Ppm::start(Arc::clone(&self.scene), self.centre.clone(), &mut |_| (), cancel)?;
+        let eye = Render::start(Arc::clone(&self.scene), self.centre.clone(), &mut |_| (), cancel)?;
         // Before the folder is taken.
         if let Some((image, _)) = &self.given {
             crate::Pair::new(&eye.image(), image)?;
@@ -300,7 +299,7 @@ impl Sweep {
     /// The reference: that of the folder, the one given, or a new run.
     fn reference(
         &self,
-        eye: &Ppm,
+        eye: &Render,
         store: &Store,
         begin: Instant,
         is_stopped: &dyn Fn() -> bool,
@@ -347,8 +346,8 @@ impl Sweep {
             sensor.name,
             s.samples_per_pixel,
             s.seed,
-            Ppm::max_depth(&self.scene, s),
-            s.radius.map_or("by footprint".to_owned(), |r| r.to_string()),
+            s.max_depth_in(&self.scene),
+            s.ppm.radius.map_or("by footprint".to_owned(), |r| r.to_string()),
             self.seeds,
             Configuration::of(s),
             env!("CARGO_PKG_VERSION"),

@@ -3,7 +3,9 @@
 use std::fmt;
 use std::num::NonZeroU32;
 
-use foton_integrator::{Alpha, DirectLight, RadiusFloor, RadiusRule, RadiusScale, Settings};
+use foton_integrator::{
+    Alpha, DirectLight, PpmSettings, RadiusFloor, RadiusRule, RadiusScale, RenderSettings,
+};
 
 use crate::plot::short;
 
@@ -36,27 +38,30 @@ pub struct Configuration {
 impl Configuration {
     /// That of a render's settings.
     #[must_use]
-    pub const fn of(settings: &Settings) -> Self {
+    pub const fn of(settings: &RenderSettings) -> Self {
         Self {
-            alpha: settings.alpha,
-            photons: settings.photons_per_pass,
-            radius_scale: settings.radius_scale,
-            radius_floor: settings.radius_floor,
-            radius_rule: settings.radius_rule,
-            direct_light: settings.direct_light,
+            alpha: settings.ppm.alpha,
+            photons: settings.ppm.photons_per_pass,
+            radius_scale: settings.ppm.radius_scale,
+            radius_floor: settings.ppm.radius_floor,
+            radius_rule: settings.ppm.radius_rule,
+            direct_light: settings.ppm.direct_light,
         }
     }
 
-    /// Settings with this configuration.
+    /// RenderSettings with this configuration.
     #[must_use]
-    pub fn settings(&self, base: &Settings) -> Settings {
-        Settings {
-            alpha: self.alpha,
-            photons_per_pass: self.photons,
-            radius_scale: self.radius_scale,
-            radius_floor: self.radius_floor,
-            radius_rule: self.radius_rule,
-            direct_light: self.direct_light,
+    pub fn settings(&self, base: &RenderSettings) -> RenderSettings {
+        RenderSettings {
+            ppm: PpmSettings {
+                alpha: self.alpha,
+                photons_per_pass: self.photons,
+                radius_scale: self.radius_scale,
+                radius_floor: self.radius_floor,
+                radius_rule: self.radius_rule,
+                direct_light: self.direct_light,
+                ..base.ppm
+            },
             ..base.clone()
         }
     }
@@ -139,12 +144,13 @@ pub(crate) struct Job {
 }
 
 impl Job {
-    /// Settings of its runs; after those of its configurations, where the centre is among them, the centre's with layers.
-    pub(crate) fn settings(&self, base: &Settings) -> Vec<Settings> {
+    /// RenderSettings of its runs; after those of its configurations, where the centre is among them, the centre's with layers.
+    pub(crate) fn settings(&self, base: &RenderSettings) -> Vec<RenderSettings> {
         let centre = Configuration::of(base);
-        let mut settings: Vec<Settings> = self.configurations.iter().map(|c| c.settings(base)).collect();
+        let mut settings: Vec<RenderSettings> =
+            self.configurations.iter().map(|c| c.settings(base)).collect();
         if self.configurations.contains(&centre) {
-            settings.push(Settings { layers: true, ..centre.settings(base) });
+            settings.push(RenderSettings { layers: true, ..centre.settings(base) });
         }
         settings
     }
@@ -198,7 +204,7 @@ mod tests {
 
     #[test]
     fn the_centre_is_in_the_first_job_once_and_the_plane_is_whole() {
-        let centre = Configuration::of(&Settings::default());
+        let centre = Configuration::of(&RenderSettings::default());
         let jobs = jobs(&centre);
         assert_eq!(jobs.len(), 9);
         assert_eq!(jobs[0].configurations.len(), 7 + 4 + 3);
@@ -214,7 +220,7 @@ mod tests {
     fn a_centre_of_its_own_joins_the_plane() {
         let alpha = Alpha::new(0.75).expect("in range");
         let photons = NonZeroU32::new(100_000).expect("above 0");
-        let centre = Configuration { alpha, photons, ..Configuration::of(&Settings::default()) };
+        let centre = Configuration { alpha, photons, ..Configuration::of(&RenderSettings::default()) };
         let jobs = jobs(&centre);
         assert_eq!((jobs.len(), jobs[0].photons), (10, photons));
         assert_eq!(jobs[0].configurations.iter().filter(|c| **c == centre).count(), 1);

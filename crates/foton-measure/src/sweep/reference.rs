@@ -18,7 +18,8 @@ use std::time::Duration;
 
 use foton_film::{Image, LayerData};
 use foton_integrator::{
-    Alpha, Cancel, Cancelled, DirectLight, LayerKind, Ppm, RadiusFloor, RadiusScale, Settings, Variants,
+    Alpha, Cancel, Cancelled, DirectLight, LayerKind, PpmSettings, RadiusFloor, RadiusScale, Render,
+    RenderSettings, Variants,
 };
 use foton_scene::Scene;
 
@@ -82,21 +83,21 @@ impl Reference {
         self.wide.as_ref().map_or(fine, |wide| extrapolated(fine, mean(wide)))
     }
 
-    /// Of an image with the pixels of `ppm`, which knows what is seen. `None` where nothing is, or all is dark.
+    /// Of an image with the pixels of `render`, which knows what is seen. `None` where nothing is, or all is dark.
     pub(crate) fn new(
-        ppm: &Ppm,
+        render: &Render,
         image: Image,
         classes: Option<[Vec<f64>; 3]>,
         (variance, wide): (Option<Vec<f64>>, Option<Known>),
         origin: String,
     ) -> Option<Self> {
-        let emission = luminance(&ppm.colour_layer(LayerKind::Emission)?);
+        let emission = luminance(&render.colour_layer(LayerKind::Emission)?);
         let pixels = emission.len();
         let of_image = luminance(&image);
         let reflected =
             |all: &[f64]| -> Vec<f64> { all.iter().zip(&emission).map(|(l, e)| (l - e).max(0.0)).collect() };
-        let seen: Vec<bool> = (0..pixels).map(|p| !ppm.discs(p).is_empty()).collect();
-        let shapes = match ppm.layer(LayerKind::ShapeId)?.channels {
+        let seen: Vec<bool> = (0..pixels).map(|p| !render.discs(p).is_empty()).collect();
+        let shapes = match render.layer(LayerKind::ShapeId)?.channels {
             LayerData::U32(plane) => plane.values,
             LayerData::Rgb(_) | LayerData::F32(_) => return None,
         };
@@ -112,7 +113,7 @@ impl Reference {
     /// A run of its own, until `is_enough` says so.
     pub(crate) fn render(
         scene: &Arc<Scene>,
-        base: &Settings,
+        base: &RenderSettings,
         time: Duration,
         is_enough: &mut dyn FnMut() -> bool,
         is_stopped: &dyn Fn() -> Result<(), Cancelled>,
@@ -150,21 +151,23 @@ impl OwnRun {
     /// When cancelled.
     pub fn start(
         scene: &Arc<Scene>,
-        base: &Settings,
+        base: &RenderSettings,
         (scale, photons): (f64, u64),
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
-        let photons_per_pass = base.photons_per_pass.min(MOST_PHOTONS);
-        let of_radius = |scale: f64, layers| Settings {
-            alpha: Alpha::new(1.0).unwrap_or_default(),
-            radius_scale: RadiusScale::new(scale * base.radius_scale.get()).unwrap_or_default(),
-            radius_floor: RadiusFloor::NONE,
-            // Equal passes, whose scatter is that of equals; many, since each has one shadow ray a hit point.
-            photons_per_pass,
-            first_pass: photons_per_pass,
-            direct_light: DirectLight::ShadowRays,
+        let photons_per_pass = base.ppm.photons_per_pass.min(MOST_PHOTONS);
+        let of_radius = |scale: f64, layers| RenderSettings {
             layers,
             error: false,
+            ppm: PpmSettings {
+                alpha: Alpha::new(1.0).unwrap_or_default(),
+                radius_scale: RadiusScale::new(scale * base.ppm.radius_scale.get()).unwrap_or_default(),
+                radius_floor: RadiusFloor::NONE, // Equal passes, whose scatter is that of equals; many, since each has one shadow ray a hit point.
+                photons_per_pass,
+                first_pass: photons_per_pass,
+                direct_light: DirectLight::ShadowRays,
+                ..base.ppm
+            },
             ..base.clone()
         };
         let settings = [of_radius(scale, true), of_radius(2.0 * scale, false)];

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use foton_film::Image;
-use foton_integrator::{Cancel, Cancelled, PassReport, Settings, Stage, Step, Variants};
+use foton_integrator::{Cancel, Cancelled, PassReport, RenderSettings, Stage, Step, Variants};
 use foton_scene::Scene;
 
 use super::clock::{Clock, Spent};
@@ -72,7 +72,7 @@ impl From<Cancelled> for Unfinished {
 /// What every job is given.
 pub(crate) struct Runner<'a> {
     pub(crate) scene: &'a Arc<Scene>,
-    pub(crate) base: &'a Settings,
+    pub(crate) base: &'a RenderSettings,
     pub(crate) reference: &'a Reference,
     pub(crate) seeds: u64,
     pub(crate) cancel: &'a Cancel,
@@ -170,7 +170,7 @@ impl Runner<'_> {
         Ok(finished)
     }
 
-    fn start(&self, settings: &[Settings], seed: u64) -> Result<Way, Unfinished> {
+    fn start(&self, settings: &[RenderSettings], seed: u64) -> Result<Way, Unfinished> {
         let mut clock = Clock::new(settings.len());
         // The reference has the photons of the base's own seed.
         let photons = self.base.seed.wrapping_add(1 + seed);

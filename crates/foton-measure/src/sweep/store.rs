@@ -5,7 +5,7 @@ use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use foton_film::{Image, Metadata, ToneMap, atomic_write, read_exr, write_exr, write_png};
-use foton_integrator::Ppm;
+use foton_integrator::Render;
 use foton_math::Rgb;
 
 use super::plan::Job;
@@ -131,7 +131,7 @@ impl Store {
     }
 
     /// The reference that was kept, if any.
-    pub(crate) fn reference(&self, eye: &Ppm) -> Result<Option<Reference>, SweepError> {
+    pub(crate) fn reference(&self, eye: &Render) -> Result<Option<Reference>, SweepError> {
         if !self.path("reference.exr").is_file() {
             return Ok(None);
         }

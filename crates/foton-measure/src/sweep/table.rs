@@ -228,7 +228,7 @@ fn read_point(fields: &HashMap<&str, &str>) -> Option<Point> {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use foton_integrator::Settings;
+    use foton_integrator::RenderSettings;
 
     /// A point at some time with some error.
     pub(crate) fn point(configuration: Configuration, cpu: f64, error: f64) -> Point {
@@ -253,7 +253,7 @@ pub(crate) mod tests {
 
     #[test]
     fn what_is_written_is_read_back() {
-        let centre = Configuration::of(&Settings::default());
+        let centre = Configuration::of(&RenderSettings::default());
         let mut points = vec![point(centre, 1.5, 0.03), point(centre, 3.0, 0.02)];
         points[1].spread.classes = Some([points[0].spread.masks[0]; 3]);
         points[1].configuration.direct_light = DirectLight::ShadowRays;

@@ -4,7 +4,7 @@ use std::num::NonZeroU32;
 use std::time::Duration;
 
 use foton_session::engine::{Command, Configuration, Gesture};
-use foton_session::{Alpha, Change, DirectLight, RadiusFloor, RadiusRule, Settings, StopRule};
+use foton_session::{Alpha, DirectLight, RadiusFloor, RadiusRule, RenderSettings, SettingChange, StopRule};
 
 use super::widgets::{heading, slider};
 use crate::state::State;
@@ -25,8 +25,8 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
     camera(ui, state, settings.sensor);
 }
 
-fn steer(ui: &mut egui::Ui, state: &mut State, settings: &Settings) {
-    let before = settings.alpha.get();
+fn steer(ui: &mut egui::Ui, state: &mut State, settings: &RenderSettings) {
+    let before = settings.ppm.alpha.get();
     let mut alpha = before;
     let response = ui.add(slider(&mut alpha, 0.01..=1.0).text("α").max_decimals(3).smart_aim(false));
     state.place("alpha", &response);
@@ -40,9 +40,9 @@ fn steer(ui: &mut egui::Ui, state: &mut State, settings: &Settings) {
         && !is_old
         && let Some(alpha) = Alpha::new(alpha)
     {
-        state.steer(Change::Alpha(alpha));
+        state.steer(SettingChange::Alpha(alpha));
     }
-    let mut photons = settings.photons_per_pass.get();
+    let mut photons = settings.ppm.photons_per_pass.get();
     let response = ui.add(slider(&mut photons, 1 << 10..=1 << 24).logarithmic(true).text("photons a pass"));
     state.place("photons per pass", &response);
     let response = response.on_hover_text(
@@ -52,7 +52,7 @@ fn steer(ui: &mut egui::Ui, state: &mut State, settings: &Settings) {
     if response.changed()
         && let Some(photons) = NonZeroU32::new(photons)
     {
-        state.steer(Change::PhotonsPerPass(photons));
+        state.steer(SettingChange::PhotonsPerPass(photons));
     }
 }
 
@@ -87,8 +87,8 @@ fn stop_rule(ui: &mut egui::Ui, state: &mut State, rule: StopRule) {
     }
 }
 
-/// Settings that start the render anew: sent when a control is let go.
-fn anew(ui: &mut egui::Ui, state: &mut State, settings: &Settings, threads: Option<usize>) {
+/// RenderSettings that start the render anew: sent when a control is let go.
+fn anew(ui: &mut egui::Ui, state: &mut State, settings: &RenderSettings, threads: Option<usize>) {
     let now = Configuration::of(settings, threads);
     let mut draft = state.draft.take().unwrap_or_else(|| now.clone());
     let mut held = false;

@@ -1,7 +1,7 @@
 //! What must be the same in a render that goes on from a checkpoint. It stands in the file by name, so that whoever has changed
 //! something is told what.
 
-use foton_integrator::{DirectLight, Ppm};
+use foton_integrator::{DirectLight, Render};
 
 use crate::metadata::SceneIdentity;
 
@@ -9,14 +9,14 @@ use crate::metadata::SceneIdentity;
 const SCENE: &str = "scene";
 
 /// A line for each: its name, which is that of its option, and its value.
-pub(super) fn of(ppm: &Ppm, scene: &SceneIdentity) -> String {
-    let s = ppm.settings();
-    let sensor = &ppm.scene().sensors()[s.sensor];
-    let radius = match s.radius {
-        Some(radius) => format!("{radius}*{}", s.radius_scale),
-        None => format!("x{}", s.radius_scale),
+pub(super) fn of(render: &Render, scene: &SceneIdentity) -> String {
+    let s = render.settings();
+    let sensor = &render.scene().sensors()[s.sensor];
+    let radius = match s.ppm.radius {
+        Some(radius) => format!("{radius}*{}", s.ppm.radius_scale),
+        None => format!("x{}", s.ppm.radius_scale),
     };
-    let direct = if s.direct_light == DirectLight::ShadowRays { "shadow-rays" } else { "photons" };
+    let direct = if s.ppm.direct_light == DirectLight::ShadowRays { "shadow-rays" } else { "photons" };
     let lines = [
         (SCENE, format!("{:016x}", scene.hash)),
         ("sensor", sensor.name.replace('\n', " ")),
@@ -24,15 +24,15 @@ pub(super) fn of(ppm: &Ppm, scene: &SceneIdentity) -> String {
         ("seed", s.seed.to_string()),
         ("spp", s.samples_per_pixel.to_string()),
         ("radius", radius),
-        ("radius-rule", s.radius_rule.name().to_owned()),
-        ("radius-floor", s.radius_floor.to_string()),
+        ("radius-rule", s.ppm.radius_rule.name().to_owned()),
+        ("radius-floor", s.ppm.radius_floor.to_string()),
         ("direct", direct.to_owned()),
-        ("max-depth", Ppm::max_depth(ppm.scene(), s).to_string()),
+        ("max-depth", s.max_depth_in(render.scene()).to_string()),
         ("kinds of light", (if s.layers { "kept apart" } else { "summed" }).to_owned()),
         ("error", (if s.error { "estimated" } else { "off" }).to_owned()),
-        ("photons of the first pass", s.first_pass.to_string()),
-        ("hit points a sample", s.hit_points_per_sample.to_string()),
-        ("hit points", ppm.start_report().hit_points.to_string()),
+        ("photons of the first pass", s.ppm.first_pass.to_string()),
+        ("hit points a sample", s.ppm.hit_points_per_sample.to_string()),
+        ("hit points", render.start_report().hit_points.to_string()),
     ];
     lines.map(|(name, value)| format!("{name}={value}\n")).concat()
 }

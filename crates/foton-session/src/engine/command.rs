@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use foton_integrator::{DirectLight, RadiusFloor, RadiusRule, Settings};
+use foton_integrator::{DirectLight, RadiusFloor, RadiusRule, RenderSettings};
 
 use crate::edit::{DragMode, FieldId, Value};
 use crate::stop::StopRule;
@@ -16,7 +16,7 @@ pub enum Source {
     File(PathBuf),
 }
 
-/// What starts a render anew when it changes. The rest of [`Settings`] changes between passes.
+/// What starts a render anew when it changes. The rest of [`RenderSettings`] changes between passes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Configuration {
     /// First radius in world units; `None`: from the pixel's footprint.
@@ -44,12 +44,12 @@ pub struct Configuration {
 impl Configuration {
     /// What these settings say.
     #[must_use]
-    pub fn of(settings: &Settings, threads: Option<usize>) -> Self {
+    pub fn of(settings: &RenderSettings, threads: Option<usize>) -> Self {
         Self {
-            radius: settings.radius,
-            radius_floor: settings.radius_floor,
-            radius_rule: settings.radius_rule,
-            direct_light: settings.direct_light,
+            radius: settings.ppm.radius,
+            radius_floor: settings.ppm.radius_floor,
+            radius_rule: settings.ppm.radius_rule,
+            direct_light: settings.ppm.direct_light,
             samples_per_pixel: settings.samples_per_pixel,
             seed: settings.seed,
             sensor: settings.sensor,
@@ -59,12 +59,12 @@ impl Configuration {
         }
     }
 
-    /// Settings with this configuration.
-    pub(super) fn apply(&self, settings: &mut Settings) {
-        settings.radius = self.radius;
-        settings.radius_floor = self.radius_floor;
-        settings.radius_rule = self.radius_rule;
-        settings.direct_light = self.direct_light;
+    /// RenderSettings with this configuration.
+    pub(super) fn apply(&self, settings: &mut RenderSettings) {
+        settings.ppm.radius = self.radius;
+        settings.ppm.radius_floor = self.radius_floor;
+        settings.ppm.radius_rule = self.radius_rule;
+        settings.ppm.direct_light = self.direct_light;
         settings.samples_per_pixel = self.samples_per_pixel;
         settings.seed = self.seed;
         settings.sensor = self.sensor;
@@ -195,7 +195,7 @@ pub enum Command {
     /// Forgets a scene that is being opened.
     CancelOpen,
     /// From the next pass on.
-    Steer(foton_integrator::Change),
+    Steer(foton_integrator::SettingChange),
     /// Starts anew.
     Configure(Configuration),
     /// Finishes the pass under way and waits.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use foton_film::{Image, Plane};
-use foton_integrator::{ErrorEstimate, Ledger, PathClass, Radii, Settings};
+use foton_integrator::{ErrorEstimate, Ledger, PathClass, Radii, RenderSettings};
 use foton_math::Rgb;
 
 use super::command::Shown;
@@ -183,7 +183,7 @@ pub struct Frame {
     /// The numbers.
     pub numbers: Numbers,
     /// The settings as they are now.
-    pub settings: Settings,
+    pub settings: RenderSettings,
     /// Threads; `None`: as many as the machine has.
     pub threads: Option<usize>,
     /// When it will stop.

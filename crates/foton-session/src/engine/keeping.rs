@@ -7,7 +7,7 @@ use std::time::Duration;
 use foton_film::check_writable;
 
 use super::command::Event;
-use super::render::Render;
+use super::render::LevelRender;
 use super::worker::Worker;
 use crate::checkpoint;
 use crate::metadata::SceneIdentity;
@@ -76,7 +76,7 @@ impl Worker {
 
     /// Takes up the checkpoint that was asked for in a render that has just started whole. One that does not fit is not taken:
     /// the render then begins at its first pass.
-    pub(super) fn take_up(&mut self, mut render: Render) -> Option<Render> {
+    pub(super) fn take_up(&mut self, mut render: LevelRender) -> Option<LevelRender> {
         let Some(path) = self.taking_up.take() else { return Some(render) };
         let taken = self.named_by_its_file().and_then(|scene| {
             checkpoint::resume(&path, render.session_mut(), &scene).map_err(|error| error.to_string())
@@ -86,10 +86,10 @@ impl Worker {
             self.event(Event::Failed(message));
             return None;
         }
-        let settings = render.ppm().settings();
-        self.settings.alpha = settings.alpha;
-        self.settings.photons_per_pass = settings.photons_per_pass;
-        self.event(Event::Notice(format!("Going on after {} passes", render.ppm().passes())));
+        let settings = render.render().settings();
+        self.settings.ppm.alpha = settings.ppm.alpha;
+        self.settings.ppm.photons_per_pass = settings.ppm.photons_per_pass;
+        self.event(Event::Notice(format!("Going on after {} passes", render.render().passes())));
         Some(render.resumed())
     }
 
@@ -103,14 +103,16 @@ impl Worker {
     }
 
     fn elapsed(&self) -> Duration {
-        self.render.as_ref().map_or(Duration::ZERO, Render::elapsed)
+        self.render.as_ref().map_or(Duration::ZERO, LevelRender::elapsed)
     }
 
     fn write_checkpoint(&self, path: &Path, scene: &SceneIdentity) -> Result<(), String> {
         let Some((render, _)) = self.rendered() else { return Err("there is no pass to keep yet".into()) };
         let session = render.session();
         check_writable(path)
-            .and_then(|()| checkpoint::write(path, session.ppm(), session.elapsed(), session.rays(), scene))
+            .and_then(|()| {
+                checkpoint::write(path, session.render(), session.elapsed(), session.rays(), scene)
+            })
             .map_err(|error| error.to_string())
     }
 }

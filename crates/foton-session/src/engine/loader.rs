@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::thread;
 
 use crossbeam_channel::{Receiver, Sender, bounded};
-use foton_integrator::Settings;
+use foton_integrator::RenderSettings;
 use foton_scene::description::SceneDescription;
 use foton_scene::{BuildError, Scene};
 
@@ -22,8 +22,8 @@ pub struct Loaded {
     pub description: SceneDescription,
     /// Its name and hash.
     pub identity: SceneIdentity,
-    /// Settings, with what the file suggests.
-    pub settings: Settings,
+    /// RenderSettings, with what the file suggests.
+    pub settings: RenderSettings,
     /// What the file says without effect, each with its place.
     pub warnings: Vec<String>,
     /// What the loader wants back when the scene is saved.

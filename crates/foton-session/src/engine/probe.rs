@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use foton_integrator::{Disc, Ppm, StoredPhoton};
+use foton_integrator::{Disc, Render, StoredPhoton};
 use foton_math::Ray;
 use foton_math::glam::{DVec3, Vec2};
 use foton_scene::Scene;
@@ -23,13 +23,13 @@ const CORNERS: u32 = 48;
 const SEEN: f32 = 1e-3;
 
 /// The photons of the last pass that the camera sees directly.
-pub(super) fn dots(ppm: &Ppm) -> Vec<Dot> {
-    ppm.stored_photons(DOTS).par_iter().filter_map(|photon| dot(ppm, photon, true)).collect()
+pub(super) fn dots(render: &Render) -> Vec<Dot> {
+    render.stored_photons(DOTS).par_iter().filter_map(|photon| dot(render, photon, true)).collect()
 }
 
-fn dot(ppm: &Ppm, photon: &StoredPhoton, only_seen: bool) -> Option<Dot> {
-    let scene = ppm.scene();
-    let sensor = &scene.sensors()[ppm.settings().sensor];
+fn dot(render: &Render, photon: &StoredPhoton, only_seen: bool) -> Option<Dot> {
+    let scene = render.scene();
+    let sensor = &scene.sensors()[render.settings().sensor];
     let point = scene.normalisation().point(photon.position);
     let (film, _) = sensor.project(point)?;
     let size = Vec2::new(sensor.width as f32, sensor.height as f32);
@@ -47,29 +47,29 @@ fn dot(ppm: &Ppm, photon: &StoredPhoton, only_seen: bool) -> Option<Dot> {
 }
 
 /// What is known of a pixel; `None` outside the image.
-pub(super) fn probe(ppm: &Ppm, pixel: [u32; 2]) -> Option<Probe> {
-    let scene = ppm.scene();
-    let sensor = &scene.sensors()[ppm.settings().sensor];
+pub(super) fn probe(render: &Render, pixel: [u32; 2]) -> Option<Probe> {
+    let scene = render.scene();
+    let sensor = &scene.sensors()[render.settings().sensor];
     let [x, y] = pixel;
     if x >= sensor.width || y >= sensor.height {
         return None;
     }
     let index = y as usize * sensor.width as usize + x as usize;
-    let discs = ppm.discs(index);
+    let discs = render.discs(index);
     let first = discs.first();
-    let photons = first.map_or_else(Vec::new, |d| ppm.photons_near(d.position, d.radius, DISC_DOTS));
+    let photons = first.map_or_else(Vec::new, |d| render.photons_near(d.position, d.radius, DISC_DOTS));
     let eye = scene.normalisation().world_point(sensor.origin());
     let film = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
     Some(Probe {
         pixel,
-        radiance: ppm.radiance(index),
+        radiance: render.radiance(index),
         radius: (!discs.is_empty()).then(|| discs.iter().map(|d| d.radius).sum::<f64>() / discs.len() as f64),
         photons_found: discs.iter().map(|d| d.photons_found).sum(),
         hit_points: discs.len(),
         distance: first.map(|d| d.position.distance(eye)),
         surface: surface(scene, sensor.ray(film)),
-        disc: first.map_or_else(Vec::new, |d| outline(scene, ppm.settings().sensor, d)),
-        photons: photons.iter().filter_map(|p| dot(ppm, p, false)).collect(),
+        disc: first.map_or_else(Vec::new, |d| outline(scene, render.settings().sensor, d)),
+        photons: photons.iter().filter_map(|p| dot(render, p, false)).collect(),
     })
 }
 

@@ -16,8 +16,8 @@ pub(super) struct Mark {
 }
 
 impl Mark {
-    pub(super) const fn of(session: &Session) -> Self {
-        Self { elapsed: session.elapsed(), photons: session.ppm().photons_emitted(), rays: session.rays() }
+    pub(super) fn of(session: &Session) -> Self {
+        Self { elapsed: session.elapsed(), photons: session.render().photons_emitted(), rays: session.rays() }
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use foton_film::{Image, Plane};
-use foton_integrator::{Cancel, Cancelled, LayerKind, Ppm, Radii, Settings};
+use foton_integrator::{Cancel, Cancelled, LayerKind, PpmSettings, Radii, Render, RenderSettings};
 use foton_math::Rgb;
 use foton_scene::Scene;
 use foton_scene::description::SensorDescription;
@@ -71,7 +71,7 @@ const SMALL_PASSES: u64 = 8;
 const RADII_EVERY: Duration = Duration::from_millis(500);
 
 /// A render at one level.
-pub(super) struct Render {
+pub(super) struct LevelRender {
     session: Session,
     level: Level,
     rates: Rates,
@@ -80,13 +80,13 @@ pub(super) struct Render {
     radii: Option<(Instant, Radii)>,
 }
 
-impl Render {
+impl LevelRender {
     /// The scene as the sensor sees it.
     pub(super) fn start(
         level: Level,
         scene: &Arc<Scene>,
         sensors: &[SensorDescription],
-        settings: &Settings,
+        settings: &RenderSettings,
         pool: &Arc<ThreadPool>,
         cancel: &Cancel,
     ) -> Result<Self, StartError> {
@@ -101,10 +101,13 @@ impl Render {
             let shrink = |n: u32| ((f64::from(n) * factor).round() as u32).max(1);
             sensor.resize(shrink(sensor.width), shrink(sensor.height));
         }
-        let settings = Settings {
+        let settings = RenderSettings {
             samples_per_pixel: NonZeroU32::MIN,
-            photons_per_pass: settings.photons_per_pass.min(level.photons()),
             error: false,
+            ppm: PpmSettings {
+                photons_per_pass: settings.ppm.photons_per_pass.min(level.photons()),
+                ..settings.ppm
+            },
             ..settings.clone()
         };
         // Sensors that made a scene once make one at any size.
@@ -128,16 +131,16 @@ impl Render {
 
     /// The level that is due once this one is as good as it gets, where the whole has so many eye samples.
     pub(super) fn next_level(&self, eye_samples: u64) -> Option<Level> {
-        (self.ppm().passes() >= self.level.passes()).then(|| self.level.next(eye_samples))
+        (self.render().passes() >= self.level.passes()).then(|| self.level.next(eye_samples))
     }
 
     /// Whether there is nothing to do until a person goes on, or stops.
     pub(super) fn waits_for_a_move(&self) -> bool {
-        self.level == Level::Small && self.ppm().passes() >= SMALL_PASSES
+        self.level == Level::Small && self.render().passes() >= SMALL_PASSES
     }
 
-    pub(super) const fn ppm(&self) -> &Ppm {
-        self.session.ppm()
+    pub(super) const fn render(&self) -> &Render {
+        self.session.render()
     }
 
     pub(super) const fn session(&self) -> &Session {
@@ -163,71 +166,75 @@ impl Render {
     }
 
     pub(super) fn numbers(&mut self) -> Numbers {
-        let ppm = self.session.ppm();
+        let render = self.session.render();
         let (_, radii) = match self.radii {
             Some(fresh) if fresh.0.elapsed() < RADII_EVERY => fresh,
-            _ => *self.radii.insert((Instant::now(), ppm.radii())),
+            _ => *self.radii.insert((Instant::now(), render.radii())),
         };
         let (photons_per_s, rays_per_s) = self.rates.per_second();
         Numbers {
-            passes: ppm.passes(),
-            photons: ppm.photons_emitted(),
+            passes: render.passes(),
+            photons: render.photons_emitted(),
             photons_in_pass: self.photons_in_pass,
             elapsed: self.session.elapsed(),
             photons_per_s,
             rays_per_s,
             stages: *self.session.stages(),
-            hit_points: ppm.start_report().hit_points,
+            hit_points: render.start_report().hit_points,
             no_photon_share: self.no_photon_share,
-            error: ppm.error(),
-            ledger: *ppm.ledger(),
+            error: render.error(),
+            ledger: *render.ledger(),
             radii,
-            bytes: ppm.bytes(),
+            bytes: render.bytes(),
         }
     }
 
     /// The picture as it stands; radiance where what is asked for is not kept.
     pub(super) fn picture(&self, shown: Shown) -> Picture {
-        let ppm = self.ppm();
+        let render = self.render();
         let measure = |label, values: Vec<f32>| {
-            let image = &ppm.scene().sensors()[ppm.settings().sensor];
+            let image = &render.scene().sensors()[render.settings().sensor];
             let plane = Plane { width: image.width, height: image.height, values };
             Picture::Measure { label, plane: Arc::new(plane) }
         };
         match shown {
-            Shown::Radiance => Picture::Colour(Arc::new(ppm.image())),
+            Shown::Radiance => Picture::Colour(Arc::new(render.image())),
             Shown::Classes { reflected, emission } => {
-                Picture::Colour(Arc::new(classes(ppm, reflected, emission)))
+                Picture::Colour(Arc::new(classes(render, reflected, emission)))
             }
-            Shown::Radius => measure("radius (world units)", ppm.mean_radii()),
+            Shown::Radius => measure("radius (world units)", render.mean_radii()),
             Shown::PhotonCount => {
-                measure("photons found", ppm.photons_found().into_iter().map(|n| n as f32).collect())
+                measure("photons found", render.photons_found().into_iter().map(|n| n as f32).collect())
             }
             Shown::Luminance => {
-                measure("luminance (W/m²/sr)", ppm.image().pixels.iter().map(|c| c.luminance()).collect())
+                measure("luminance (W/m²/sr)", render.image().pixels.iter().map(|c| c.luminance()).collect())
             }
-            Shown::Unknown => measure("hit points without a photon", ppm.unknown_share()),
+            Shown::Unknown => measure("hit points without a photon", render.unknown_share()),
             Shown::Error(part) => {
                 let (label, kind) = match part {
                     ErrorPart::Noise => ("noise (W/m²/sr)", LayerKind::ErrorNoise),
                     ErrorPart::Bias => ("blur (W/m²/sr)", LayerKind::ErrorBias),
                     ErrorPart::Total => ("error (W/m²/sr)", LayerKind::ErrorTotal),
                 };
-                ppm.error_plane(kind)
-                    .map_or_else(|| Picture::Colour(Arc::new(ppm.image())), |plane| measure(label, plane))
+                render
+                    .error_plane(kind)
+                    .map_or_else(|| Picture::Colour(Arc::new(render.image())), |plane| measure(label, plane))
             }
         }
     }
 }
 
 /// The sum of some kinds of light.
-fn classes(ppm: &Ppm, reflected: [bool; 3], emission: bool) -> Image {
+fn classes(render: &Render, reflected: [bool; 3], emission: bool) -> Image {
     let kinds = [LayerKind::Direct, LayerKind::Caustic, LayerKind::Indirect, LayerKind::Emission];
     let wanted = [reflected[0], reflected[1], reflected[2], emission];
-    let mut layers =
-        kinds.into_iter().zip(wanted).filter(|(_, wanted)| *wanted).map(|(kind, _)| ppm.colour_layer(kind));
+    let mut layers = kinds
+        .into_iter()
+        .zip(wanted)
+        .filter(|(_, wanted)| *wanted)
+        .map(|(kind, _)| render.colour_layer(kind));
     let Some(first) = layers.next() else {
-        let image = ppm.image();
+        let image = render.image();
         return Image::black(image.width, image.height);
     };
     let add = |sum: Option<Image>, layer: Option<Image>| {
@@ -235,5 +242,5 @@ fn classes(ppm: &Ppm, reflected: [bool; 3], emission: bool) -> Image {
         sum.pixels.iter_mut().zip(&layer.pixels).for_each(|(s, &l): (&mut Rgb, &Rgb)| *s += l);
         Some(sum)
     };
-    layers.fold(first, add).unwrap_or_else(|| ppm.image())
+    layers.fold(first, add).unwrap_or_else(|| render.image())
 }

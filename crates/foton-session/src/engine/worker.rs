@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, Sender, never, select};
-use foton_integrator::{Cancel, Settings};
+use foton_integrator::{Cancel, RenderSettings};
 use foton_scene::Scene;
 use rayon::ThreadPool;
 
@@ -16,7 +16,7 @@ use super::frame::{Activity, Frame, Numbers, Picture};
 use super::keeping::Kept;
 use super::loader::{Opening, Ready};
 use super::probe;
-use super::render::{Level, Render};
+use super::render::{Level, LevelRender};
 use super::slot::NewestSender;
 use super::stage::{Effect, Stage};
 use crate::panic::{Panic, contained};
@@ -51,13 +51,13 @@ pub(super) struct Worker {
     pub(super) unwritten: Arc<AtomicUsize>,
     pub(super) stage: Option<Stage>,
     opening: Option<Opening>,
-    pub(super) settings: Settings,
+    pub(super) settings: RenderSettings,
     threads: Option<usize>,
     /// Kept from render to render: threads that come and go leave memory behind that the system's allocator does not give back.
     pool: Option<Arc<ThreadPool>>,
     stop: StopRule,
     flow: Flow,
-    pub(super) render: Option<Render>,
+    pub(super) render: Option<LevelRender>,
     /// The number of the render; it changes with each start.
     render_number: u64,
     /// Whether more camera moves are to follow.
@@ -91,7 +91,7 @@ impl Worker {
             unwritten,
             stage: None,
             opening: None,
-            settings: Settings::default(),
+            settings: RenderSettings::default(),
             threads: None,
             pool: None,
             stop: StopRule::default(),
@@ -183,7 +183,7 @@ impl Worker {
             Command::Steer(change) => {
                 self.settings.change(change);
                 if let Some(render) = self.render.as_mut().filter(|r| r.is_whole()) {
-                    render.session_mut().ppm_mut().change(change);
+                    render.session_mut().render_mut().change(change);
                 }
             }
             Command::Configure(configuration) => self.configure(&configuration),
@@ -301,7 +301,7 @@ impl Worker {
     fn show(&mut self, ready: Ready) {
         let loaded = &ready.loaded;
         self.event(Event::Opened { name: loaded.identity.name.clone(), warnings: loaded.warnings.clone() });
-        self.settings = Settings { layers: self.settings.layers, ..loaded.settings.clone() };
+        self.settings = RenderSettings { layers: self.settings.layers, ..loaded.settings.clone() };
         self.stage = Some(Stage::new(ready));
         self.moving = false;
         self.picture = None;
@@ -315,15 +315,20 @@ impl Worker {
         if self.stage.is_none() || self.refused {
             return true;
         }
-        let Some(render) = &self.render else { return false };
-        if !render.is_whole() {
-            return self.moving && render.waits_for_a_move();
+        let Some(level) = &self.render else { return false };
+        if !level.is_whole() {
+            return self.moving && level.waits_for_a_move();
         }
         match self.flow {
             Flow::Steps(left) => left == 0,
             Flow::Run => {
-                let ppm = render.ppm();
-                self.stop.is_reached(ppm.passes(), render.elapsed(), self.last_pass, ppm.error().as_ref())
+                let render = level.render();
+                self.stop.is_reached(
+                    render.passes(),
+                    level.elapsed(),
+                    self.last_pass,
+                    render.error().as_ref(),
+                )
             }
         }
     }
@@ -358,7 +363,7 @@ impl Worker {
                     self.pool.insert(pool.map_err(|error| error.to_string())?)
                 }
             };
-            match Render::start(level, &scene, stage.sensors(), &self.settings, pool, &cancel) {
+            match LevelRender::start(level, &scene, stage.sensors(), &self.settings, pool, &cancel) {
                 Ok(render) => Ok(Some(render)),
                 Err(StartError::Panicked(panic)) => Err(panic.to_string()),
                 Err(_) => Ok(None),
@@ -405,7 +410,7 @@ impl Worker {
         if let Flow::Steps(left) = &mut self.flow {
             *left = left.saturating_sub(1);
         }
-        let due = render.ppm().passes().is_power_of_two();
+        let due = render.render().passes().is_power_of_two();
         self.keep_up();
         if let Some(folder) = self.auto_snapshots.clone().filter(|_| due) {
             self.auto_snapshot(&folder);
@@ -447,15 +452,15 @@ impl Worker {
         let mut numbers = Numbers::default();
         let mut dots = Arc::default();
         let mut probed = None;
-        if let Some(render) = self.render.as_mut().filter(|r| r.ppm().passes() > 0) {
+        if let Some(render) = self.render.as_mut().filter(|r| r.render().passes() > 0) {
             self.picture = Some(render.picture(self.shown));
             self.pictured = self.render_number;
             if render.is_whole() {
                 numbers = render.numbers();
                 if self.show_photons {
-                    dots = Arc::new(probe::dots(render.ppm()));
+                    dots = Arc::new(probe::dots(render.render()));
                 }
-                probed = self.probed.and_then(|pixel| probe::probe(render.ppm(), pixel));
+                probed = self.probed.and_then(|pixel| probe::probe(render.render(), pixel));
             }
         }
         let sensor = self.settings.sensor;

@@ -5,15 +5,15 @@ use std::path::Path;
 use foton_film::check_writable;
 
 use super::command::Event;
-use super::render::Render;
+use super::render::LevelRender;
 use super::stage::Stage;
 use super::worker::Worker;
 use crate::snapshot::{self, Format};
 
 impl Worker {
     /// The whole render, once it has a pass.
-    pub(super) fn rendered(&self) -> Option<(&Render, &Stage)> {
-        let render = self.render.as_ref().filter(|r| r.is_whole() && r.ppm().passes() > 0)?;
+    pub(super) fn rendered(&self) -> Option<(&LevelRender, &Stage)> {
+        let render = self.render.as_ref().filter(|r| r.is_whole() && r.render().passes() > 0)?;
         Some((render, self.stage.as_ref()?))
     }
 
@@ -27,7 +27,7 @@ impl Worker {
     pub(super) fn auto_snapshot(&self, folder: &Path) {
         let Some((render, stage)) = self.rendered() else { return };
         let stem = Path::new(&stage.facts().name).file_stem().unwrap_or_default().to_owned();
-        let path = snapshot::numbered(&folder.join(stem).with_extension("exr"), render.ppm().passes());
+        let path = snapshot::numbered(&folder.join(stem).with_extension("exr"), render.render().passes());
         self.write(&path.with_extension(""));
     }
 
@@ -39,7 +39,7 @@ impl Worker {
         for (extension, format) in [("exr", Format::Exr), ("png", Format::Png)] {
             let path = stem.with_extension(extension);
             let result = check_writable(&path)
-                .and_then(|()| snapshot::write(&path, format, render.ppm(), &[], &identity));
+                .and_then(|()| snapshot::write(&path, format, render.render(), &[], &identity));
             match result {
                 Ok(()) => written.push(path),
                 Err(error) => self.event(Event::Failed(error.to_string())),

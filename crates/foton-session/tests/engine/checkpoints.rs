@@ -19,7 +19,7 @@ fn failure(rig: &Rig) -> String {
 fn passes(path: &std::path::Path) -> u64 {
     let mut session = headless(0, settings(), |_, _| ());
     checkpoint::resume(path, &mut session, &identity()).expect("of the room");
-    session.ppm().passes()
+    session.render().passes()
 }
 
 #[test]
@@ -41,8 +41,8 @@ fn what_is_kept_is_taken_up_with_the_same_bits_and_written_at_the_end() {
     other.send(Command::TakeUpCheckpoint(path));
     let after = other.until("the rest", |f: &Frame| f.render != first.render && f.numbers.passes == 5);
     let straight = headless(5, settings(), |_, _| ());
-    assert_eq!(*image(&after), straight.ppm().image());
-    assert_eq!(after.numbers.photons, straight.ppm().photons_emitted());
+    assert_eq!(*image(&after), straight.render().image());
+    assert_eq!(after.numbers.photons, straight.render().photons_emitted());
 }
 
 /// Rates and stop rules go by the checkpoint's clock, which may show less than the eye pass has just taken, or much more.
@@ -52,14 +52,14 @@ fn a_checkpoint_of_any_age_is_resumed() {
     let path = folder.0.join("room.checkpoint");
     let two = headless(2, settings(), |_, _| ());
     for elapsed in [Duration::ZERO, Duration::from_nanos(1), Duration::MAX] {
-        checkpoint::write(&path, two.ppm(), elapsed, 0, &identity()).expect("written");
+        checkpoint::write(&path, two.render(), elapsed, 0, &identity()).expect("written");
         let (rig, first) = Rig::at_pass(1);
         rig.send(Command::StopAt(StopRule::passes(9)));
         rig.send(Command::TakeUpCheckpoint(path.clone()));
         let after = rig.until("the rest", |f| f.render != first.render && f.numbers.passes == 9);
-        assert_eq!(*image(&after), headless(9, settings(), |_, _| ()).ppm().image());
+        assert_eq!(*image(&after), headless(9, settings(), |_, _| ()).render().image());
         // What the checkpoint brings was not made in this window.
-        let made = after.numbers.photons - two.ppm().photons_emitted();
+        let made = after.numbers.photons - two.render().photons_emitted();
         let seconds = after.numbers.elapsed.saturating_sub(elapsed).as_secs_f64();
         if elapsed < Duration::from_secs(1) {
             assert!(after.numbers.photons_per_s * seconds <= 1.001 * made as f64, "{:?}", after.numbers);

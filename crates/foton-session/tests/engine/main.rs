@@ -8,9 +8,10 @@ use std::num::NonZeroU32;
 use std::path::PathBuf;
 use std::time::Duration;
 
+use foton_integrator::PpmSettings;
 use foton_session::engine::{Activity, Command, Configuration, Event, Picture, Shown};
 use foton_session::snapshot::{self, Format};
-use foton_session::{Alpha, Change, DirectLight, Settings, StopRule};
+use foton_session::{Alpha, DirectLight, RenderSettings, SettingChange, StopRule};
 use rig::{Folder, Rig, SIZE, headless, identity, image, settings};
 
 fn alpha(alpha: f64) -> Alpha {
@@ -30,7 +31,7 @@ fn a_scene_opens_and_frames_come_until_the_stop_rule() {
     let frame = rig.done(3);
     assert_eq!((frame.size, frame.scene.shapes), (SIZE, 2));
     assert_eq!(frame.numbers.photons, 4096 + 2 * 8192, "passes grow to what was asked for");
-    assert_eq!(*image(&frame), headless(3, settings(), |_, _| ()).ppm().image());
+    assert_eq!(*image(&frame), headless(3, settings(), |_, _| ()).render().image());
     // More may be asked for, and time is a rule, too; there is always one pass.
     rig.send(Command::StopAt(StopRule::passes(5)));
     assert_eq!(rig.done(5).render, frame.render);
@@ -44,23 +45,23 @@ fn a_scene_opens_and_frames_come_until_the_stop_rule() {
 fn alpha_and_photons_change_at_the_next_pass_of_the_same_render() {
     let (rig, before) = Rig::at_pass(2);
     let photons = NonZeroU32::new(20_000).expect("not zero");
-    let changes = [Change::Alpha(alpha(0.25)), Change::PhotonsPerPass(photons)];
+    let changes = [SettingChange::Alpha(alpha(0.25)), SettingChange::PhotonsPerPass(photons)];
     for change in changes {
         rig.send(Command::Steer(change));
     }
     rig.send(Command::StopAt(StopRule::passes(4)));
     let after = rig.done(4);
     assert_eq!(after.render, before.render);
-    assert_eq!((after.settings.alpha, after.settings.photons_per_pass), (alpha(0.25), photons));
+    assert_eq!((after.settings.ppm.alpha, after.settings.ppm.photons_per_pass), (alpha(0.25), photons));
     let steered = headless(4, settings(), |pass, session| {
         if pass == 2 {
-            changes.into_iter().for_each(|change| session.ppm_mut().change(change));
+            changes.into_iter().for_each(|change| session.render_mut().change(change));
         }
     });
-    assert_eq!(*image(&after), steered.ppm().image());
+    assert_eq!(*image(&after), steered.render().image());
     assert_ne!(
         *image(&after),
-        headless(4, settings(), |_, _| ()).ppm().image(),
+        headless(4, settings(), |_, _| ()).render().image(),
         "the changes change something"
     );
 }
@@ -78,9 +79,12 @@ fn a_configuration_starts_anew() {
     rig.send(Command::Configure(configuration.clone()));
     let after = rig.until("another render", |f| f.render != before.render && f.activity == Activity::Done);
     assert_eq!(Configuration::of(&after.settings, after.threads), configuration);
-    let asked =
-        Settings { seed: 5, direct_light: DirectLight::ShadowRays, radius: Some(0.125), ..settings() };
-    assert_eq!(*image(&after), headless(2, asked, |_, _| ()).ppm().image());
+    let asked = RenderSettings {
+        seed: 5,
+        ppm: PpmSettings { direct_light: DirectLight::ShadowRays, radius: Some(0.125), ..settings().ppm },
+        ..settings()
+    };
+    assert_eq!(*image(&after), headless(2, asked, |_, _| ()).render().image());
 }
 
 #[test]
@@ -117,7 +121,7 @@ fn a_snapshot_is_the_file_that_a_headless_render_writes() {
     let session = headless(3, settings(), |_, _| ());
     for (extension, format) in [("exr", Format::Exr), ("png", Format::Png)] {
         let expected = folder.0.join("expected").with_extension(extension);
-        snapshot::write(&expected, format, session.ppm(), &[], &identity()).expect("written");
+        snapshot::write(&expected, format, session.render(), &[], &identity()).expect("written");
         let read = |path: PathBuf| std::fs::read(path).expect("it is there");
         assert_eq!(read(folder.0.join("foton-001").with_extension(extension)), read(expected), "{extension}");
     }
@@ -246,7 +250,13 @@ fn the_probe_says_what_the_picture_shows() {
 #[test]
 fn dropping_the_engine_ends_its_thread_without_the_pass_under_way() {
     let long = NonZeroU32::new(1 << 22).expect("not zero");
-    let rig = Rig::new(Settings { photons_per_pass: long, first_pass: long, ..settings() }, None);
+    let rig = Rig::new(
+        RenderSettings {
+            ppm: PpmSettings { photons_per_pass: long, first_pass: long, ..settings().ppm },
+            ..settings()
+        },
+        None,
+    );
     rig.open("room");
     // The small picture is there, and the first whole pass, of seconds, has begun or is about to.
     rig.until("first light", |f| f.activity == Activity::Collecting && f.picture.is_some());

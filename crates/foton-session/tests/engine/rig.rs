@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use crossbeam_channel::Receiver;
 use foton_film::Image;
-use foton_integrator::{Cancel, Settings};
+use foton_integrator::{Cancel, PpmSettings, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DMat3, DVec3};
 use foton_scene::Scene;
@@ -103,13 +103,12 @@ fn heap() -> SceneDescription {
 }
 
 /// Small passes that grow once.
-pub(crate) fn settings() -> Settings {
+pub(crate) fn settings() -> RenderSettings {
     let n = |n| std::num::NonZeroU32::new(n).expect("not zero");
-    Settings {
-        photons_per_pass: n(8192),
-        first_pass: n(4096),
+    RenderSettings {
         samples_per_pixel: n(1),
-        ..Settings::default()
+        ppm: PpmSettings { photons_per_pass: n(8192), first_pass: n(4096), ..PpmSettings::default() },
+        ..RenderSettings::default()
     }
 }
 
@@ -120,7 +119,7 @@ pub(crate) fn identity() -> SceneIdentity {
 /// What a session without an engine makes: `change` is called before each pass with the number of passes so far.
 pub(crate) fn headless(
     passes: u64,
-    settings: Settings,
+    settings: RenderSettings,
     mut change: impl FnMut(u64, &mut Session),
 ) -> Session {
     let scene = Arc::new(Scene::build(&room()).expect("builds"));
@@ -141,7 +140,7 @@ fn vast() -> SceneDescription {
 
 /// Opens "room", "vast", which is a room of 32,768² pixels, "heap" and "slow", which waits until it is let go; "faulty" panics, and "sensorless" makes the engine panic.
 pub(crate) struct Shelf {
-    settings: Settings,
+    settings: RenderSettings,
     go: Mutex<Receiver<()>>,
 }
 
@@ -164,7 +163,10 @@ impl Loader for Shelf {
             },
             identity: identity(),
             // A sensor that is not there is a fault of whoever asks for it.
-            settings: Settings { sensor: if name == "sensorless" { 9 } else { 0 }, ..self.settings.clone() },
+            settings: RenderSettings {
+                sensor: if name == "sensorless" { 9 } else { 0 },
+                ..self.settings.clone()
+            },
             warnings: vec!["room.xml:1:1: a warning".into()],
             origin: Arc::new(42_u8),
         })
@@ -192,7 +194,7 @@ pub(crate) struct Rig {
 }
 
 impl Rig {
-    pub(crate) fn new(settings: Settings, memory_limit: Option<f64>) -> Self {
+    pub(crate) fn new(settings: RenderSettings, memory_limit: Option<f64>) -> Self {
         let (go, wait) = crossbeam_channel::bounded(1);
         let (held, thread) = crossbeam_channel::bounded::<()>(0);
         let loader = Arc::new(Shelf { settings, go: Mutex::new(wait) });

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::Args as ClapArgs;
-use foton_integrator::{Alpha, RadiusFloor, Settings};
+use foton_integrator::{Alpha, RadiusFloor, RenderSettings};
 
 use super::{Direct, Radius, Rule, Size, alpha, define, duration, exr, radius, radius_floor};
 
@@ -36,16 +36,16 @@ pub(crate) struct Measure {
     #[arg(long, value_name = "R|xF", value_parser = radius)]
     pub(crate) radius: Option<Radius>,
     /// Smallest radius in spacings of the eye samples; 0 for none
-    #[arg(long, value_name = "N", value_parser = radius_floor, default_value_t = Settings::default().radius_floor)]
+    #[arg(long, value_name = "N", value_parser = radius_floor, default_value_t = RenderSettings::default().ppm.radius_floor)]
     pub(crate) radius_floor: RadiusFloor,
     /// How radii shrink at the star's centre
-    #[arg(long, value_name = "RULE", value_enum, default_value_t = Settings::default().radius_rule.into())]
+    #[arg(long, value_name = "RULE", value_enum, default_value_t = RenderSettings::default().ppm.radius_rule.into())]
     pub(crate) radius_rule: Rule,
     /// How light straight from emitters is estimated at the star's centre
     #[arg(long, value_name = "HOW", value_enum, default_value_t = Direct::Photons)]
     pub(crate) direct: Direct,
     /// Seed of the eye samples; runs have photons of the seeds after it
-    #[arg(long, value_name = "N", default_value_t = Settings::default().seed)]
+    #[arg(long, value_name = "N", default_value_t = RenderSettings::default().seed)]
     pub(crate) seed: u64,
     /// Threads [as many as the machine has]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -54,7 +54,7 @@ pub(crate) struct Measure {
     #[arg(long, value_name = "WxH")]
     pub(crate) size: Option<Size>,
     /// Eye samples a pixel
-    #[arg(long, value_name = "N", default_value_t = Settings::default().samples_per_pixel)]
+    #[arg(long, value_name = "N", default_value_t = RenderSettings::default().samples_per_pixel)]
     pub(crate) spp: NonZeroU32,
     /// Longest path in edges, as Mitsuba counts them [as the scene says]
     #[arg(long, value_name = "N")]

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use foton_session::snapshot::Format;
 
-use super::{ErrorWish, Render};
+use super::{ErrorWish, RenderArgs};
 
-impl Render {
+impl RenderArgs {
     /// What cannot be done as it was asked for, and what would help.
     pub(crate) fn contradiction(&self) -> Option<String> {
         self.layers_in_vain().or_else(|| self.file_in_two_roles())

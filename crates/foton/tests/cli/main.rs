@@ -19,7 +19,7 @@ use std::process::{Command, Output, Stdio};
 use std::sync::Arc;
 
 use foton_film::{Image, LayerData, Metadata, ToneMap, read_exr, write_exr, write_png};
-use foton_integrator::{Alpha, Change, LayerKind, Settings};
+use foton_integrator::{Alpha, LayerKind, PpmSettings, RenderSettings, SettingChange};
 use foton_scene::Scene;
 use foton_session::{Interrupt, Session, StopRule};
 use serde_json::{Value, json};
@@ -279,7 +279,12 @@ fn session(scene: &Path) -> Session {
     let opened = foton_format::open(scene, &foton_format::Options::default()).expect("the scene opens");
     let scene = Arc::new(Scene::build(&opened.description).expect("the scene is sound"));
     let photons_per_pass = 2000.try_into().expect("above zero");
-    let settings = Settings { photons_per_pass, layers: true, error: true, ..Settings::default() };
+    let settings = RenderSettings {
+        layers: true,
+        error: true,
+        ppm: PpmSettings { photons_per_pass, ..PpmSettings::default() },
+        ..RenderSettings::default()
+    };
     let interrupt = Interrupt::default();
     let mut session = Session::start(scene, settings, Some(2), interrupt.cancel()).expect("starts");
     session.run(&StopRule::passes(2), &interrupt, &mut |_| ());
@@ -309,8 +314,8 @@ fn layers_are_prefixed_channels_and_the_kinds_of_light_sum_to_the_image() {
     }
     // The file holds what the library makes, channel for channel.
     let session = session(&folder.file("scene.xml"));
-    let layers = LayerKind::ALL.map(|kind| session.ppm().layer(kind).expect("layers are on"));
-    write_exr(&folder.file("expected.exr"), &session.ppm().image(), &layers, &metadata).expect("an EXR");
+    let layers = LayerKind::ALL.map(|kind| session.render().layer(kind).expect("layers are on"));
+    write_exr(&folder.file("expected.exr"), &session.render().image(), &layers, &metadata).expect("an EXR");
     assert!(bytes == folder.bytes("expected.exr"));
     let light: Vec<&Image> = layers
         .iter()

@@ -10,25 +10,29 @@ fn three_passes(folder: &Folder) {
 }
 
 /// The same render with changes after three of its six passes, made by the library.
-fn changed_on_the_way(folder: &Folder, changes: &[Change]) -> Image {
+fn changed_on_the_way(folder: &Folder, changes: &[SettingChange]) -> Image {
     let opened = foton_format::open(&folder.file("scene.xml"), &foton_format::Options::default());
     let scene = Scene::build(&opened.expect("the scene opens").description).expect("the scene is sound");
     let photons_per_pass = 2000.try_into().expect("above zero");
-    let settings = Settings { photons_per_pass, error: true, ..Settings::default() };
+    let settings = RenderSettings {
+        error: true,
+        ppm: PpmSettings { photons_per_pass, ..PpmSettings::default() },
+        ..RenderSettings::default()
+    };
     let interrupt = Interrupt::default();
     let mut session = Session::start(Arc::new(scene), settings, Some(1), interrupt.cancel()).expect("starts");
     session.run(&StopRule::passes(3), &interrupt, &mut |_| ());
-    changes.iter().for_each(|&change| session.ppm_mut().change(change));
+    changes.iter().for_each(|&change| session.render_mut().change(change));
     session.run(&StopRule::passes(6), &interrupt, &mut |_| ());
-    session.ppm().image()
+    session.render().image()
 }
 
 #[test]
 fn alpha_photons_and_presets_change_a_resumed_render_from_the_next_pass_on() {
     let folder = Folder::new("resume-changes");
     three_passes(&folder);
-    let alpha = |a| Change::Alpha(Alpha::new(a).expect("in range"));
-    let photons = |n: u32| Change::PhotonsPerPass(n.try_into().expect("above zero"));
+    let alpha = |a| SettingChange::Alpha(Alpha::new(a).expect("in range"));
+    let photons = |n: u32| SettingChange::PhotonsPerPass(n.try_into().expect("above zero"));
     let unchanged = changed_on_the_way(&folder, &[]);
     for (arguments, changes) in [
         ("", vec![]),

@@ -104,11 +104,11 @@ pub(crate) fn recommend(name: &str, centre: &Configuration, points: &[Point]) ->
 mod tests {
     use super::*;
     use crate::sweep::table::tests::point;
-    use foton_integrator::{Alpha, Settings};
+    use foton_integrator::{Alpha, RenderSettings};
 
     #[test]
     fn the_least_error_at_a_time_that_most_reach_is_recommended() {
-        let centre = Configuration::of(&Settings::default());
+        let centre = Configuration::of(&RenderSettings::default());
         let better = Configuration { alpha: Alpha::new(0.8).expect("in range"), ..centre };
         let brief = Configuration { alpha: Alpha::new(0.5).expect("in range"), ..centre };
         // The brief one is best where it is, which is not where most are.

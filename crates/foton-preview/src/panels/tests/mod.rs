@@ -19,7 +19,9 @@ use foton_session::engine::{
     Activity, Command, Configuration, Event, Frame, Numbers, Picture, SceneFacts, Selection, SensorFacts,
     Shown, Source,
 };
-use foton_session::{Alpha, Change, DirectLight, Ledger, RadiusFloor, RadiusRule, Settings, StopRule};
+use foton_session::{
+    Alpha, DirectLight, Ledger, RadiusFloor, RadiusRule, RenderSettings, SettingChange, StopRule,
+};
 
 use crate::preferences::Preferences;
 use crate::state::State;
@@ -56,7 +58,7 @@ fn frame() -> Frame {
             ledger: Ledger { emitted: 8.0, absorbed: 6.0, escaped: 1.9, truncated: 0.1, ..Ledger::default() },
             ..Numbers::default()
         },
-        settings: Settings::default(),
+        settings: RenderSettings::default(),
         threads: None,
         stop: StopRule::default(),
         scene: Arc::new(SceneFacts {
@@ -177,7 +179,7 @@ fn choose(harness: &mut Harness<'_, State>, list: &str, option: &str) {
 }
 
 fn alpha(value: f64) -> Command {
-    Command::Steer(Change::Alpha(Alpha::new(value).expect("an alpha")))
+    Command::Steer(SettingChange::Alpha(Alpha::new(value).expect("an alpha")))
 }
 
 #[test]
@@ -214,7 +216,7 @@ fn nothing_is_asked_for_until_someone_asks() {
     // Values that sliders would round, and some beyond their ranges.
     let mut harness = window(|state| {
         let frame = state.frame.as_mut().expect("there");
-        frame.settings.photons_per_pass = NonZeroU32::new(40).expect("not zero");
+        frame.settings.ppm.photons_per_pass = NonZeroU32::new(40).expect("not zero");
         frame.settings.samples_per_pixel = NonZeroU32::new(1000).expect("not zero");
         let mut scene = SceneFacts::clone(&frame.scene);
         scene.sensors[0].fov_degrees = 37.123_456;
@@ -234,13 +236,13 @@ fn sliders_steer_the_next_pass() {
     assert_asked(&mut harness, &alpha(0.3));
     find(&harness, Role::Slider, "photons a pass").set_value_accesskit(65_536.0);
     let photons = NonZeroU32::new(65_536).expect("not zero");
-    assert_asked(&mut harness, &Command::Steer(Change::PhotonsPerPass(photons)));
+    assert_asked(&mut harness, &Command::Steer(SettingChange::PhotonsPerPass(photons)));
 }
 
 #[test]
 fn values_are_typed_and_what_is_out_of_range_goes_to_its_end() {
     let half = Alpha::new(0.5).expect("an alpha");
-    let mut harness = window(|state| state.frame.as_mut().expect("there").settings.alpha = half);
+    let mut harness = window(|state| state.frame.as_mut().expect("there").settings.ppm.alpha = half);
     type_number(&mut harness, "α", "0.45");
     assert!(asked(&mut harness).contains(&format!("{:?}", alpha(0.45))));
     type_number(&mut harness, "α", "7");
@@ -293,7 +295,7 @@ fn stop_rules_are_switched_and_typed() {
 
 #[test]
 fn what_starts_anew_says_so_and_is_sent_once_it_is_let_go() {
-    let now = Configuration::of(&Settings::default(), None);
+    let now = Configuration::of(&RenderSettings::default(), None);
     let mut harness = window(|_| ());
     click(&mut harness, Role::Button, "shadow rays");
     let shadow_rays = Configuration { direct_light: DirectLight::ShadowRays, ..now };
@@ -340,7 +342,7 @@ fn kinds_of_light_are_switched_and_kept_apart_from_then_on() {
     click(&mut harness, Role::Button, "Light");
     click(&mut harness, Role::CheckBox, "Caustic");
     let shown = Shown::Classes { reflected: [true, false, true], emission: true };
-    let layers = Configuration { layers: true, ..Configuration::of(&Settings::default(), None) };
+    let layers = Configuration { layers: true, ..Configuration::of(&RenderSettings::default(), None) };
     let expected = [Command::Show(shown), Command::Configure(layers)].map(|c| format!("{c:?}"));
     assert_eq!(asked(&mut harness), expected);
     click(&mut harness, Role::CheckBox, "Caustic");
