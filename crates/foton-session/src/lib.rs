@@ -10,7 +10,7 @@
 //! #     width: 8, height: 8, crop: None, filter: Filter::Box { radius: 0.5 }, near_clip: None, far_clip: None,
 //! # });
 //! let scene = std::sync::Arc::new(foton_scene::Scene::build(&description)?);
-//! let settings = foton_integrator::Settings::default();
+//! let settings = foton_integrator::RenderSettings::default();
 //! let interrupt = Interrupt::default();
 //! let mut session = Session::start(scene, settings, None, interrupt.cancel())?;
 //! session.run(&StopRule::passes(2), &interrupt, &mut |_| ());
