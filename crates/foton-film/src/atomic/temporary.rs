@@ -151,3 +151,26 @@ fn keep_rights(file: &File, old: &Metadata) {
 
 #[cfg(not(unix))]
 fn keep_rights(_: &File, _: &Metadata) {}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    /// A link that somebody has put in the way.
+    #[test]
+    fn what_is_there_by_that_name_is_neither_opened_nor_followed() {
+        let folder = std::env::temp_dir().join(format!("foton-film-{}-exclusive", process::id()));
+        fs::create_dir_all(&folder).expect("a folder");
+        let (victim, trap) = (folder.join("victim"), folder.join("trap"));
+        for target in ["victim", "not there"] {
+            std::os::unix::fs::symlink(target, &trap).expect("a link");
+            fs::write(&victim, "precious").expect("written");
+            let outcome = options(None).open(&trap).map_err(|cause| cause.kind());
+            assert_eq!(outcome.map(drop), Err(ErrorKind::AlreadyExists));
+            assert_eq!(fs::read_to_string(&victim).expect("there"), "precious");
+            assert!(!folder.join("not there").exists());
+            fs::remove_file(&trap).expect("ours");
+        }
+        fs::remove_dir_all(&folder).expect("ours");
+    }
+}
