@@ -14,7 +14,7 @@ use std::path::Path;
 use std::process::{self, Command};
 
 use common::Folder;
-use foton_film::{WriteError, atomic_write, check_writable, is_same_file};
+use foton_film::{WriteError, atomic_write, check_writable, is_same_file, write_spare};
 
 fn write(path: &Path, text: &str) -> Result<(), WriteError> {
     atomic_write(path, |file| file.write_all(text.as_bytes()))
@@ -305,4 +305,25 @@ fn a_failed_write_leaves_the_old_file_with_its_rights() {
     assert!(outcome.is_err());
     assert_eq!((folder.names(), mode(&path)), (vec!["out.txt".to_owned()], 0o640));
     assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+}
+
+#[test]
+fn what_has_no_place_goes_beside_under_a_name_that_nobody_has() {
+    let folder = Folder::new("spare");
+    fs::write(folder.file("foton-x-001.exr"), "another's").unwrap();
+    // A link that somebody has put in the way.
+    symlink("victim", folder.file("foton-x-002.exr")).unwrap();
+    let spare = write_spare(&folder.file("x.exr"), |path| write(path, "rescued")).unwrap();
+    assert_eq!(spare, folder.file("foton-x-003.exr"));
+    assert_eq!(fs::read_to_string(&spare).unwrap(), "rescued");
+    assert_eq!(folder.names(), ["foton-x-001.exr", "foton-x-002.exr", "foton-x-003.exr"]);
+    // Where the folder is not there any more, among the temporary files; the test's own go.
+    let gone = folder.file("gone").join(format!("{}.exr", process::id()));
+    let spare = write_spare(&gone, |path| write(path, "rescued")).unwrap();
+    assert_eq!(spare.parent(), Some(&*std::env::temp_dir()));
+    fs::remove_file(&spare).unwrap();
+    // Of what fails nothing is left.
+    let none = write_spare(&gone, |path| atomic_write(path, |_| Err(io::ErrorKind::StorageFull.into())));
+    assert_eq!(none, None);
+    assert!(!spare.exists());
 }

@@ -1,5 +1,6 @@
 //! Files that appear whole: written beside their target, then renamed over it. No locking between writers: the last wins.
 
+mod spare;
 mod stale;
 mod target;
 mod temporary;
@@ -12,6 +13,7 @@ use crate::WriteError;
 use target::Target;
 use temporary::Temporary;
 
+pub use spare::write_spare;
 pub use target::{is_same_file, stands_for};
 
 /// Writes `path` so that a reader, or a crash, meets the old file or the new one and never half of one.
