@@ -139,6 +139,11 @@ fn vast() -> SceneDescription {
     room
 }
 
+/// The file that all scenes are said to be read from.
+pub(crate) fn scene_file() -> PathBuf {
+    std::env::temp_dir().join(format!("foton-engine-{}-scene.txt", std::process::id()))
+}
+
 /// Opens "room", "vast", which is a room of 32,768² pixels, "heap" and "slow", which waits until it is let go; "faulty" panics, and "sensorless" makes the engine panic.
 pub(crate) struct Shelf {
     settings: Settings,
@@ -166,6 +171,7 @@ impl Loader for Shelf {
             // A sensor that is not there is a fault of whoever asks for it.
             settings: Settings { sensor: if name == "sensorless" { 9 } else { 0 }, ..self.settings.clone() },
             warnings: vec!["room.xml:1:1: a warning".into()],
+            files: vec![scene_file()],
             origin: Arc::new(42_u8),
         })
     }
