@@ -54,6 +54,7 @@ impl Loader for Files {
             description: opened.description.clone(),
             identity: SceneIdentity { name, hash: opened.source_hash },
             settings: settings(&opened.suggested),
+            files: opened.files.clone(),
             warnings: opened.warnings.iter().map(ToString::to_string).collect(),
             origin: Arc::new(opened),
         })

@@ -6,7 +6,7 @@ mod target;
 mod temporary;
 
 use std::fs::{File, Metadata};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Read, Write};
 use std::path::Path;
 
 use crate::WriteError;
@@ -61,6 +61,29 @@ pub fn check_writable(path: &Path) -> Result<(), WriteError> {
     match &old {
         Some(old) => target::check_replaceable(&file, &target, old).map_err(WriteError::io(path)),
         None => Ok(()),
+    }
+}
+
+/// Opens a log, which is written line by line and not whole. A file that is there is emptied only if it is empty or begins like this
+/// kind of log; links and streams are as in [`atomic_write`].
+///
+/// # Errors
+/// As [`atomic_write`], and if the file is of another kind.
+pub fn create_log(path: &Path, begins: &str) -> Result<File, WriteError> {
+    let to_error = WriteError::io(path);
+    match Target::of(path)? {
+        Target::Stream(stream) => stream.open(path).map_err(to_error),
+        Target::File { target, old: None } => File::create_new(target).map_err(to_error),
+        Target::File { target, old: Some(_) } => {
+            let mut start = Vec::new();
+            let file = File::open(&target).map_err(&to_error)?;
+            file.take(begins.len() as u64).read_to_end(&mut start).map_err(&to_error)?;
+            if !start.is_empty() && start != begins.as_bytes() {
+                let what = "another kind of file, which would be lost";
+                return Err(WriteError::Special { path: path.into(), what });
+            }
+            File::create(target).map_err(to_error)
+        }
     }
 }
 

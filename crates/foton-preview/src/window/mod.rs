@@ -9,6 +9,7 @@ mod pace;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use foton_film::WriteError;
 use foton_session::Engine;
 use foton_session::engine::{Command, Loader, Setup, Source};
 use thiserror::Error;
@@ -41,13 +42,8 @@ pub enum WindowError {
     #[error("no graphics adapter can draw a window: {0}")]
     NoAdapter(String),
     /// The log cannot be written.
-    #[error("{path}: {cause}", path = path.display())]
-    Log {
-        /// Its path.
-        path: PathBuf,
-        /// What the system says.
-        cause: std::io::Error,
-    },
+    #[error(transparent)]
+    Log(#[from] WriteError),
 }
 
 /// What wakes the event loop.
@@ -83,9 +79,7 @@ fn reason(error: &impl std::fmt::Display) -> String {
 /// # Errors
 /// When there can be no window; see [`WindowError`]. Nothing was rendered then.
 pub fn run(options: Options) -> Result<(), WindowError> {
-    let create =
-        |path: PathBuf| frame_log::FrameLog::create(&path).map_err(|cause| WindowError::Log { path, cause });
-    let log = options.frame_log.map(create).transpose()?;
+    let log = options.frame_log.as_deref().map(frame_log::FrameLog::create).transpose()?;
     let events = EventLoop::<UserEvent>::with_user_event().build();
     let events = events.map_err(|cause| WindowError::NoDisplay(reason(&cause)))?;
     let proxy = events.create_proxy();
