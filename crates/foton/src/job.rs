@@ -190,7 +190,7 @@ impl<'a> Keeper<'a> {
 
 /// Refuses to write to a file that the scene was read from.
 pub(crate) fn refuse_two_roles(roles: Roles, opened: &Opened) -> Result<(), Failure> {
-    roles.scene_reads(&opened.files).clash().map_or(Ok(()), |what| Err(Failure::Roles(what)))
+    roles.scene_reads(&opened.files).clash().map_or(Ok(()), |clash| Err(Failure::Roles(clash)))
 }
 
 /// Says that a limit of the system ended a render, if one did.

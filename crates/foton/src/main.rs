@@ -78,8 +78,8 @@ fn main() -> ExitCode {
         }
     };
     // What was asked for on standard output and is not there was not done.
-    let result =
-        result.and_then(|()| talk.take_lost().map_or(Ok(()), |cause| Err(Failure::StandardOutput(cause))));
+    let lost = talk.lost().map(|cause| Failure::StandardOutput(cause.to_owned()));
+    let result = result.and_then(|()| lost.map_or(Ok(()), Err));
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {

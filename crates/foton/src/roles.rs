@@ -113,7 +113,7 @@ impl Roles {
     }
 
     /// Which two are one file although one of them is written, and what would help.
-    pub(crate) fn clash(&self) -> Option<String> {
+    pub(crate) fn clash(&self) -> Option<Clash> {
         let written = self.0.iter().enumerate().filter(|(_, role)| !role.used.is_read());
         let mut pairs = written.flat_map(|(i, one)| {
             let others = self.0.iter().enumerate();
@@ -121,19 +121,27 @@ impl Roles {
             // Of images with numbers there is no one path to be met.
             others.filter(|(_, other)| other.every.is_none()).map(move |(_, other)| (one, other))
         });
-        pairs
-            .find_map(|(one, other)| one.meets(&other.path).map(|path| refusal(one, &path, other)))
-            .or_else(|| self.clash_with_streams())
+        let found = pairs.find_map(|(one, other)| Some(refusal(one, &one.meets(&other.path)?, other)));
+        let files = found.map(|message| Clash { message, is_standard_output: false });
+        files.or_else(|| self.clash_with_standard_output())
     }
 
-    /// Standard output or the messages may have been sent into one of the files.
-    fn clash_with_streams(&self) -> Option<String> {
-        let streams = streams();
-        streams.iter().find_map(|(name, stream)| {
-            let role = self.0.iter().find(|role| role.every.is_none() && stands_for(stream, &role.path))?;
-            Some(format!("{name} goes into {}; send it elsewhere", role.text(&role.path)))
-        })
+    /// Standard output may have been sent into one of the files.
+    fn clash_with_standard_output(&self) -> Option<Clash> {
+        let stream = standard_output()?;
+        let role = self.0.iter().find(|role| role.every.is_none() && stands_for(&stream, &role.path))?;
+        let message = format!("standard output goes into {}; send it elsewhere", role.text(&role.path));
+        Some(Clash { message, is_standard_output: true })
     }
+}
+
+/// Two roles of one file.
+#[derive(Debug)]
+pub(crate) struct Clash {
+    /// Which, and what would help.
+    pub(crate) message: String,
+    /// Whether saying so on standard output would be the damage itself.
+    pub(crate) is_standard_output: bool,
 }
 
 fn refusal(one: &Role, path: &Path, other: &Role) -> String {
@@ -146,17 +154,13 @@ fn refusal(one: &Role, path: &Path, other: &Role) -> String {
     format!("{a} and {b} are the same file: {why}")
 }
 
-/// Standard output and standard error.
-fn streams() -> Vec<(&'static str, File)> {
+/// Standard output as a file of this process's own.
+fn standard_output() -> Option<File> {
     #[cfg(unix)]
     {
         use std::os::fd::AsFd;
-        let copies = [
-            ("standard output", std::io::stdout().as_fd().try_clone_to_owned()),
-            ("standard error", std::io::stderr().as_fd().try_clone_to_owned()),
-        ];
-        copies.into_iter().filter_map(|(name, copy)| Some((name, copy.ok()?.into()))).collect()
+        std::io::stdout().as_fd().try_clone_to_owned().ok().map(File::from)
     }
     #[cfg(not(unix))]
-    Vec::new()
+    None
 }

@@ -18,6 +18,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 
 use crate::figure::{self, add_error, classes_text, error_text, upper_end_text};
+use crate::roles::Clash;
 
 /// Power that is cut off beyond this share of what is emitted is worth a warning.
 const WORTH_A_WARNING: f64 = 1e-3;
@@ -58,9 +59,9 @@ pub(crate) enum Failure {
     Sweep(SweepError),
     Write(WriteError),
     /// Files in two roles, as known once the scene was read.
-    Roles(String),
+    Roles(Clash),
     /// Results that standard output did not take.
-    StandardOutput(io::Error),
+    StandardOutput(String),
     Read(ReadError),
     #[cfg(feature = "window")]
     Window(String),
@@ -111,7 +112,7 @@ impl fmt::Display for Failure {
             Self::Resume(cause) => cause.fmt(f),
             Self::Sweep(cause) => cause.fmt(f),
             Self::Write(cause) => cause.fmt(f),
-            Self::Roles(what) => f.write_str(what),
+            Self::Roles(clash) => f.write_str(&clash.message),
             Self::StandardOutput(cause) => write!(f, "cannot write standard output: {cause}"),
             Self::Read(cause) => cause.fmt(f),
             #[cfg(feature = "window")]
@@ -165,7 +166,7 @@ pub(crate) struct Talk {
     /// Whether it was said that the error stays above its goal.
     said_floor: AtomicBool,
     /// Why a line on stdout was lost, of the first one.
-    lost: OnceLock<io::Error>,
+    lost: OnceLock<String>,
 }
 
 impl Talk {
@@ -185,15 +186,15 @@ impl Talk {
             Err(cause) if cause.kind() == ErrorKind::BrokenPipe => {}
             Err(cause) if self.lost.get().is_none() => {
                 self.line(&format!("warning: standard output cannot be written: {cause}"));
-                let _ = self.lost.set(cause);
+                let _ = self.lost.set(cause.to_string());
             }
             Err(_) => {}
         }
     }
 
     /// Why something that belongs on stdout is not there, if it is not.
-    pub(crate) fn take_lost(&mut self) -> Option<io::Error> {
-        self.lost.take()
+    pub(crate) fn lost(&self) -> Option<&str> {
+        self.lost.get().map(String::as_str)
     }
 
     /// A line of JSON, if any was asked for.
@@ -249,6 +250,9 @@ impl Talk {
         }
         if let Failure::NotFinite { place, .. } = failure {
             self.event(&not_finite(place));
+        }
+        if let Failure::Roles(clash) = failure {
+            self.json &= !clash.is_standard_output;
         }
         let message = failure.to_string();
         self.event(&json!({ "event": "error", "message": message }));

@@ -4,7 +4,6 @@ use std::fs::{self, File};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use super::target::folder_of;
 use crate::WriteError;
 
 /// How many names are tried in a folder.
@@ -16,9 +15,8 @@ const LETTERS: usize = 60;
 /// system's folder for temporary files; returns where. A file or link that is there already is never written to, and nothing is left
 /// of what fails. `None` where there is no room either.
 pub fn write_spare(path: &Path, write: impl Fn(&Path) -> Result<(), WriteError>) -> Option<PathBuf> {
-    let folders = [folder_of(path).to_owned(), std::env::temp_dir()];
-    folders.iter().find_map(|folder| {
-        let spare = take(folder, path)?;
+    [path.to_owned(), std::env::temp_dir().join("_")].iter().find_map(|beside| {
+        let spare = take(beside, path)?;
         if write(&spare).is_ok() {
             return Some(spare);
         }
@@ -27,12 +25,12 @@ pub fn write_spare(path: &Path, write: impl Fn(&Path) -> Result<(), WriteError>)
     })
 }
 
-/// Makes an empty file with a name that nobody had.
-fn take(folder: &Path, path: &Path) -> Option<PathBuf> {
+/// Makes an empty file in the folder of another, with a name that nobody had.
+fn take(beside: &Path, path: &Path) -> Option<PathBuf> {
     let stem: String = path.file_stem()?.to_string_lossy().chars().take(LETTERS).collect();
     let extension = path.extension().map_or_else(String::new, |e| format!(".{}", e.to_string_lossy()));
     for n in 1..NAMES {
-        let spare = folder.join(format!("foton-{stem}-{n:03}{extension}"));
+        let spare = beside.with_file_name(format!("foton-{stem}-{n:03}{extension}"));
         match File::create_new(&spare) {
             Ok(_) => return Some(spare),
             Err(cause) if cause.kind() == ErrorKind::AlreadyExists => {}

@@ -113,7 +113,7 @@ fn end_of_links(path: &Path) -> io::Result<PathBuf> {
         if !fs::symlink_metadata(&path).is_ok_and(|found| found.is_symlink()) {
             return Ok(path);
         }
-        path = folder_of(&path).join(fs::read_link(&path)?);
+        path = path.with_file_name(fs::read_link(&path)?);
     }
     Err(io::Error::other("too many links, one to another"))
 }

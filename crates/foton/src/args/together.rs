@@ -2,21 +2,23 @@
 
 use foton_session::snapshot::Format;
 
-use super::{Args, Command, Compare, Convert, ErrorWish, Measure, Render};
+use super::{Args, Command, Compare, Convert, ErrorWish, Info, Measure, Render};
 use crate::roles::Roles;
+
+fn clash(roles: &Roles) -> Option<String> {
+    roles.clash().map(|clash| clash.message)
+}
 
 impl Args {
     /// What cannot be done as it was asked for, and what would help; with the name of the command that it was asked of.
     pub(crate) fn contradiction(&self) -> Option<(Option<&'static str>, String)> {
         let (command, message) = match &self.command {
             Some(Command::Render(render)) => (Some("render"), render.contradiction()),
-            Some(Command::Compare(compare)) => (Some("compare"), compare.roles().clash()),
-            Some(Command::Convert(convert)) => (Some("convert"), convert.roles().clash()),
-            Some(Command::Measure(measure)) => (Some("measure"), measure.roles().clash()),
-            Some(Command::Info(info)) => {
-                (Some("info"), Roles::default().reads("the scene", Some(&info.scene)).clash())
-            }
-            None => (None, self.roles().clash()),
+            Some(Command::Compare(compare)) => (Some("compare"), clash(&compare.roles())),
+            Some(Command::Convert(convert)) => (Some("convert"), clash(&convert.roles())),
+            Some(Command::Measure(measure)) => (Some("measure"), clash(&measure.roles())),
+            Some(Command::Info(info)) => (Some("info"), clash(&info.roles())),
+            None => (None, clash(&self.roles())),
         };
         Some((command, message?))
     }
@@ -31,6 +33,12 @@ impl Compare {
     fn roles(&self) -> Roles {
         let roles = Roles::default().writes("-o", self.output.as_ref().map(|(path, _)| &**path));
         roles.reads("the image A", Some(&self.a.0)).reads("the reference B", Some(&self.b.0))
+    }
+}
+
+impl Info {
+    fn roles(&self) -> Roles {
+        Roles::default().reads("the scene", Some(&self.scene))
     }
 }
 
@@ -53,7 +61,7 @@ impl Measure {
 impl Render {
     /// What cannot be done as it was asked for, and what would help.
     fn contradiction(&self) -> Option<String> {
-        self.layers_in_vain().or_else(|| self.roles().clash())
+        self.layers_in_vain().or_else(|| clash(&self.roles()))
     }
 
     fn layers_in_vain(&self) -> Option<String> {

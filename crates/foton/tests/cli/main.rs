@@ -6,9 +6,12 @@
 mod faults;
 mod refusals;
 mod resuming;
+mod roles;
 mod scene_says;
 #[cfg(unix)]
 mod signals;
+#[cfg(target_os = "linux")]
+mod streams;
 mod strict;
 #[cfg(target_os = "linux")]
 mod write_faults;

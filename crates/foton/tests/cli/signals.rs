@@ -112,3 +112,78 @@ fn without_a_scene_the_embedded_one_is_begun_and_further_interrupts_give_it_up()
     let status = child.wait().expect("ends");
     assert!(status.code().is_some(), "it ends by itself, not killed: {status}");
 }
+
+/// Sends a signal to a render after its first pass; its exit code, its last event, and all that it said on stderr.
+#[cfg(target_os = "linux")]
+fn signalled(folder: &Folder, signal: &str, begun_by: &str) -> (std::process::ExitStatus, Value, String) {
+    let program = env!("CARGO_BIN_EXE_foton");
+    let render = "render scene.xml -o x.exr --passes 1000000 --photons 2000 --json";
+    let line = format!("{begun_by} exec \"{program}\" {render}");
+    let mut command = Command::new("sh");
+    command.args(["-c", &line]).current_dir(&folder.0).env("TMPDIR", &folder.0).stdin(Stdio::null());
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("starts");
+    let mut stdout = BufReader::new(child.stdout.take().expect("piped"));
+    stdout.read_line(&mut String::new()).expect("a line");
+    let pid = child.id().to_string();
+    for name in signal.split(' ') {
+        assert!(Command::new("kill").args([name, &pid]).status().expect("kill runs").success());
+        // Those that are ignored leave it running: it goes on for two passes more.
+        stdout.read_line(&mut String::new()).expect("a line");
+        stdout.read_line(&mut String::new()).expect("a line");
+    }
+    let mut rest = Vec::new();
+    stdout.read_to_end(&mut rest).expect("lines");
+    let mut said = String::new();
+    child.stderr.take().expect("piped").read_to_string(&mut said).expect("text");
+    (child.wait().expect("ends"), events(&rest).pop().unwrap_or_default(), said)
+}
+
+/// A batch system warns by these that time, or room for a file, is up.
+#[cfg(target_os = "linux")]
+#[test]
+fn limits_of_the_system_end_a_render_as_an_interrupt_does() {
+    for (signal, why) in [
+        ("-XCPU", Some("the limit on processor time is reached (SIGXCPU, ulimit -t)")),
+        ("-XFSZ", Some("a file has reached the limit on its size (SIGXFSZ, ulimit -f)")),
+        ("-HUP", None),
+        ("-TERM", None),
+        ("-INT", None),
+    ] {
+        let folder = Folder::new(&format!("limit{signal}"));
+        let (status, _, said) = signalled(&folder, signal, "");
+        assert_eq!(status.code(), Some(0), "{signal}: {status}: {said}");
+        let warning = why.map(|why| format!("warning: the render ends early: {why}"));
+        assert_eq!(said.contains("ends early"), why.is_some(), "{signal}: {said}");
+        assert!(warning.is_none_or(|warning| said.contains(&warning)), "{signal}: {said}");
+        assert!(folder.exr("x.exr").1.get("foton:passes").is_some(), "{signal}");
+        assert_eq!(folder.images(), ["x.exr"]);
+    }
+}
+
+/// `nohup` and its like turn them off for the program that they begin.
+#[cfg(target_os = "linux")]
+#[test]
+fn signals_that_were_turned_off_stay_so() {
+    let folder = Folder::new("turned-off");
+    let (status, done, said) = signalled(&folder, "-HUP -XCPU -XFSZ -TERM", "trap '' HUP XCPU XFSZ;");
+    assert_eq!(status.code(), Some(0), "{status}: {said}");
+    assert!(!said.contains("ends early"), "{said}");
+    // The last one was heard.
+    assert!(done.is_null() || number(&done, "passes") >= 7.0, "{done}");
+}
+
+/// Time of the processor: the kernel's own signal, not one that somebody sends.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_render_that_is_out_of_processor_time_leaves_its_image() {
+    let folder = Folder::new("out-of-time");
+    let program = env!("CARGO_BIN_EXE_foton");
+    let line = format!(
+        "ulimit -S -t 1; exec \"{program}\" render scene.xml -o x.exr --passes 1000000 --photons 2000"
+    );
+    let output = Command::new("sh").args(["-c", &line]).current_dir(&folder.0).output().expect("a shell");
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{}: {said}", output.status);
+    assert!(said.contains("the limit on processor time is reached"), "{said}");
+    assert!(folder.exr("x.exr").0.width > 0);
+}
