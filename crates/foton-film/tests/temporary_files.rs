@@ -14,7 +14,7 @@ use std::path::Path;
 use std::process::{self, Command};
 
 use common::Folder;
-use foton_film::{WriteError, atomic_write, check_writable, is_same_file, write_spare};
+use foton_film::{WriteError, atomic_write, check_writable, create_log, is_same_file, write_spare};
 
 fn write(path: &Path, text: &str) -> Result<(), WriteError> {
     atomic_write(path, |file| file.write_all(text.as_bytes()))
@@ -326,4 +326,28 @@ fn what_has_no_place_goes_beside_under_a_name_that_nobody_has() {
     let none = write_spare(&gone, |path| atomic_write(path, |_| Err(io::ErrorKind::StorageFull.into())));
     assert_eq!(none, None);
     assert!(!spare.exists());
+}
+
+#[test]
+fn a_log_replaces_only_logs() {
+    let folder = Folder::new("log");
+    fs::write(folder.file("scene.xml"), "<scene/>").unwrap();
+    symlink("scene.xml", folder.file("link.log")).unwrap();
+    for name in ["scene.xml", "link.log"] {
+        let said = create_log(&folder.file(name), "{\"event\":").unwrap_err().to_string();
+        let path = folder.file(name).display().to_string();
+        assert_eq!(said, format!("cannot write {path}: it is another kind of file, which would be lost"));
+    }
+    assert_eq!(fs::read_to_string(folder.file("scene.xml")).unwrap(), "<scene/>");
+    symlink("new.log", folder.file("dangling.log")).unwrap();
+    for (name, target) in [("a.log", "a.log"), ("a.log", "a.log"), ("dangling.log", "new.log")] {
+        let mut log = create_log(&folder.file(name), "{\"event\":").unwrap();
+        log.write_all(b"{\"event\":1}\n").unwrap();
+        assert_eq!(fs::read_to_string(folder.file(target)).unwrap(), "{\"event\":1}\n", "{name}");
+    }
+    let pipe = folder.file("pipe.log");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let said = create_log(&pipe, "").unwrap_err().to_string();
+    assert!(said.contains("it is a pipe that no program reads"), "{said}");
+    assert!(create_log(Path::new("/dev/null"), "{").is_ok());
 }

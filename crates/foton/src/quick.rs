@@ -34,7 +34,9 @@ pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failur
     refuse_beyond_memory(&scene, &settings, None, None)?;
     let stem = snapshot::next_free(Path::new(""));
     let (png, exr) = (stem.with_extension("png"), stem.with_extension("exr"));
-    check_writable(&png)?;
+    for path in [&png, &exr] {
+        check_writable(path)?;
+    }
     let interrupt = interrupt_on_signals(talk);
     talk.line(&format!("rendering {name} for a minute to {}; Ctrl-C stops earlier", png.display()));
     talk.begin();

@@ -280,3 +280,65 @@ fn kept(cause: WriteError, path: &Path, write: impl Fn(&Path) -> Result<(), Writ
         None => cause.into(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use foton_integrator::Settings;
+
+    use super::super::plan::{Configuration, jobs};
+    use super::*;
+
+    #[test]
+    fn what_took_long_is_elsewhere_when_the_folder_has_vanished() {
+        let folder = std::env::temp_dir().join(format!("foton-measure-{}-gone", std::process::id()));
+        let store = Store::open(&folder, "a sweep").expect("a folder");
+        let jobs = jobs(&Configuration::of(&Settings::default()));
+        store.finish(&jobs[0], "a,run\n", &[]).expect("written");
+        fs::remove_dir_all(&folder).expect("ours");
+        let part = store.part(&jobs[0], "runs");
+        let error = store.finish(&jobs[0], "a,run\n", &[]).expect_err("no folder");
+        let said = error.to_string();
+        let SweepError::Kept { spare, .. } = error else { panic!("{said}") };
+        let inside = folder.join("parts");
+        let expected = format!(
+            "cannot write {}: the folder {} does not exist; it is {} instead",
+            part.display(),
+            inside.display(),
+            spare.display()
+        );
+        assert_eq!(said, expected);
+        assert!(fs::read_to_string(&spare).expect("kept").ends_with("a,run\n"));
+        // Its summary is beside it, under the same number.
+        let name = spare.file_name().expect("a name").to_string_lossy().replace("runs", "summary");
+        assert!(fs::read_to_string(spare.with_file_name(&name)).is_ok(), "{name}");
+        for file in [spare.clone(), spare.with_file_name(name)] {
+            fs::remove_file(file).expect("ours");
+        }
+    }
+
+    #[test]
+    fn only_what_a_sweep_writes_anew_counts_as_its_own() {
+        let folder = std::env::temp_dir().join(format!("foton-measure-{}-own", std::process::id()));
+        for inside in ["parts", "images"] {
+            fs::create_dir_all(folder.join(inside)).expect("a folder");
+        }
+        let own = ["index.html", "parts/00000500-runs.csv", "images/03-error.png", "images/reference.png"];
+        let others =
+            ["scene.xml", "parts/gem.obj", "images/wood.png", "parts/index.html", "images/a-error.png"];
+        for name in own.iter().chain(&others).chain(&["reference.exr"]) {
+            fs::write(folder.join(name), "").expect("written");
+        }
+        let names = |given: bool| {
+            let mut names: Vec<PathBuf> = files_in(&folder, given);
+            names.sort();
+            names
+        };
+        let mut expected: Vec<PathBuf> = own.iter().map(|name| folder.join(name)).collect();
+        expected.sort();
+        assert_eq!(names(true), expected);
+        expected.push(folder.join("reference.exr"));
+        expected.sort();
+        assert_eq!(names(false), expected);
+        fs::remove_dir_all(&folder).expect("ours");
+    }
+}
