@@ -75,7 +75,9 @@ pub fn pass_of(path: &Path, name: &OsStr) -> Option<u64> {
 /// `foton-001` with the next number of which neither a PNG nor an EXR is there.
 #[must_use]
 pub fn next_free(folder: &Path) -> PathBuf {
-    let taken = |stem: &Path| ["png", "exr"].iter().any(|e| stem.with_extension(e).exists());
+    // A link to what is not there is somebody's, too.
+    let taken =
+        |stem: &Path| ["png", "exr"].iter().any(|e| stem.with_extension(e).symlink_metadata().is_ok());
     (1u32..).map(|n| folder.join(format!("foton-{n:03}"))).find(|stem| !taken(stem)).unwrap_or_default()
 }
 

@@ -1,5 +1,6 @@
 //! The protections that `cargo xtask mutations` takes out, by the crates they stand in.
 
+mod files;
 mod format;
 mod integrator;
 mod program;
@@ -18,9 +19,15 @@ const SURFACES: &str = "-p foton-tests --test surfaces";
 const ANALYTIC: &str = "-p foton-tests --test analytic";
 const LEDGER: &str = "-p foton-tests --test ledger";
 const CHECKPOINTS: &str = "-p foton-tests --test checkpoints";
+const FILM: &str = "-p foton-film --lib";
+const TEMPORARY: &str = "-p foton-film --test temporary_files";
+const WRITER: &str = "-p foton-format --test writer";
+const SAVING: &str = "-p foton-format --test saving";
+const ENGINE: &str = "-p foton-session --test engine";
+const MEASURE: &str = "-p foton-measure --lib";
 const CLI: &str = "-p foton --no-default-features --test cli";
 
 /// All of them.
 pub(super) fn all() -> impl Iterator<Item = &'static Mutation> {
-    [scene::LIST, format::LIST, integrator::LIST, program::LIST].into_iter().flatten()
+    [scene::LIST, format::LIST, integrator::LIST, program::LIST, files::LIST].into_iter().flatten()
 }
