@@ -55,6 +55,7 @@ pub(super) enum Stream {
     /// A character device.
     Device,
     /// A pipe with a name.
+    #[cfg_attr(not(unix), allow(dead_code, reason = "there are none in folders"))]
     Pipe,
 }
 
@@ -119,11 +120,16 @@ fn end_of_links(path: &Path) -> io::Result<PathBuf> {
 }
 
 /// Whether a file that was made beside `target` could be renamed over it, although it could be made: in a folder like `/tmp` only
-/// the owners of a file and of the folder may replace it.
+/// the owners of a file and of the folder may replace it, and a file that a container was given by itself is nobody's to replace.
 #[cfg(unix)]
 pub(super) fn check_replaceable(beside: &File, target: &Path, old: &Metadata) -> io::Result<()> {
     use std::os::unix::fs::MetadataExt;
     const STICKY: u32 = 0o1000;
+    if is_mounted(target) {
+        return Err(io::Error::other(
+            "it is mounted by itself and cannot be replaced; mount its folder instead",
+        ));
+    }
     let (us, folder) = (beside.metadata()?.uid(), fs::metadata(folder_of(target))?);
     if us == 0 || folder.mode() & STICKY == 0 || [old.uid(), folder.uid()].contains(&us) {
         return Ok(());
@@ -134,6 +140,22 @@ pub(super) fn check_replaceable(beside: &File, target: &Path, old: &Metadata) ->
 #[cfg(not(unix))]
 pub(super) fn check_replaceable(_: &File, _: &Path, _: &Metadata) -> io::Result<()> {
     Ok(())
+}
+
+/// Whether something is mounted on a file; only Linux is asked.
+#[cfg(unix)]
+fn is_mounted(file: &Path) -> bool {
+    #[cfg(target_os = "linux")]
+    {
+        use rustix::fs::{AtFlags, CWD, StatxAttributes, StatxFlags, statx};
+        let found = statx(CWD, file, AtFlags::empty(), StatxFlags::empty());
+        found.is_ok_and(|found| found.stx_attributes.contains(StatxAttributes::MOUNT_ROOT))
+    }
+    #[cfg(not(target_os = "linux"))]
+    {
+        let _ = file;
+        false
+    }
 }
 
 /// Whether writing one path would be writing the other: both lead to one file, by links of either kind, or to one that is still to be

@@ -4,6 +4,8 @@
 
 #[cfg(debug_assertions)]
 mod faults;
+#[cfg(target_os = "linux")]
+mod places;
 mod refusals;
 mod resuming;
 mod roles;
