@@ -288,7 +288,8 @@ pub(crate) fn refuse_beyond_memory(
 /// Ctrl-C, SIGTERM and the limits of the system end the render after its pass; a second one discards the pass.
 pub(crate) fn interrupt_on_signals(talk: &Talk) -> Interrupt {
     let interrupt = Interrupt::default();
-    if let Err(error) = signals::interrupt(interrupt.clone()) {
+    let handler = interrupt.clone();
+    if let Err(error) = signals::on_end(move || handler.request()) {
         talk.warning(&format!("Ctrl-C will not be handled: {error}"));
     }
     interrupt

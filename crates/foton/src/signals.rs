@@ -4,8 +4,6 @@
 
 use std::io;
 
-use foton_session::Interrupt;
-
 /// Lets a write beyond the limit on the size of files (`ulimit -f`) fail with an error, as on a full disk. Unheard, SIGXFSZ ends
 /// the program in the middle of it. To be called first.
 pub(crate) fn outlive_file_limit() {
@@ -14,12 +12,12 @@ pub(crate) fn outlive_file_limit() {
     let _ = unix::hear_nothing_of_it();
 }
 
-/// Ctrl-C, SIGTERM and their like end the render after its pass; a second one discards the pass.
-pub(crate) fn interrupt(interrupt: Interrupt) -> io::Result<()> {
+/// Does something, on a thread of its own, each time that Ctrl-C, SIGTERM or their like ask for an end.
+pub(crate) fn on_end(act: impl FnMut() + Send + 'static) -> io::Result<()> {
     #[cfg(unix)]
-    return unix::interrupt(interrupt);
+    return unix::on_end(act);
     #[cfg(not(unix))]
-    ctrlc::set_handler(move || interrupt.request()).map_err(io::Error::other)
+    ctrlc::set_handler(act).map_err(io::Error::other)
 }
 
 /// Why the system ended a render, where it was a limit and not a person.
@@ -37,7 +35,6 @@ mod unix {
     use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
     use std::thread;
 
-    use foton_session::Interrupt;
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXCPU, SIGXFSZ};
     use signal_hook::iterator::Signals;
 
@@ -51,7 +48,7 @@ mod unix {
         Ok(())
     }
 
-    pub(super) fn interrupt(interrupt: Interrupt) -> io::Result<()> {
+    pub(super) fn on_end(mut act: impl FnMut() + Send + 'static) -> io::Result<()> {
         // What whoever began this program has turned off stays so, as `nohup` does; a person's own wishes are heard.
         let others = [SIGHUP, SIGXCPU, SIGXFSZ].into_iter().filter(|signal| !is_ignored(*signal));
         let mut signals = Signals::new([SIGINT, SIGTERM].into_iter().chain(others))?;
@@ -60,7 +57,7 @@ mod unix {
                 if [SIGXCPU, SIGXFSZ].contains(&signal) {
                     LIMIT.store(signal, Ordering::Relaxed);
                 }
-                interrupt.request();
+                act();
             }
         };
         thread::Builder::new().name("signals".to_owned()).spawn(listen).map(drop)

@@ -204,8 +204,9 @@ impl ApplicationHandler<UserEvent> for App {
         }
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, event: UserEvent) {
+    fn user_event(&mut self, event_loop: &ActiveEventLoop, event: UserEvent) {
         match event {
+            UserEvent::Close => self.close(event_loop),
             UserEvent::Wake => self.listen(),
             UserEvent::Repaint(delay) => self.pace.repaint(Instant::now(), delay),
             UserEvent::DeviceLost(number) => {

@@ -30,7 +30,12 @@ pub struct Options {
     pub memory_limit: Option<f64>,
     /// Where to write a line for each frame drawn.
     pub frame_log: Option<PathBuf>,
+    /// Is given what closes the window from another thread, as its own button does.
+    pub closes: fn(Close),
 }
+
+/// Closes the window.
+pub type Close = Box<dyn Fn() + Send>;
 
 /// Why there is no window. The render can go on without one.
 #[derive(Debug, Error)]
@@ -55,6 +60,8 @@ enum UserEvent {
     Repaint(std::time::Duration),
     /// The adapter of a number is gone.
     DeviceLost(u64),
+    /// The window is to close.
+    Close,
     /// A screen reader asks.
     AccessKit(egui_winit::accesskit_winit::Event),
 }
@@ -92,6 +99,10 @@ pub fn run(options: Options) -> Result<(), WindowError> {
         }),
         memory_limit: options.memory_limit,
     };
+    let close = events.create_proxy();
+    (options.closes)(Box::new(move || {
+        let _ = close.send_event(UserEvent::Close);
+    }));
     let engine = Engine::spawn(setup).map_err(|cause| WindowError::NoDisplay(cause.to_string()))?;
     engine.send(Command::Open(options.scene));
     let state = State::new(Preferences::load(), options.built_in);
