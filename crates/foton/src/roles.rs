@@ -71,7 +71,10 @@ fn meets_numbered(image: &Path, every: Every, other: &Path) -> Option<PathBuf> {
 
 /// All files of a command.
 #[derive(Default)]
-pub(crate) struct Roles(Vec<Role>);
+pub(crate) struct Roles {
+    files: Vec<Role>,
+    prints: bool,
+}
 
 impl Roles {
     /// A file that is read, if there is one; `named` as in messages.
@@ -102,21 +105,31 @@ impl Roles {
         self.with("--checkpoint", path, Use::StateWritten, None)
     }
 
+    /// Whether results go to standard output.
+    pub(crate) fn prints(self, prints: bool) -> Self {
+        Self { prints, ..self }
+    }
+
     /// Files that the scene is read from, known once it was.
     pub(crate) fn scene_reads(self, files: &[PathBuf]) -> Self {
         files.iter().fold(self, |roles, file| roles.reads("the scene's file", Some(file)))
     }
 
     fn with(mut self, named: &str, path: Option<&Path>, used: Use, every: Option<Every>) -> Self {
-        self.0.extend(path.map(|path| Role { named: named.to_owned(), path: path.to_owned(), used, every }));
+        self.files.extend(path.map(|path| Role {
+            named: named.to_owned(),
+            path: path.to_owned(),
+            used,
+            every,
+        }));
         self
     }
 
     /// Which two are one file although one of them is written, and what would help.
     pub(crate) fn clash(&self) -> Option<Clash> {
-        let written = self.0.iter().enumerate().filter(|(_, role)| !role.used.is_read());
+        let written = self.files.iter().enumerate().filter(|(_, role)| !role.used.is_read());
         let mut pairs = written.flat_map(|(i, one)| {
-            let others = self.0.iter().enumerate();
+            let others = self.files.iter().enumerate();
             let others = others.filter(move |(j, other)| *j != i && !one.used.allows(other.used));
             // Of images with numbers there is no one path to be met.
             others.filter(|(_, other)| other.every.is_none()).map(move |(_, other)| (one, other))
@@ -128,8 +141,8 @@ impl Roles {
 
     /// Standard output may have been sent into one of the files.
     fn clash_with_standard_output(&self) -> Option<Clash> {
-        let stream = standard_output()?;
-        let role = self.0.iter().find(|role| role.every.is_none() && stands_for(&stream, &role.path))?;
+        let stream = standard_output().filter(|_| self.prints)?;
+        let role = self.files.iter().find(|role| role.every.is_none() && stands_for(&stream, &role.path))?;
         let message = format!("standard output goes into {}; send it elsewhere", role.text(&role.path));
         Some(Clash { message, is_standard_output: true })
     }

@@ -70,6 +70,9 @@ impl Store {
     /// Makes the folder, or refuses one of another sweep.
     pub(crate) fn open(folder: &Path, identity: &str) -> Result<Self, SweepError> {
         for folder in [folder, &folder.join("parts"), &folder.join("images")] {
+            if folder.exists() && !folder.is_dir() {
+                return Err(io_error(folder)(ErrorKind::NotADirectory.into()));
+            }
             fs::create_dir_all(folder).map_err(io_error(folder))?;
         }
         let store = Self { folder: folder.to_owned() };

@@ -31,14 +31,15 @@ impl Args {
 
 impl Compare {
     fn roles(&self) -> Roles {
-        let roles = Roles::default().writes("-o", self.output.as_ref().map(|(path, _)| &**path));
+        let output = self.output.as_ref().map(|(path, _)| &**path);
+        let roles = Roles::default().prints(true).writes("-o", output);
         roles.reads("the image A", Some(&self.a.0)).reads("the reference B", Some(&self.b.0))
     }
 }
 
 impl Info {
-    fn roles(&self) -> Roles {
-        Roles::default().reads("the scene", Some(&self.scene))
+    pub(crate) fn roles(&self) -> Roles {
+        Roles::default().prints(true).reads("the scene", Some(&self.scene))
     }
 }
 
@@ -52,8 +53,8 @@ impl Convert {
 impl Measure {
     pub(crate) fn roles(&self) -> Roles {
         let outputs = foton_measure::sweep::files_in(&self.output, self.reference.is_some());
-        let roles =
-            outputs.iter().fold(Roles::default(), |roles, file| roles.writes("-o with its", Some(file)));
+        let roles = Roles::default().prints(self.json).writes("-o", Some(&self.output));
+        let roles = outputs.iter().fold(roles, |roles, file| roles.writes("-o with its", Some(file)));
         roles.reads("--reference", self.reference.as_deref()).reads("the scene", Some(&self.scene))
     }
 }
@@ -88,6 +89,7 @@ impl Render {
     /// The files that are named; those that the scene names are known once it was read.
     pub(crate) fn roles(&self) -> Roles {
         Roles::default()
+            .prints(self.json)
             .writes("-o", Some(&self.output.0))
             .keeps(self.checkpoint.as_deref())
             .writes_numbered(&self.output.0, self.every)

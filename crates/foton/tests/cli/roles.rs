@@ -214,6 +214,13 @@ fn a_sweep_writes_over_none_of_its_inputs() {
                 "-o with its dir/summary.csv and the scene dir/summary.csv",
             ),
             (
+                2,
+                "measure scene.xml -o ./scene.xml",
+                "-o ./scene.xml and the scene scene.xml are the same file",
+            ),
+            (1, "measure scene.xml -o gem.obj", "-o gem.obj and the scene's file gem.obj are the same file"),
+            (1, "measure scene.xml -o other.exr", "other.exr: not a directory"),
+            (
                 1,
                 "measure dir/part.xml -o dir",
                 "-o with its dir/parts/00000500-runs.csv and the scene's file",
@@ -285,4 +292,8 @@ fn standard_output_is_no_file_that_is_read_or_written() {
     }
     assert!(contents(&folder) == before, "every file is as it was");
     assert_eq!(run("log.txt", "info scene.xml").0, Some(0));
+    // Where nothing is printed, an image may be meant to go there.
+    std::os::unix::fs::symlink("/dev/stdout", folder.file("out.exr")).expect("a link");
+    let (code, said) = run("y.exr", "render scene.xml --passes 1 --photons 500 -o out.exr");
+    assert!(code == Some(0) && folder.exr("y.exr").0.width > 0, "{said}");
 }
