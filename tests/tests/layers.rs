@@ -45,6 +45,7 @@ const OWNED: &[(&str, &str)] = &[
     ("clap", "foton"),
     ("indicatif", "foton"),
     ("ctrlc", "foton"),
+    ("signal-hook", "foton"),
     ("egui", "foton-preview"),
     ("egui-wgpu", "foton-preview"),
     ("egui-winit", "foton-preview"),

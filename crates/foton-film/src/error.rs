@@ -24,6 +24,24 @@ pub enum WriteError {
         /// The file asked for.
         path: PathBuf,
     },
+    /// Nothing can be made beside the file, which is written anew and renamed, so that no reader meets half of it.
+    #[error("cannot write {}: nothing can be made in its folder {}: {cause}", path.display(), folder.display())]
+    Folder {
+        /// The file asked for.
+        path: PathBuf,
+        /// Its folder, with links followed.
+        folder: PathBuf,
+        /// What the system said.
+        cause: io::Error,
+    },
+    /// It is something that no file can be written to.
+    #[error("cannot write {}: it is {what}", path.display())]
+    Special {
+        /// The file asked for.
+        path: PathBuf,
+        /// What it is.
+        what: &'static str,
+    },
     /// The operating system refused.
     #[error("cannot write {}: {cause}", path.display())]
     Io {

@@ -39,7 +39,7 @@ mod png_read;
 mod png_write;
 pub mod tone_map;
 
-pub use atomic::{atomic_write, check_writable};
+pub use atomic::{atomic_write, check_writable, create_log, is_same_file, stands_for, write_spare};
 pub use error::{ContentError, ReadError, WriteError};
 pub use exr_read::read_exr;
 pub use exr_write::write_exr;

@@ -122,6 +122,7 @@ pub(crate) fn open(
         document,
         nodes,
         path: None,
+        files: Vec::new(),
         options: options.clone(),
         suggested: Suggested::default(),
         warnings,

@@ -53,6 +53,7 @@ mod values;
 mod words;
 mod write;
 
+use std::cell::RefCell;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -114,6 +115,8 @@ pub struct Opened {
     pub nodes: SceneNodes,
     /// The scene file; `None` for a scene from memory and for a mesh file.
     pub path: Option<PathBuf>,
+    /// All files of the disk that were read for it, itself among them: what is written must be none of these.
+    pub files: Vec<PathBuf>,
     /// How it was read.
     pub options: Options,
     /// Settings that the file asks for.
@@ -169,13 +172,23 @@ pub struct SceneNodes {
 /// # Errors
 /// Everything that is wrong with the file, unless it is not well-formed XML: then the first problem.
 pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
+    let files = RefCell::new(Vec::new());
+    let opened = open_with(path, options, &|file| {
+        let bytes = options.read(file)?;
+        files.borrow_mut().push(file.to_owned());
+        Ok(bytes)
+    })?;
+    Ok(Opened { files: files.into_inner(), ..opened })
+}
+
+fn open_with(path: &Path, options: &Options, files: &ReadFile<'_>) -> Result<Opened, OpenError> {
     if let Some(kind) = bare::Kind::of(path) {
-        return bare::open(path, kind, &|file| options.read(file), options);
+        return bare::open(path, kind, files, options);
     }
     let name = path.to_string_lossy();
     let folder = path.parent().unwrap_or(Path::new(""));
     let report = Report::new(&name, folder);
-    let text = match options.read(path).map(String::from_utf8) {
+    let text = match files(path).map(String::from_utf8) {
         Ok(Ok(text)) => text,
         Ok(Err(error)) => {
             let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
@@ -185,7 +198,7 @@ pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
         }
         Err(error) => return Err(report.fail(Place::default(), format!("cannot be read: {error}"))),
     };
-    let opened = read(report, &text, &|file| options.read(file), options)?;
+    let opened = read(report, &text, files, options)?;
     Ok(Opened { path: Some(path.to_owned()), ..opened })
 }
 
@@ -217,7 +230,8 @@ fn read(mut report: Report, xml: &str, files: &ReadFile<'_>, options: &Options) 
         *node = expanded.origin(*node);
     }
     let options = options.clone();
-    Ok(Opened { description, document, nodes, path: None, options, suggested, warnings, source_hash })
+    let (path, files) = (None, Vec::new());
+    Ok(Opened { description, document, nodes, path, files, options, suggested, warnings, source_hash })
 }
 
 fn source_hash(xml: &str, options: &Options, files: Fnv1a) -> u64 {

@@ -117,6 +117,23 @@ fn an_unedited_scene_is_saved_as_it_was() {
 }
 
 #[test]
+fn a_scene_is_not_saved_over_a_mesh_that_it_reads() {
+    let folder = Folder::new("over-mesh");
+    let opened = read(&folder.path());
+    let mesh = folder.0.join("scene/meshes/tile.obj");
+    let other = folder.0.join("scene/tile.xml");
+    fs::hard_link(&mesh, &other).unwrap();
+    for path in [&mesh, &other, &folder.0.join("scene/../scene/meshes/tile.obj")] {
+        let error = save_edited(&opened, &opened.description, path).unwrap_err().to_string();
+        let said = format!("cannot write {}: it is a file that the scene reads", path.display());
+        assert_eq!(error, said);
+    }
+    assert_eq!(fs::read_to_string(&mesh).unwrap(), TILE);
+    // Its own file is what saving is for.
+    assert_eq!(save_edited(&opened, &opened.description, &folder.path()).unwrap(), Saved::Changed);
+}
+
+#[test]
 fn a_moved_shape_changes_its_own_lines() {
     let folder = Folder::new("moved");
     let lines = changed_lines(&folder, |d| {

@@ -38,7 +38,7 @@ fn read(path: &Path) -> SceneDescription {
 
 fn written_and_read(scene: &SceneDescription, folder: &Folder, name: &str) -> SceneDescription {
     let path = folder.0.join(name);
-    write_scene(scene, &path).unwrap();
+    write_scene(scene, &path, &[]).unwrap();
     read(&path)
 }
 
@@ -281,7 +281,7 @@ fn everything_that_a_description_can_hold_is_written() {
 #[test]
 fn files_that_several_things_share_are_written_once() {
     let folder = Folder::new("shared");
-    write_scene(&everything(), &folder.0.join("s.xml")).unwrap();
+    write_scene(&everything(), &folder.0.join("s.xml"), &[]).unwrap();
     let names = |inside: &str| {
         let mut names: Vec<_> = fs::read_dir(folder.0.join(inside))
             .unwrap()
@@ -295,11 +295,42 @@ fn files_that_several_things_share_are_written_once() {
     assert_eq!(names(""), ["meshes", "s.xml", "textures"]);
 }
 
+/// A scene's own meshes and images stay when it is written beside them under its own name.
+#[test]
+fn files_that_a_scene_is_made_of_are_known_and_not_written_to() {
+    let folder = Folder::new("kept");
+    let path = folder.0.join("s.xml");
+    write_scene(&everything(), &path, &[]).unwrap();
+    let opened = open(&path, &Options::default()).unwrap_or_else(|e| panic!("{e}"));
+    let mut files: Vec<String> = opened
+        .files
+        .iter()
+        .map(|f| f.strip_prefix(&folder.0).unwrap().display().to_string().replace('\\', "/"))
+        .collect();
+    files.sort();
+    files.dedup();
+    let meshes = ["meshes/s-__b-3.ply", "meshes/s-__b-4.ply", "meshes/s-unnamed-4.ply"];
+    assert_eq!(files, [&meshes[..], &["s.xml", "textures/s-t.exr"]].concat());
+    // Whatever was overwritten would not be this any more.
+    let marked: Vec<PathBuf> = meshes.iter().chain(&["textures/s-t.exr"]).map(|f| folder.0.join(f)).collect();
+    for file in &marked {
+        fs::write(file, "kept").unwrap();
+    }
+    write_scene(&opened.description, &path, &opened.files).unwrap();
+    for file in &marked {
+        assert_eq!(fs::read_to_string(file).unwrap(), "kept", "{}", file.display());
+    }
+    assert_same(&opened.description, &read(&path));
+    // Without a word they are replaced, as those of an earlier conversion are.
+    write_scene(&opened.description, &path, &[]).unwrap();
+    assert!(marked.iter().all(|file| fs::read(file).unwrap() != b"kept"));
+}
+
 #[test]
 fn a_scene_that_cannot_be_written_leaves_no_scene_file() {
     let folder = Folder::new("no-folder");
     fs::write(folder.0.join("meshes"), "in the way").unwrap();
-    let error = write_scene(&everything(), &folder.0.join("s.xml")).unwrap_err().to_string();
+    let error = write_scene(&everything(), &folder.0.join("s.xml"), &[]).unwrap_err().to_string();
     assert!(error.starts_with("cannot write ") && error.contains("meshes"), "{error}");
     assert!(!folder.0.join("s.xml").exists());
 }

@@ -11,4 +11,4 @@ mod present;
 mod state;
 mod window;
 
-pub use window::{Options, WindowError, run};
+pub use window::{Close, Options, WindowError, run};

@@ -1,5 +1,6 @@
 //! Image files: which format, which name, what goes in.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use foton_film::tone_map::ToneMap;
@@ -54,15 +55,29 @@ pub fn write(
 /// `OUT-000016.exr` for `OUT.exr` after 16 passes.
 #[must_use]
 pub fn numbered(path: &Path, pass: u64) -> PathBuf {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let extension = path.extension().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!("{stem}-{pass:06}.{extension}"))
+    // Names need not be text.
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{pass:06}."));
+    name.push(path.extension().unwrap_or_default());
+    path.with_file_name(name)
+}
+
+/// The pass of which a file of that name would be [`numbered`] for `path`, if of any.
+#[must_use]
+pub fn pass_of(path: &Path, name: &OsStr) -> Option<u64> {
+    let stem = path.file_stem()?.as_encoded_bytes();
+    let rest = name.as_encoded_bytes().strip_prefix(stem)?.strip_prefix(b"-")?;
+    let digits = rest.iter().take_while(|b| b.is_ascii_digit()).count();
+    let pass = std::str::from_utf8(&rest[..digits]).ok()?.parse().ok()?;
+    (numbered(path, pass).file_name() == Some(name)).then_some(pass)
 }
 
 /// `foton-001` with the next number of which neither a PNG nor an EXR is there.
 #[must_use]
 pub fn next_free(folder: &Path) -> PathBuf {
-    let taken = |stem: &Path| ["png", "exr"].iter().any(|e| stem.with_extension(e).exists());
+    // A link to what is not there is somebody's, too.
+    let taken =
+        |stem: &Path| ["png", "exr"].iter().any(|e| stem.with_extension(e).symlink_metadata().is_ok());
     (1u32..).map(|n| folder.join(format!("foton-{n:03}"))).find(|stem| !taken(stem)).unwrap_or_default()
 }
 
@@ -73,6 +88,13 @@ mod tests {
     #[test]
     fn names_carry_the_pass_and_the_format() {
         assert_eq!(numbered(Path::new("a/b.c.exr"), 16), Path::new("a/b.c-000016.exr"));
+        let pass = |name: &str| pass_of(Path::new("a/b.c.exr"), OsStr::new(name));
+        assert_eq!((pass("b.c-000016.exr"), pass("b.c-1234567.exr")), (Some(16), Some(1_234_567)));
+        for other in
+            ["b.c-16.exr", "b.c-0000016.exr", "b.c-000016.png", "b-000016.exr", "b.c-.exr", "b.c.exr"]
+        {
+            assert_eq!(pass(other), None, "{other}");
+        }
         assert_eq!(Format::of(Path::new("x.PNG")), Some(Format::Png));
         assert_eq!((Format::of(Path::new("x.jpg")), Format::of(Path::new("exr"))), (None, None));
     }

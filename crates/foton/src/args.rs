@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 use std::time::Duration;
 
+use clap::builder::{OsStringValueParser, TypedValueParser};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use foton_integrator::{Alpha, DirectLight, LayerKind, RadiusFloor, RadiusRule, RadiusScale, RenderSettings};
 use foton_session::Preset;
@@ -48,13 +49,13 @@ pub(crate) enum Command {
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Compare {
     /// Image to judge, .exr or .png
-    #[arg(value_parser = image)]
+    #[arg(value_parser = name(image))]
     pub(crate) a: (PathBuf, Format),
     /// Its reference, .exr or .png
-    #[arg(value_parser = image)]
+    #[arg(value_parser = name(image))]
     pub(crate) b: (PathBuf, Format),
     /// Picture of where they differ, .png (relative error as colours) or .exr (the numbers)
-    #[arg(short, value_name = "DIFF.{exr,png}", value_parser = image)]
+    #[arg(short, value_name = "DIFF.{exr,png}", value_parser = name(image))]
     pub(crate) output: Option<(PathBuf, Format)>,
     /// Print one JSON object on stdout
     #[arg(long)]
@@ -67,7 +68,7 @@ pub(crate) struct Convert {
     /// Scene file to read: Mitsuba XML, OBJ, PLY or STL
     pub(crate) scene: PathBuf,
     /// Scene file to write; meshes and textures go into folders beside it
-    #[arg(value_name = "OUT.xml", value_parser = xml)]
+    #[arg(value_name = "OUT.xml", value_parser = name(xml))]
     pub(crate) output: PathBuf,
     /// Set a parameter of the scene file
     #[arg(short = 'D', value_name = "name=value", value_parser = define)]
@@ -98,8 +99,9 @@ pub(crate) struct Info {
 pub(crate) struct RenderArgs {
     /// Scene file (Mitsuba 3 XML)
     pub(crate) scene: PathBuf,
-    /// Image to write, .exr (linear radiance) or .png (tone-mapped)
-    #[arg(short, value_name = "OUT.{exr,png}", value_parser = image)]
+    /// Image to write, .exr (linear radiance) or .png (tone-mapped). Here and elsewhere links are followed, also one to a file that
+    /// is not there yet, and a file that anything is read from is not written to
+    #[arg(short, value_name = "OUT.{exr,png}", value_parser = name(image))]
     pub(crate) output: (PathBuf, Format),
     /// Stop after this many passes
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
@@ -154,7 +156,7 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "HOW", value_enum, default_value_t = Direct::Photons)]
     pub(crate) direct: Direct,
     /// How light is transported; more than progressive photon mapping is to come
-    #[arg(long, value_name = "NAME", value_enum, default_value_t = Integrator::Ppm)]
+    #[arg(long, value_name = "NAME", value_enum, default_value_t = Integrator::Render)]
     pub(crate) integrator: Integrator,
     /// The sensor to look through, by its id [the first]
     #[arg(long, value_name = "NAME")]
@@ -289,7 +291,7 @@ impl From<RadiusRule> for Rule {
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum Integrator {
     /// Progressive photon mapping
-    Ppm,
+    Render,
 }
 
 impl From<Direct> for DirectLight {
@@ -329,6 +331,14 @@ pub(crate) enum Every {
 }
 
 impl Every {
+    /// The first pass after which an image is due.
+    pub(crate) const fn first(self) -> u64 {
+        match self {
+            Self::PowersOfTwo => 1,
+            Self::Nth(n) => n,
+        }
+    }
+
     /// Whether an image is due after `pass` passes.
     pub(crate) const fn is_due(self, pass: u64) -> bool {
         match self {
@@ -374,21 +384,25 @@ fn radius(s: &str) -> Result<Radius, String> {
     wish.ok_or_else(|| "expected a length above 0 in world units, or a factor such as x0.5".to_owned())
 }
 
-fn exr(s: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(s);
+/// A parser of file names, which need not be text.
+fn name<T: Clone + Send + Sync + 'static>(
+    parse: impl Fn(PathBuf) -> Result<T, String> + Clone + Send + Sync + 'static,
+) -> impl TypedValueParser<Value = T> {
+    OsStringValueParser::new().try_map(move |name| parse(name.into()))
+}
+
+fn exr(path: PathBuf) -> Result<PathBuf, String> {
     let fits = Format::of(&path) == Some(Format::Exr);
     fits.then_some(path)
         .ok_or_else(|| "expected a name that ends in .exr: only those hold radiance".to_owned())
 }
 
-fn image(s: &str) -> Result<(PathBuf, Format), String> {
-    let path = PathBuf::from(s);
+fn image(path: PathBuf) -> Result<(PathBuf, Format), String> {
     let format = Format::of(&path).ok_or_else(|| "expected a name that ends in .exr or .png".to_owned())?;
     Ok((path, format))
 }
 
-fn xml(s: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(s);
+fn xml(path: PathBuf) -> Result<PathBuf, String> {
     let fits = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xml"));
     fits.then_some(path).ok_or_else(|| "expected a name that ends in .xml".to_owned())
 }
@@ -473,7 +487,7 @@ mod tests {
         for bad in ["0", "-1", "x", "x0", "0.5x", "xNaN", "inf"] {
             assert!(radius(bad).is_err(), "{bad}");
         }
-        assert!(exr("a.exr").is_ok() && exr("a.png").is_err());
+        assert!(exr("a.exr".into()).is_ok() && exr("a.png".into()).is_err());
         for bad in ["0", "1.01", "NaN", "-1"] {
             assert!(alpha(bad).is_err(), "{bad}");
         }

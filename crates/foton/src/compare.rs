@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use foton_film::{
-    Image, Layer, LayerData, Metadata, ReadError, ToneMap, WriteError, read_exr, read_png, write_exr,
-    write_png,
+    Image, Layer, LayerData, Metadata, ReadError, ToneMap, WriteError, check_writable, read_exr, read_png,
+    write_exr, write_png,
 };
 use foton_measure::{Channels, Flip, Pair, heat, scale_top};
 use foton_session::snapshot::Format;
@@ -15,6 +15,7 @@ use crate::talk::{Failure, Talk};
 
 /// Runs `foton compare`.
 pub(crate) fn run(args: &Compare, talk: &Talk) -> Result<(), Failure> {
+    args.output.as_ref().map_or(Ok(()), |(path, _)| check_writable(path))?;
     let (a, b) = (read(&args.a)?, read(&args.b)?);
     let pair = Pair::new(&a, &b).map_err(|cause| Failure::Compare {
         a: args.a.0.display().to_string(),
@@ -26,18 +27,22 @@ pub(crate) fn run(args: &Compare, talk: &Talk) -> Result<(), Failure> {
     }
     let figures = Figures::of(&pair);
     let top = scale_top(&pair.relative_error());
-    if let Some((path, format)) = &args.output {
-        write(path, *format, &pair, &figures.flip, top)?;
-    }
+    // What was found is said, whatever becomes of the picture.
+    let written = args.output.as_ref().map(|(path, format)| write(path, *format, &pair, &figures.flip, top));
+    let written = written.transpose();
+    let output = args.output.as_ref().filter(|_| written.is_ok());
     if args.json {
-        talk.event(&as_json(args, &a, &pair, &figures, top));
+        talk.event(&as_json(args, output, &a, &pair, &figures, top));
     } else {
-        for line in as_text(args, &a, &figures, top) {
+        for line in as_text(args, output, &a, &figures, top) {
             talk.out(&line);
         }
     }
-    Ok(())
+    Ok(written.map(drop)?)
 }
+
+/// The picture that was written, and how.
+type Output<'a> = Option<&'a (PathBuf, Format)>;
 
 fn read((path, format): &(PathBuf, Format)) -> Result<Image, ReadError> {
     match format {
@@ -96,7 +101,7 @@ impl Figures {
     }
 }
 
-fn as_text(args: &Compare, a: &Image, figures: &Figures, top: f32) -> Vec<String> {
+fn as_text(args: &Compare, output: Output<'_>, a: &Image, figures: &Figures, top: f32) -> Vec<String> {
     let row = |name: &str, c: &Channels| {
         let cells = c.rgb.iter().chain([&c.all]).map(|&v| cell(v));
         format!("{name:<8}{}", cells.collect::<String>())
@@ -114,7 +119,7 @@ fn as_text(args: &Compare, a: &Image, figures: &Figures, top: f32) -> Vec<String
         row("relMSE", &figures.rel_mse),
         format!("{:<44}{}", "FLIP", cell(figures.flip.mean)),
     ];
-    if let Some((path, format)) = &args.output {
+    if let Some((path, format)) = output {
         lines.push(String::new());
         lines.push(match format {
             Format::Png => format!(
@@ -140,7 +145,14 @@ fn cell(v: f64) -> String {
     }
 }
 
-fn as_json(args: &Compare, a: &Image, pair: &Pair<'_>, figures: &Figures, top: f32) -> Value {
+fn as_json(
+    args: &Compare,
+    output: Output<'_>,
+    a: &Image,
+    pair: &Pair<'_>,
+    figures: &Figures,
+    top: f32,
+) -> Value {
     let channels = |c: &Channels| json!({ "rgb": c.rgb, "all": c.all });
     let n = pair.non_finite();
     json!({
@@ -156,8 +168,8 @@ fn as_json(args: &Compare, a: &Image, pair: &Pair<'_>, figures: &Figures, top: f
         "rmse": channels(&figures.rmse),
         "rel_mse": channels(&figures.rel_mse),
         "flip": figures.flip.mean,
-        "output": args.output.as_ref().map(|(path, _)| path.display().to_string()),
-        "scale_top": args.output.as_ref().map(|_| top),
+        "output": output.map(|(path, _)| path.display().to_string()),
+        "scale_top": output.map(|_| top),
     })
 }
 

@@ -1,15 +1,18 @@
 //! `foton convert`: any readable scene to Mitsuba 3 XML with PLY meshes.
 
+use foton_film::check_writable;
 use foton_scene::Scene;
 
 use crate::args::Convert;
-use crate::job::open;
+use crate::job::{open, refuse_two_roles};
 use crate::memory;
 use crate::talk::{Failure, Talk};
 
 /// Runs `foton convert`.
 pub(crate) fn run(args: &Convert, talk: &Talk) -> Result<(), Failure> {
+    check_writable(&args.output)?;
     let opened = open(&args.scene, &args.defines, None)?;
+    refuse_two_roles(args.roles(), &opened)?;
     for finding in &opened.warnings {
         talk.finding(finding);
     }
@@ -17,7 +20,7 @@ pub(crate) fn run(args: &Convert, talk: &Talk) -> Result<(), Failure> {
     memory::refuse_to_build(&opened.description, None)?;
     let scene = args.scene.display().to_string();
     Scene::build(&opened.description).map_err(|cause| Failure::of_build(&opened, &scene, &cause))?;
-    foton_format::write_scene(&opened.description, &args.output)?;
+    foton_format::write_scene(&opened.description, &args.output, &opened.files)?;
     talk.line(&format!("wrote {}", args.output.display()));
     Ok(())
 }

@@ -10,7 +10,7 @@ use foton_session::Session;
 use serde_json::{Value, json};
 
 use crate::args::Info;
-use crate::job::{build, choose_sensor, open};
+use crate::job::{build, choose_sensor, open, refuse_two_roles};
 use crate::talk::{Failure, Talk};
 
 /// Longest side, in pixels, of the picture that tells what each emitter's photons are good for.
@@ -20,6 +20,7 @@ const PROBE_PHOTONS: NonZeroU32 = NonZeroU32::new(1 << 14).expect("above 0");
 /// Runs `foton info`.
 pub(crate) fn print(args: &Info, talk: &Talk) -> Result<(), Failure> {
     let opened = open(&args.scene, &args.defines, args.memory)?;
+    refuse_two_roles(args.roles(), &opened)?;
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let probed = opened.description.clone();

@@ -5,15 +5,17 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use foton_film::check_writable;
+use foton_film::{check_writable, write_spare};
 use foton_format::{Opened, Options, Severity, Suggested};
 use foton_integrator::{Alpha, Cancelled, LayerKind, PpmSettings, Render, RenderSettings, SettingChange};
 use foton_scene::Scene;
 use foton_session::snapshot::{self, Format};
-use foton_session::{Interrupt, Preset, SceneIdentity, Session, StartError, StopRule, checkpoint};
+use foton_session::{Interrupt, Preset, SceneIdentity, Session, StartError, StopCause, StopRule, checkpoint};
 
 use crate::args::{ErrorWish, Radius, RenderArgs, Size};
 use crate::memory;
+use crate::roles::Roles;
+use crate::signals;
 use crate::talk::{Failure, Talk};
 
 /// How long a render without a stop rule takes.
@@ -27,7 +29,11 @@ pub(crate) fn render(args: &RenderArgs, talk: &mut Talk) -> Result<(), Failure> 
     let (path, format) = &args.output;
     check_writable(path)?;
     args.checkpoint.as_deref().map_or(Ok(()), check_writable)?;
+    if let Some(every) = args.every {
+        check_writable(&snapshot::numbered(path, every.first()))?;
+    }
     let opened = open(&args.scene, &args.defines, args.memory)?;
+    refuse_two_roles(args.roles(), &opened)?;
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let suggested = opened.suggested;
@@ -99,7 +105,7 @@ pub(crate) fn render(args: &RenderArgs, talk: &mut Talk) -> Result<(), Failure> 
     let mut keeper = Keeper::new(args, session.elapsed());
     let layers = if *format == Format::Exr { &args.layers[..] } else { &[] };
     let mut outputs = Vec::new();
-    session.run(&rule, &interrupt, &mut |progress| {
+    let cause = session.run(&rule, &interrupt, &mut |progress| {
         talk.pass(progress, &rule);
         if args.every.is_some_and(|e| e.is_due(progress.report.pass)) {
             let path = snapshot::numbered(path, progress.report.pass);
@@ -113,9 +119,10 @@ pub(crate) fn render(args: &RenderArgs, talk: &mut Talk) -> Result<(), Failure> 
             keeper.keep(progress.render, progress.elapsed, progress.rays, &identity, talk);
         }
     });
+    say_limit(cause, talk);
     // After a fault hit points may be half-way between two passes: the last checkpoint is the one to go on from.
     if session.panic().is_none() && session.not_finite().is_none() {
-        keeper.keep(session.render(), session.elapsed(), session.rays(), &identity, talk);
+        keeper.keep_last(&session, &identity, talk);
     }
     finish(&session, &[(path.clone(), *format)], layers, &identity, outputs, talk)
 }
@@ -169,6 +176,30 @@ impl<'a> Keeper<'a> {
         if let Err(error) = checkpoint::write(path, render, elapsed, rays, scene) {
             talk.warning(&format!("no checkpoint: {error}"));
         }
+    }
+
+    /// Writes the last one, in another place if need be: there is no next one that could make up for it.
+    fn keep_last(&self, session: &Session, scene: &SceneIdentity, talk: &Talk) {
+        let Some(path) = self.path.filter(|_| session.render().passes() > 0) else { return };
+        let write =
+            |path: &Path| checkpoint::write(path, session.render(), session.elapsed(), session.rays(), scene);
+        if let Err(error) = write(path) {
+            let instead = write_spare(path, write)
+                .map_or_else(String::new, |spare| format!("; the state is in {} instead", spare.display()));
+            talk.warning(&format!("no checkpoint: {error}{instead}"));
+        }
+    }
+}
+
+/// Refuses to write to a file that the scene was read from.
+pub(crate) fn refuse_two_roles(roles: Roles, opened: &Opened) -> Result<(), Failure> {
+    roles.scene_reads(&opened.files).clash().map_or(Ok(()), |clash| Err(Failure::Roles(clash)))
+}
+
+/// Says that a limit of the system ended a render, if one did.
+pub(crate) fn say_limit(cause: StopCause, talk: &Talk) {
+    if let Some(why) = signals::limit().filter(|_| cause == StopCause::Interrupted) {
+        talk.warning(&format!("the render ends early: {why}"));
     }
 }
 
@@ -257,11 +288,11 @@ pub(crate) fn refuse_beyond_memory(
     refusal.map_or(Ok(()), |why| Err(Failure::Memory(why)))
 }
 
-/// Ctrl-C and SIGTERM end the render after its pass; a second one discards the pass.
+/// Ctrl-C, SIGTERM and the limits of the system end the render after its pass; a second one discards the pass.
 pub(crate) fn interrupt_on_signals(talk: &Talk) -> Interrupt {
     let interrupt = Interrupt::default();
     let handler = interrupt.clone();
-    if let Err(error) = ctrlc::set_handler(move || handler.request()) {
+    if let Err(error) = signals::on_end(move || handler.request()) {
         talk.warning(&format!("Ctrl-C will not be handled: {error}"));
     }
     interrupt
@@ -295,9 +326,12 @@ pub(crate) fn finish(
         match snapshot::write(path, *format, session.render(), layers, identity) {
             Ok(()) => outputs.push(path.display().to_string()),
             Err(error) => {
-                if let Some(spare) = rescue(path, *format, session, layers, identity) {
-                    talk.warning(&format!("{error}; the image is {} instead", spare.display()));
-                    outputs.push(spare.display().to_string());
+                match rescue(path, *format, session, layers, identity) {
+                    Some((what, spare)) => {
+                        talk.warning(&format!("{error}; the {what} is {} instead", spare.display()));
+                        outputs.push(spare.display().to_string());
+                    }
+                    None => talk.warning(&format!("{error}; nor can it be written anywhere else")),
                 }
                 if let Some(earlier) = unwritten.replace(error) {
                     talk.warning(&earlier.to_string());
@@ -314,20 +348,27 @@ pub(crate) fn finish(
     fault(Some(session.render().passes())).map_or(Ok(()), Err)
 }
 
-/// Writes an image that cannot be written where it was asked for into the system's folder for temporary files, under a name that
-/// nobody has: hours of rendering are not lost with a folder. `None` where there is no room either.
+/// Writes an image that cannot be written where it was asked for beside that place, or into the system's folder for temporary files:
+/// hours of rendering are not lost with a folder. What an image cannot hold is left out; the state of the render comes last. Says what
+/// was written and where; `None` where there is no room for any.
 fn rescue(
     path: &Path,
     format: Format,
     session: &Session,
     layers: &[LayerKind],
     identity: &SceneIdentity,
-) -> Option<PathBuf> {
-    const NAMES: u32 = 1000;
-    let (stem, extension) = (path.file_stem()?.to_string_lossy(), path.extension()?.to_string_lossy());
-    let spare = (1..NAMES)
-        .map(|n| std::env::temp_dir().join(format!("foton-{stem}-{n:03}.{extension}")))
-        .find(|spare| !spare.exists())?;
-    snapshot::write(&spare, format, session.render(), layers, identity).ok()?;
-    Some(spare)
+) -> Option<(&'static str, PathBuf)> {
+    let render = session.render();
+    let image = write_spare(path, |path| snapshot::write(path, format, render, layers, identity));
+    let image = image.or_else(|| {
+        let path = path.with_extension("exr");
+        write_spare(&path, |path| snapshot::write(path, Format::Exr, render, &[], identity))
+    });
+    let state = || {
+        let path = path.with_extension("checkpoint");
+        write_spare(&path, |path| {
+            checkpoint::write(path, render, session.elapsed(), session.rays(), identity)
+        })
+    };
+    image.map(|image| ("image", image)).or_else(|| Some(("state of the render", state()?)))
 }

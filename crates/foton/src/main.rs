@@ -1,6 +1,7 @@
 //! The `foton` command: reads arguments, renders, says how it goes.
 //!
-//! Exit codes: 0 done, 1 could not render or compare, 2 bad usage.
+//! Exit codes: 0 done, 1 could not render or compare or write what was asked for, 2 bad usage. A render that a signal ended, and
+//! whose image was written, is done.
 
 mod args;
 mod compare;
@@ -12,6 +13,8 @@ mod job;
 mod measure;
 mod memory;
 mod quick;
+mod roles;
+mod signals;
 mod talk;
 #[cfg(feature = "window")]
 mod window;
@@ -29,7 +32,7 @@ fn live(args: &Args, talk: &mut Talk) -> Result<(), Failure> {
     #[cfg(feature = "window")]
     match window::show(args.scene.as_deref(), args.frame_log.as_deref()) {
         Ok(()) => return Ok(()),
-        Err(error @ foton_preview::WindowError::Log { .. }) => {
+        Err(error @ foton_preview::WindowError::Log(_)) => {
             return Err(Failure::Window(error.to_string()));
         }
         Err(error) => talk.line(&error.to_string()),
@@ -38,16 +41,15 @@ fn live(args: &Args, talk: &mut Talk) -> Result<(), Failure> {
 }
 
 fn main() -> ExitCode {
+    signals::outlive_file_limit();
     let args = Args::parse();
-    if let Some(Command::Render(render)) = &args.command
-        && let Some(message) = render.contradiction()
-    {
+    if let Some((name, message)) = args.contradiction() {
         let mut command = Args::command();
         command.build();
-        let render = command
-            .find_subcommand_mut("render")
-            .map(|render| render.error(ErrorKind::ArgumentConflict, &message));
-        render.unwrap_or_else(|| command.error(ErrorKind::ArgumentConflict, message)).exit();
+        let error = name
+            .and_then(|name| command.find_subcommand_mut(name))
+            .map(|command| command.error(ErrorKind::ArgumentConflict, &message));
+        error.unwrap_or_else(|| command.error(ErrorKind::ArgumentConflict, message)).exit();
     }
     let (result, mut talk) = match &args.command {
         Some(Command::Render(render)) => {
@@ -75,6 +77,9 @@ fn main() -> ExitCode {
             (live(&args, &mut talk), talk)
         }
     };
+    // What was asked for on standard output and is not there was not done.
+    let lost = talk.lost().map(|cause| Failure::StandardOutput(cause.to_owned()));
+    let result = result.and_then(|()| lost.map_or(Ok(()), Err));
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {

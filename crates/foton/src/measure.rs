@@ -5,11 +5,11 @@ use std::num::NonZeroU32;
 use foton_film::read_exr;
 use foton_integrator::{Alpha, PpmSettings, RenderSettings};
 use foton_measure::sweep::{Event, Outcome, Sweep};
-use foton_session::{Session, StartError};
+use foton_session::{Session, StartError, StopCause};
 use serde_json::json;
 
 use crate::args::{Measure, Radius};
-use crate::job::{build, choose_sensor, interrupt_on_signals, open};
+use crate::job::{build, choose_sensor, interrupt_on_signals, open, refuse_two_roles, say_limit};
 use crate::memory;
 use crate::talk::{Failure, Talk};
 
@@ -17,6 +17,7 @@ use crate::talk::{Failure, Talk};
 pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
     let given = args.reference.as_deref().map(read_exr).transpose()?;
     let opened = open(&args.scene, &args.defines, None)?;
+    refuse_two_roles(args.roles(), &opened)?;
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let suggested = opened.suggested;
@@ -69,6 +70,9 @@ pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
         pool.install(|| sweep.run(&|| interrupt.is_requested(), interrupt.cancel(), &mut tell))
     };
     talk.end();
+    if interrupt.is_requested() {
+        say_limit(StopCause::Interrupted, talk);
+    }
     conclude(&outcome?, interrupt.is_requested(), talk);
     Ok(())
 }

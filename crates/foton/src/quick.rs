@@ -10,7 +10,7 @@ use foton_session::snapshot::{self, Format};
 use foton_session::{Session, StopRule};
 
 use crate::embedded::ALL;
-use crate::job::{build, finish, interrupt_on_signals, refuse_beyond_memory};
+use crate::job::{build, finish, interrupt_on_signals, refuse_beyond_memory, say_limit};
 use crate::memory::limit;
 use crate::talk::{Failure, Talk};
 
@@ -34,14 +34,16 @@ pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failur
     refuse_beyond_memory(&scene, &settings, None, None)?;
     let stem = snapshot::next_free(Path::new(""));
     let (png, exr) = (stem.with_extension("png"), stem.with_extension("exr"));
-    check_writable(&png)?;
+    for path in [&png, &exr] {
+        check_writable(path)?;
+    }
     let interrupt = interrupt_on_signals(talk);
     talk.line(&format!("rendering {name} for a minute to {}; Ctrl-C stops earlier", png.display()));
     talk.begin();
     let mut session = Session::start(scene, settings, None, interrupt.cancel())?;
     let rule = StopRule::time(TIME);
     let mut first_picture = false;
-    session.run(&rule, &interrupt, &mut |progress| {
+    let cause = session.run(&rule, &interrupt, &mut |progress| {
         talk.pass(progress, &rule);
         if !first_picture && progress.elapsed >= FIRST_PICTURE {
             first_picture = true;
@@ -50,5 +52,6 @@ pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failur
             }
         }
     });
+    say_limit(cause, talk);
     finish(&session, &[(png, Format::Png), (exr, Format::Exr)], &[], &identity, Vec::new(), talk)
 }

@@ -1,8 +1,9 @@
 //! What the program says: a progress bar on a terminal's stderr, JSON lines on stdout where asked for, findings on stderr.
 
 use std::fmt;
-use std::io::Write;
+use std::io::{self, ErrorKind, Write};
 use std::path::PathBuf;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use foton_film::{ReadError, WriteError};
@@ -17,6 +18,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 
 use crate::figure::{self, add_error, classes_text, error_text, upper_end_text};
+use crate::roles::Clash;
 
 /// Power that is cut off beyond this share of what is emitted is worth a warning.
 const WORTH_A_WARNING: f64 = 1e-3;
@@ -56,6 +58,10 @@ pub(crate) enum Failure {
     Resume(ResumeError),
     Sweep(SweepError),
     Write(WriteError),
+    /// Files in two roles, as known once the scene was read.
+    Roles(Clash),
+    /// Results that standard output did not take.
+    StandardOutput(String),
     Read(ReadError),
     #[cfg(feature = "window")]
     Window(String),
@@ -106,6 +112,8 @@ impl fmt::Display for Failure {
             Self::Resume(cause) => cause.fmt(f),
             Self::Sweep(cause) => cause.fmt(f),
             Self::Write(cause) => cause.fmt(f),
+            Self::Roles(clash) => f.write_str(&clash.message),
+            Self::StandardOutput(cause) => write!(f, "cannot write standard output: {cause}"),
             Self::Read(cause) => cause.fmt(f),
             #[cfg(feature = "window")]
             Self::Window(cause) => cause.fmt(f),
@@ -157,30 +165,49 @@ pub(crate) struct Talk {
     bar: ProgressBar,
     /// Whether it was said that the error stays above its goal.
     said_floor: AtomicBool,
+    /// Why a line on stdout was lost, of the first one.
+    lost: OnceLock<String>,
 }
 
 impl Talk {
     pub(crate) fn new(json: bool) -> Self {
-        Self { json, bar: ProgressBar::hidden(), said_floor: AtomicBool::new(false) }
+        let (said_floor, lost) = (AtomicBool::new(false), OnceLock::new());
+        Self { json, bar: ProgressBar::hidden(), said_floor, lost }
     }
 
     /// A line on stdout: what was asked for.
     pub(crate) fn out(&self, text: &str) {
-        let _ = writeln!(std::io::stdout().lock(), "{text}");
+        let mut stdout = io::stdout().lock();
+        let written = writeln!(stdout, "{text}").and_then(|()| stdout.flush());
+        drop(stdout);
+        match written {
+            Ok(()) => {}
+            // A reader that has gone away has read all that it wanted, and is no reason to stop rendering.
+            Err(cause) if cause.kind() == ErrorKind::BrokenPipe => {}
+            Err(cause) if self.lost.get().is_none() => {
+                self.line(&format!("warning: standard output cannot be written: {cause}"));
+                let _ = self.lost.set(cause.to_string());
+            }
+            Err(_) => {}
+        }
+    }
+
+    /// Why something that belongs on stdout is not there, if it is not.
+    pub(crate) fn lost(&self) -> Option<&str> {
+        self.lost.get().map(String::as_str)
     }
 
     /// A line of JSON, if any was asked for.
     pub(crate) fn event(&self, event: &Value) {
         if self.json {
-            // A reader that has gone away is no reason to stop rendering.
-            let _ = writeln!(std::io::stdout().lock(), "{event}");
+            self.out(&event.to_string());
         }
     }
 
     /// A line on stderr, above the bar.
     pub(crate) fn line(&self, text: &str) {
         self.bar.suspend(|| {
-            let _ = writeln!(std::io::stderr().lock(), "{text}");
+            let _ = writeln!(io::stderr().lock(), "{text}");
         });
     }
 
@@ -223,6 +250,9 @@ impl Talk {
         }
         if let Failure::NotFinite { place, .. } = failure {
             self.event(&not_finite(place));
+        }
+        if let Failure::Roles(clash) = failure {
+            self.json &= !clash.is_standard_output;
         }
         let message = failure.to_string();
         self.event(&json!({ "event": "error", "message": message }));

@@ -4,10 +4,11 @@ use std::any::Any;
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use foton_format::{Opened, Options, Saved, Severity, Suggested, save_edited};
 use foton_integrator::{Alpha, PpmSettings, RenderSettings};
-use foton_preview::WindowError;
+use foton_preview::{Close, WindowError};
 use foton_scene::BuildError;
 use foton_scene::description::SceneDescription;
 use foton_session::SceneIdentity;
@@ -15,17 +16,42 @@ use foton_session::engine::{Loaded, Loader, Source};
 
 use crate::embedded::{self, Embedded};
 use crate::memory;
+use crate::signals;
 
 /// Opens the window on `scene`, or the first of the embedded ones, and stays until it is closed.
 pub(crate) fn show(scene: Option<&Path>, frame_log: Option<&Path>) -> Result<(), WindowError> {
     let first = || Source::BuiltIn(embedded::ALL[0].name.to_owned());
-    foton_preview::run(foton_preview::Options {
+    let outcome = foton_preview::run(foton_preview::Options {
         scene: scene.map_or_else(first, |path| Source::File(path.to_owned())),
         loader: Arc::new(Files),
         built_in: embedded::ALL.iter().map(|scene| scene.name.to_owned()).collect(),
         memory_limit: memory::limit(None),
         frame_log: frame_log.map(PathBuf::from),
-    })
+        closes: close_on_signals,
+    });
+    IS_OPEN.store(false, Ordering::Relaxed);
+    outcome
+}
+
+/// Whether there is a window that signals may close.
+static IS_OPEN: AtomicBool = AtomicBool::new(true);
+
+/// Ctrl-C, SIGTERM and the limits of the system close the window, so that a checkpoint that is kept has the last pass. Asked again,
+/// nothing is waited for. Elsewhere than on Unix only one may listen, and that is the render that goes on where there is no window.
+fn close_on_signals(close: Close) {
+    if cfg!(unix) {
+        let mut asked = false;
+        // Unheard, they end the program as they always did.
+        let _ = signals::on_end(move || {
+            if !IS_OPEN.load(Ordering::Relaxed) {
+                return;
+            }
+            if std::mem::replace(&mut asked, true) {
+                std::process::exit(1);
+            }
+            close();
+        });
+    }
 }
 
 /// Scene files for the window.
@@ -54,6 +80,7 @@ impl Loader for Files {
             description: opened.description.clone(),
             identity: SceneIdentity { name, hash: opened.source_hash },
             settings: settings(&opened.suggested),
+            files: opened.files.clone(),
             warnings: opened.warnings.iter().map(ToString::to_string).collect(),
             origin: Arc::new(opened),
         })

@@ -225,6 +225,12 @@ impl Window {
         })
     }
 
+    /// The number of its process.
+    #[must_use]
+    pub fn process(&self) -> u32 {
+        self.process.id()
+    }
+
     /// Whether the process is still there.
     ///
     /// # Panics

@@ -115,3 +115,12 @@ fn a_dropped_file_is_opened_and_a_bad_one_said(driver: &mut Driver) {
     driver.window.frame("it opened", |f| (f["scene"] == "zwölf % größer #1.xml").then_some(()));
     driver.window.frame("it rendering", |f| (f["activity"] == "rendering").then_some(()));
 }
+
+/// So that what is owed to a checkpoint is written, as with the window's own button.
+#[test]
+fn a_signal_closes_the_window_and_does_not_kill_it() {
+    let (_folder, mut driver) = opened("window-signal", None);
+    let status = Command::new("kill").args(["-TERM", &driver.window.process().to_string()]).status();
+    assert!(status.expect("kill runs").success());
+    assert!(driver.window.end().1, "all was well");
+}

@@ -13,7 +13,7 @@ mod tree;
 use std::io::Write;
 use std::path::{Component, Path, PathBuf};
 
-use foton_film::{WriteError, atomic_write};
+use foton_film::{WriteError, atomic_write, is_same_file};
 use foton_scene::description::SceneDescription;
 
 use crate::diagnostic::Report;
@@ -39,7 +39,7 @@ pub enum Saved {
 /// [`write_scene`] does. Defines that it was opened with become the defaults of its parameters.
 ///
 /// # Errors
-/// As [`write_scene`], and if the folder is not there.
+/// As [`write_scene`], if the folder is not there, and if the path leads to another file that the scene is made of.
 ///
 /// # Panics
 /// As [`write_scene`].
@@ -47,13 +47,17 @@ pub fn save_edited(opened: &Opened, edited: &SceneDescription, path: &Path) -> R
     if let Some(folder) = path.parent().filter(|f| !f.as_os_str().is_empty() && !f.is_dir()) {
         return Err(WriteError::NoFolder { path: path.to_owned(), folder: folder.to_owned() });
     }
+    let of_others = opened.files.iter().filter(|file| Some(*file) != opened.path.as_ref());
+    if of_others.into_iter().any(|file| is_same_file(file, path)) {
+        return Err(WriteError::Special { path: path.to_owned(), what: "a file that the scene reads" });
+    }
     match changed_text(opened, edited, path) {
         Ok(text) => {
             atomic_write(path, |file| file.write_all(text.as_bytes()))?;
             Ok(Saved::Changed)
         }
         Err(why) => {
-            write_scene(edited, path)?;
+            write_scene(edited, path, &opened.files)?;
             Ok(Saved::Anew { why })
         }
     }

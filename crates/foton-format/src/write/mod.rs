@@ -14,7 +14,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use foton_film::{Image, Metadata, WriteError, atomic_write, write_exr};
+use foton_film::{Image, Metadata, WriteError, atomic_write, is_same_file, write_exr};
 use foton_math::glam::DAffine3;
 use foton_scene::description::{
     Bitmap, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
@@ -31,6 +31,8 @@ const TEXTURES: &str = "textures";
 /// Writes a description as the scene file `path`, its meshes as `meshes/NAME-….ply` and its images as
 /// `textures/NAME-….exr` beside it, where `NAME` is that of the file. The scene file comes last.
 ///
+/// Meshes and images get other names where theirs is that of a file in `kept`, by whatever link: those that a scene is made of.
+///
 /// A box filter of another radius than half a pixel, which Mitsuba does not have, becomes one of half a pixel.
 ///
 /// # Errors
@@ -38,10 +40,10 @@ const TEXTURES: &str = "textures";
 ///
 /// # Panics
 /// If an index in the description refers to nothing.
-pub fn write_scene(description: &SceneDescription, path: &Path) -> Result<(), WriteError> {
+pub fn write_scene(description: &SceneDescription, path: &Path, kept: &[PathBuf]) -> Result<(), WriteError> {
     let stem = path.file_stem().map_or_else(|| "scene".to_owned(), |s| file_name(&s.to_string_lossy()));
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    let mut writer = Writer::new(description, folder, stem);
+    let mut writer = Writer::new(description, folder, stem, kept);
     writer.scene()?;
     let text = writer.xml.finish();
     atomic_write(path, |file| file.write_all(text.as_bytes()))
@@ -50,7 +52,7 @@ pub fn write_scene(description: &SceneDescription, path: &Path) -> Result<(), Wr
 /// A material without textures as its `<bsdf>` element.
 pub(crate) fn material_xml(material: &Material) -> String {
     let description = SceneDescription::default();
-    let mut writer = Writer::new(&description, PathBuf::new(), String::new());
+    let mut writer = Writer::new(&description, PathBuf::new(), String::new(), &[]);
     writer.material(material);
     writer.xml.finish()
 }
@@ -60,6 +62,8 @@ struct Writer<'a> {
     folder: PathBuf,
     /// What the names of all other files begin with.
     stem: String,
+    /// Files that are not written to.
+    kept: &'a [PathBuf],
     xml: Xml,
     /// Ids that are taken.
     ids: HashSet<String>,
@@ -73,11 +77,12 @@ struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    fn new(description: &'a SceneDescription, folder: PathBuf, stem: String) -> Self {
+    fn new(description: &'a SceneDescription, folder: PathBuf, stem: String, kept: &'a [PathBuf]) -> Self {
         Self {
             description,
             folder,
             stem,
+            kept,
             xml: Xml::new(),
             ids: HashSet::new(),
             files: HashSet::new(),
@@ -136,7 +141,7 @@ impl<'a> Writer<'a> {
         let base = format!("{}-{}", self.stem, file_name(name));
         let mut number = 1;
         let mut file = format!("{folder}/{base}.{extension}");
-        while !self.files.insert(file.to_lowercase()) {
+        while !self.files.insert(file.to_lowercase()) || self.is_kept(&self.folder.join(&file)) {
             number += 1;
             file = format!("{folder}/{base}-{number}.{extension}");
         }
@@ -144,6 +149,11 @@ impl<'a> Writer<'a> {
         fs::create_dir_all(&inside).map_err(|cause| WriteError::Io { path: inside, cause })?;
         let path = self.folder.join(&file);
         Ok((file, path))
+    }
+
+    /// Whether writing there would overwrite a file that is to be kept.
+    fn is_kept(&self, path: &Path) -> bool {
+        path.exists() && self.kept.iter().any(|kept| is_same_file(kept, path))
     }
 
     fn bitmap(&mut self, bitmap: &Arc<Bitmap>, name: &str) -> Result<String, WriteError> {

@@ -28,6 +28,7 @@ use thiserror::Error;
 pub use clock::processor_time;
 pub use masks::Masks;
 pub use plan::Configuration;
+pub use store::files_in;
 
 use crate::CompareError;
 use plan::{Job, count};
@@ -119,6 +120,14 @@ pub enum SweepError {
     /// A result cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
+    /// A result that took long cannot be written where it belongs; it is elsewhere.
+    #[error("{cause}; it is {} instead", spare.display())]
+    Kept {
+        /// Why.
+        cause: WriteError,
+        /// Where it is.
+        spare: PathBuf,
+    },
     /// An image cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
@@ -266,8 +275,10 @@ impl Sweep {
             Err(Unfinished::Compare(cause)) => return Err(cause.into()),
         };
         let points: Vec<Point> = finished.gathered.iter().filter_map(Point::of).collect();
-        store.pictures(&finished.pictures, &runner.reference.image)?;
+        let pictures = store.pictures(&finished.pictures, &runner.reference.image);
+        // Numbers are worth having without pictures.
         store.finish(job, &table::runs(&finished), &points)?;
+        pictures?;
         // As written, so that the page says the same when it is made from the tables alone.
         store.points(job)
     }

@@ -4,7 +4,10 @@ use std::fs;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use foton_film::{Image, Metadata, ToneMap, atomic_write, read_exr, write_exr, write_png};
+use foton_film::{
+    Image, Metadata, ToneMap, WriteError, atomic_write, check_writable, read_exr, write_exr, write_png,
+    write_spare,
+};
 use foton_integrator::Render;
 use foton_math::Rgb;
 
@@ -18,6 +21,35 @@ use crate::{Pair, heat, scale_top};
 
 /// What the reference is, in its file's metadata.
 const ORIGIN: &str = "foton:origin";
+
+/// Files that are in a folder and that a sweep there would write anew; `given`: with a reference from elsewhere.
+#[must_use]
+pub fn files_in(folder: &Path, given: bool) -> Vec<PathBuf> {
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    let is_ours = |inside: &str, name: &str| match inside {
+        "parts" => {
+            let stem = name.strip_suffix("-runs.csv").or_else(|| name.strip_suffix("-summary.csv"));
+            stem.is_some_and(is_number)
+        }
+        "images" => {
+            let stem = name.strip_suffix("-error.png").or_else(|| name.strip_suffix(".png"));
+            ["list.txt", "reference.png"].contains(&name) || stem.is_some_and(is_number)
+        }
+        _ => TABLES.contains(&name) || (!given && REFERENCES.contains(&name)),
+    };
+    let mut found = Vec::new();
+    for inside in ["", "parts", "images"] {
+        let entries = fs::read_dir(folder.join(inside)).into_iter().flatten().flatten();
+        let ours =
+            entries.filter(|entry| entry.file_name().to_str().is_some_and(|name| is_ours(inside, name)));
+        found.extend(ours.map(|entry| entry.path()));
+    }
+    found
+}
+
+/// What is written into the folder itself.
+const TABLES: [&str; 4] = ["sweep.txt", "summary.csv", "runs.csv", "index.html"];
+const REFERENCES: [&str; 3] = ["reference.exr", "reference-classes.exr", "reference-variance.exr"];
 
 /// A folder that holds one sweep.
 pub(crate) struct Store {
@@ -38,6 +70,9 @@ impl Store {
     /// Makes the folder, or refuses one of another sweep.
     pub(crate) fn open(folder: &Path, identity: &str) -> Result<Self, SweepError> {
         for folder in [folder, &folder.join("parts"), &folder.join("images")] {
+            if folder.exists() && !folder.is_dir() {
+                return Err(io_error(folder)(ErrorKind::NotADirectory.into()));
+            }
             fs::create_dir_all(folder).map_err(io_error(folder))?;
         }
         let store = Self { folder: folder.to_owned() };
@@ -52,6 +87,10 @@ impl Store {
                 });
             }
             None => write(&path, &format!("{identity}\n"))?,
+        }
+        // Before a minute is spent on what could not be kept.
+        for name in ["runs.csv", "summary.csv", "index.html", "parts/_", "images/_"] {
+            check_writable(&store.path(name))?;
         }
         Ok(store)
     }
@@ -73,8 +112,15 @@ impl Store {
 
     /// Keeps what a job found. The summary comes last: where it is, all is.
     pub(crate) fn finish(&self, job: &Job, runs: &str, points: &[Point]) -> Result<(), SweepError> {
-        write(&self.part(job, "runs"), &(table::runs_heading() + runs))?;
-        write(&self.part(job, "summary"), &(table::summary_heading() + &table::summary(points)))
+        let runs = table::runs_heading() + runs;
+        let summary = table::summary_heading() + &table::summary(points);
+        let summary_path = self.part(job, "summary");
+        if let Err(error) = keep(&self.part(job, "runs"), |path| write_text(path, &runs)) {
+            // Both are worth having, but not one of them in its place.
+            write_spare(&summary_path, |path| write_text(path, &summary));
+            return Err(error);
+        }
+        keep(&summary_path, |path| write_text(path, &summary))
     }
 
     /// Joins the parts of all finished jobs; returns the tables.
@@ -109,6 +155,16 @@ impl Store {
     pub(crate) fn keep_reference(&self, reference: &Reference) -> Result<(), SweepError> {
         let mut metadata = Metadata::default();
         metadata.set(ORIGIN, &reference.origin);
+        let path = self.path("reference.exr");
+        // Last: where it is, all is.
+        match self.keep_moments(reference, &metadata) {
+            Ok(()) => keep(&path, |path| write_exr(path, &reference.image, &[], &metadata)),
+            Err(cause) => Err(kept(cause, &path, |path| write_exr(path, &reference.image, &[], &metadata))),
+        }
+    }
+
+    /// What a reference has beside its image.
+    fn keep_moments(&self, reference: &Reference, metadata: &Metadata) -> Result<(), WriteError> {
         let (width, height) = (reference.image.width, reference.image.height);
         let of = |pixel: &dyn Fn(usize) -> [f64; 3]| Image {
             width,
@@ -119,15 +175,12 @@ impl Store {
         };
         if let Some(classes) = &reference.classes {
             let image = of(&|p| [classes[0][p], classes[1][p], classes[2][p]]);
-            write_exr(&self.path("reference-classes.exr"), &image, &[], &metadata)?;
+            write_exr(&self.path("reference-classes.exr"), &image, &[], metadata)?;
         }
         // Of the reference, of the one with twice its radius, and that one's luminance.
         let Known { luminance, variance } = reference.wide.as_ref().unwrap_or(&reference.fine);
         let image = of(&|p| [reference.fine.variance[p], variance[p], luminance[p]]);
-        write_exr(&self.path("reference-variance.exr"), &image, &[], &metadata)?;
-        // Last: where it is, all is.
-        write_exr(&self.path("reference.exr"), &reference.image, &[], &metadata)?;
-        Ok(())
+        write_exr(&self.path("reference-variance.exr"), &image, &[], metadata)
     }
 
     /// The reference that was kept, if any.
@@ -212,5 +265,83 @@ fn read(path: &Path) -> Result<Option<String>, SweepError> {
 }
 
 fn write(path: &Path, text: &str) -> Result<(), SweepError> {
-    Ok(atomic_write(path, |file| file.write_all(text.as_bytes()))?)
+    Ok(write_text(path, text)?)
+}
+
+fn write_text(path: &Path, text: &str) -> Result<(), WriteError> {
+    atomic_write(path, |file| file.write_all(text.as_bytes()))
+}
+
+/// Writes what took long to find. Where that fails, the error says where it is instead.
+fn keep(path: &Path, write: impl Fn(&Path) -> Result<(), WriteError>) -> Result<(), SweepError> {
+    write(path).map_err(|cause| kept(cause, path, write))
+}
+
+fn kept(cause: WriteError, path: &Path, write: impl Fn(&Path) -> Result<(), WriteError>) -> SweepError {
+    match write_spare(path, write) {
+        Some(spare) => SweepError::Kept { cause, spare },
+        None => cause.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use foton_integrator::RenderSettings;
+
+    use super::super::plan::{Configuration, jobs};
+    use super::*;
+
+    #[test]
+    fn what_took_long_is_elsewhere_when_the_folder_has_vanished() {
+        let folder = std::env::temp_dir().join(format!("foton-measure-{}-gone", std::process::id()));
+        let store = Store::open(&folder, "a sweep").expect("a folder");
+        let jobs = jobs(&Configuration::of(&RenderSettings::default()));
+        store.finish(&jobs[0], "a,run\n", &[]).expect("written");
+        fs::remove_dir_all(&folder).expect("ours");
+        let part = store.part(&jobs[0], "runs");
+        let error = store.finish(&jobs[0], "a,run\n", &[]).expect_err("no folder");
+        let said = error.to_string();
+        let SweepError::Kept { spare, .. } = error else { panic!("{said}") };
+        let inside = folder.join("parts");
+        let expected = format!(
+            "cannot write {}: the folder {} does not exist; it is {} instead",
+            part.display(),
+            inside.display(),
+            spare.display()
+        );
+        assert_eq!(said, expected);
+        assert!(fs::read_to_string(&spare).expect("kept").ends_with("a,run\n"));
+        // Its summary is beside it, under the same number.
+        let name = spare.file_name().expect("a name").to_string_lossy().replace("runs", "summary");
+        assert!(fs::read_to_string(spare.with_file_name(&name)).is_ok(), "{name}");
+        for file in [spare.clone(), spare.with_file_name(name)] {
+            fs::remove_file(file).expect("ours");
+        }
+    }
+
+    #[test]
+    fn only_what_a_sweep_writes_anew_counts_as_its_own() {
+        let folder = std::env::temp_dir().join(format!("foton-measure-{}-own", std::process::id()));
+        for inside in ["parts", "images"] {
+            fs::create_dir_all(folder.join(inside)).expect("a folder");
+        }
+        let own = ["index.html", "parts/00000500-runs.csv", "images/03-error.png", "images/reference.png"];
+        let others =
+            ["scene.xml", "parts/gem.obj", "images/wood.png", "parts/index.html", "images/a-error.png"];
+        for name in own.iter().chain(&others).chain(&["reference.exr"]) {
+            fs::write(folder.join(name), "").expect("written");
+        }
+        let names = |given: bool| {
+            let mut names: Vec<PathBuf> = files_in(&folder, given);
+            names.sort();
+            names
+        };
+        let mut expected: Vec<PathBuf> = own.iter().map(|name| folder.join(name)).collect();
+        expected.sort();
+        assert_eq!(names(true), expected);
+        expected.push(folder.join("reference.exr"));
+        expected.sort();
+        assert_eq!(names(false), expected);
+        fs::remove_dir_all(&folder).expect("ours");
+    }
 }

@@ -1,10 +1,11 @@
 //! What happens when: the system's events, the engine's frames, and frames for the screen, never when nobody looks.
 
+use std::io::Write;
 use std::path::PathBuf;
 use std::time::{Duration, Instant, SystemTime};
 
 use foton_session::Engine;
-use foton_session::engine::{Change, Command, Frame};
+use foton_session::engine::{Change, Command, Event, Frame};
 use winit::application::ApplicationHandler;
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
@@ -68,6 +69,12 @@ impl App {
     pub(super) fn finish(&mut self) {
         self.state.preferences.save();
         self.engine.finish_writing();
+        // No window is there any more to say what was not written, and where it is instead.
+        while let Some(event) = self.engine.event() {
+            if let Event::Failed(message) = event {
+                let _ = writeln!(std::io::stderr().lock(), "error: {message}");
+            }
+        }
     }
 
     /// Takes what the engine has, and says when to show it.
@@ -198,8 +205,9 @@ impl ApplicationHandler<UserEvent> for App {
         }
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, event: UserEvent) {
+    fn user_event(&mut self, event_loop: &ActiveEventLoop, event: UserEvent) {
         match event {
+            UserEvent::Close => self.close(event_loop),
             UserEvent::Wake => self.listen(),
             UserEvent::Repaint(delay) => self.pace.repaint(Instant::now(), delay),
             UserEvent::DeviceLost(number) => {

@@ -1,7 +1,6 @@
 //! Why there is no window.
 
-use std::path::PathBuf;
-
+use foton_film::WriteError;
 use thiserror::Error;
 
 /// Why there is no window. The render can go on without one.
@@ -14,13 +13,8 @@ pub enum WindowError {
     #[error("no graphics adapter can draw a window: {0}")]
     NoAdapter(String),
     /// The log cannot be written.
-    #[error("{path}: {cause}", path = path.display())]
-    Log {
-        /// Its path.
-        path: PathBuf,
-        /// What the system says.
-        cause: std::io::Error,
-    },
+    #[error(transparent)]
+    Log(#[from] WriteError),
 }
 
 /// What the system says, without the place in a library's source.

@@ -9,6 +9,8 @@ pub(super) enum UserEvent {
     Repaint(std::time::Duration),
     /// The adapter of a number is gone.
     DeviceLost(u64),
+    /// The window is to close.
+    Close,
     /// A screen reader asks.
     AccessKit(egui_winit::accesskit_winit::Event),
 }

@@ -5,10 +5,14 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use foton_film::{WriteError, create_log};
 use foton_session::engine::{Frame, Picture};
 use serde_json::{Value, json};
 
 use crate::state::State;
+
+/// How every line begins.
+const BEGINS: &str = "{\"event\":\"";
 
 pub(super) struct FrameLog {
     file: BufWriter<File>,
@@ -17,8 +21,10 @@ pub(super) struct FrameLog {
 }
 
 impl FrameLog {
-    pub(super) fn create(path: &Path) -> std::io::Result<Self> {
-        Ok(Self { file: BufWriter::new(File::create(path)?), start: Instant::now(), places: Value::Null })
+    /// Begins a log; only one of before is replaced.
+    pub(super) fn create(path: &Path) -> Result<Self, WriteError> {
+        let file = BufWriter::new(create_log(path, BEGINS)?);
+        Ok(Self { file, start: Instant::now(), places: Value::Null })
     }
 
     /// A line; a disk that is full ends the log, not the render.

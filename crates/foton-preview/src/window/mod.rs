@@ -36,15 +36,19 @@ pub struct Options {
     pub memory_limit: Option<f64>,
     /// Where to write a line for each frame drawn.
     pub frame_log: Option<PathBuf>,
+    /// Is given what closes the window from another thread, as its own button does.
+    pub closes: fn(Close),
 }
+
+/// Closes the window.
+pub type Close = Box<dyn Fn() + Send>;
 
 /// Opens the window and stays until it is closed.
 ///
 /// # Errors
 /// When there can be no window; see [`WindowError`]. Nothing was rendered then.
 pub fn run(options: Options) -> Result<(), WindowError> {
-    let create = |path: PathBuf| FrameLog::create(&path).map_err(|cause| WindowError::Log { path, cause });
-    let log = options.frame_log.map(create).transpose()?;
+    let log = options.frame_log.as_deref().map(FrameLog::create).transpose()?;
     let events = EventLoop::<UserEvent>::with_user_event().build();
     let events = events.map_err(|cause| WindowError::NoDisplay(reason(&cause)))?;
     let proxy = events.create_proxy();
@@ -57,6 +61,10 @@ pub fn run(options: Options) -> Result<(), WindowError> {
         }),
         memory_limit: options.memory_limit,
     };
+    let close = events.create_proxy();
+    (options.closes)(Box::new(move || {
+        let _ = close.send_event(UserEvent::Close);
+    }));
     let engine = Engine::spawn(setup).map_err(|cause| WindowError::NoDisplay(cause.to_string()))?;
     engine.send(Command::Open(options.scene));
     let state = State::new(Preferences::load(), options.built_in);

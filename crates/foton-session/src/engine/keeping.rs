@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use foton_film::check_writable;
+use foton_film::{WriteError, check_writable, write_spare};
 
 use super::command::Event;
 use super::render::LevelRender;
@@ -17,7 +17,7 @@ const EVERY: Duration = Duration::from_secs(30);
 
 /// A checkpoint that is kept.
 pub(super) struct Kept {
-    path: PathBuf,
+    pub(super) path: PathBuf,
     /// The scene that it is of, whatever is opened or edited next.
     scene: SceneIdentity,
     /// How long the render had taken when it was last written.
@@ -27,6 +27,9 @@ pub(super) struct Kept {
 impl Worker {
     /// Writes the render to a file, and again every half minute and at the end.
     pub(super) fn keep(&mut self, path: &Path) {
+        if let Some(message) = self.why_not_over_the_scene(path) {
+            return self.event(Event::Failed(message));
+        }
         self.keep_the_last();
         let scene = self.named_by_its_file();
         let written = scene.and_then(|scene| self.write_checkpoint(path, &scene).map(|()| scene));
@@ -69,7 +72,12 @@ impl Worker {
         if self.elapsed() > kept.written
             && let Err(message) = self.write_checkpoint(&kept.path, &kept.scene)
         {
-            self.event(Event::Failed(message));
+            let spare = write_spare(&kept.path, |path| self.write_state(path, &kept.scene));
+            let instead = spare.map_or_else(
+                || "nor anywhere else".to_owned(),
+                |spare| format!("the render is in {} instead", spare.display()),
+            );
+            self.event(Event::Failed(format!("{message}; {instead}")));
         }
         self.unwritten.fetch_sub(1, Ordering::SeqCst);
     }
@@ -107,12 +115,16 @@ impl Worker {
     }
 
     fn write_checkpoint(&self, path: &Path, scene: &SceneIdentity) -> Result<(), String> {
-        let Some((render, _)) = self.rendered() else { return Err("there is no pass to keep yet".into()) };
+        if self.rendered().is_none() {
+            return Err("there is no pass to keep yet".into());
+        }
+        check_writable(path).and_then(|()| self.write_state(path, scene)).map_err(|error| error.to_string())
+    }
+
+    /// Writes the render, once it has a pass.
+    fn write_state(&self, path: &Path, scene: &SceneIdentity) -> Result<(), WriteError> {
+        let Some((render, _)) = self.rendered() else { return Ok(()) };
         let session = render.session();
-        check_writable(path)
-            .and_then(|()| {
-                checkpoint::write(path, session.render(), session.elapsed(), session.rays(), scene)
-            })
-            .map_err(|error| error.to_string())
+        checkpoint::write(path, session.render(), session.elapsed(), session.rays(), scene)
     }
 }

@@ -26,6 +26,8 @@ pub struct Loaded {
     pub settings: RenderSettings,
     /// What the file says without effect, each with its place.
     pub warnings: Vec<String>,
+    /// Files that it was read from: nothing is written over them but the scene itself, when it is saved.
+    pub files: Vec<PathBuf>,
     /// What the loader wants back when the scene is saved.
     pub origin: Arc<dyn Any + Send + Sync>,
 }

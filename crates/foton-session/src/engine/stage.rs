@@ -1,6 +1,7 @@
 //! The scene that is shown: its description with edits, the camera, what is chosen, and the scene built from them.
 
 use std::any::Any;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use foton_math::glam::{DVec2, DVec3};
@@ -57,6 +58,8 @@ fn are_elsewhere(sensors: &[SensorDescription], others: &[SensorDescription]) ->
 /// A scene under edit.
 pub(super) struct Stage {
     source: Source,
+    /// What the scene was read from.
+    pub(super) files: Vec<PathBuf>,
     /// What the loader wants back when the scene is saved.
     pub(super) origin: Arc<dyn Any + Send + Sync>,
     identity: SceneIdentity,
@@ -84,6 +87,7 @@ impl Stage {
         let mut stage = Self {
             source,
             identity: loaded.identity,
+            files: loaded.files,
             origin: loaded.origin,
             history: History::new(Arc::clone(&description)),
             opened: Arc::clone(&description),

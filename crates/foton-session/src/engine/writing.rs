@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use foton_film::check_writable;
+use foton_film::{check_writable, is_same_file};
 
 use super::command::Event;
 use super::render::LevelRender;
@@ -31,6 +31,24 @@ impl Worker {
         self.write(&path.with_extension(""));
     }
 
+    /// Why a file is not to be written over: the scene was read from it.
+    pub(super) fn why_not_over_the_scene(&self, path: &Path) -> Option<String> {
+        let mut files = self.stage.iter().flat_map(|stage| &stage.files);
+        let file = files.find(|file| is_same_file(file, path))?;
+        Some(format!("cannot write {}: the scene reads that file ({})", path.display(), file.display()))
+    }
+
+    /// Why a picture is not to be written over a file: as for the scene, or the checkpoint is kept there.
+    fn why_not_over(&self, path: &Path) -> Option<String> {
+        self.why_not_over_the_scene(path).or_else(|| self.why_not_over_the_kept(path))
+    }
+
+    fn why_not_over_the_kept(&self, path: &Path) -> Option<String> {
+        let kept = self.kept.as_ref().filter(|kept| is_same_file(&kept.path, path))?;
+        let [path, kept] = [path, &*kept.path].map(|path| path.display());
+        Some(format!("cannot write {path}: the checkpoint {kept} is kept there"))
+    }
+
     /// Writes both pictures of a stem.
     fn write(&self, stem: &Path) {
         let Some((render, stage)) = self.rendered() else { return };
@@ -38,11 +56,14 @@ impl Worker {
         let mut written = Vec::new();
         for (extension, format) in [("exr", Format::Exr), ("png", Format::Png)] {
             let path = stem.with_extension(extension);
-            let result = check_writable(&path)
-                .and_then(|()| snapshot::write(&path, format, render.render(), &[], &identity));
+            let result = self.why_not_over(&path).map_or(Ok(()), Err).and_then(|()| {
+                check_writable(&path)
+                    .and_then(|()| snapshot::write(&path, format, render.render(), &[], &identity))
+                    .map_err(|error| error.to_string())
+            });
             match result {
                 Ok(()) => written.push(path),
-                Err(error) => self.event(Event::Failed(error.to_string())),
+                Err(message) => self.event(Event::Failed(message)),
             }
         }
         if !written.is_empty() {
@@ -51,6 +72,10 @@ impl Worker {
     }
 
     pub(super) fn save_scene(&mut self, path: &Path) {
+        // What of the scene's own files may be replaced, the loader knows.
+        if let Some(message) = self.why_not_over_the_kept(path) {
+            return self.event(Event::Failed(message));
+        }
         let Some(stage) = &mut self.stage else {
             return self.event(Event::Failed("there is no scene to save".to_owned()));
         };

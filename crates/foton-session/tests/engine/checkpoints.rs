@@ -1,12 +1,13 @@
 //! A render that is kept in a file goes on from there, in another window or in none.
 
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use foton_session::edit::DragMode;
 use foton_session::engine::{Change, Command, Event, Frame, Gesture};
 use foton_session::{StopRule, checkpoint};
 
-use crate::rig::{BALL, Folder, Rig, headless, identity, image, settings};
+use crate::rig::{BALL, Folder, Rig, headless, identity, image, scene_file, settings};
 
 /// What went wrong.
 fn failure(rig: &Rig) -> String {
@@ -16,7 +17,7 @@ fn failure(rig: &Rig) -> String {
     })
 }
 
-fn passes(path: &std::path::Path) -> u64 {
+fn passes(path: &Path) -> u64 {
     let mut session = headless(0, settings(), |_, _| ());
     checkpoint::resume(path, &mut session, &identity()).expect("of the room");
     session.render().passes()
@@ -123,7 +124,14 @@ fn a_folder_that_vanishes_costs_what_is_kept_there_and_the_render_goes_on() {
     rig.send(Command::KeepCheckpoint(path.clone()));
     let expected =
         format!("cannot write {}: the folder {} does not exist", path.display(), folder.0.display());
-    assert_eq!([failure(&rig), failure(&rig)], [expected.clone(), expected]);
+    let [last, next] = [failure(&rig), failure(&rig)];
+    assert_eq!(next, expected);
+    // What was owed to the file is not lost.
+    let spare = last.strip_prefix(&format!("{expected}; the render is in "));
+    let spare =
+        PathBuf::from(spare.and_then(|s| s.strip_suffix(" instead")).unwrap_or_else(|| panic!("{last}")));
+    assert_eq!((spare.parent(), passes(&spare)), (Some(&*std::env::temp_dir()), 4));
+    std::fs::remove_file(&spare).expect("ours");
     rig.send(Command::StopAt(StopRule::passes(5)));
     assert_eq!(rig.done(5).render, before.render);
     // Once the folder is there again, so is the checkpoint.
@@ -131,4 +139,36 @@ fn a_folder_that_vanishes_costs_what_is_kept_there_and_the_render_goes_on() {
     rig.send(Command::KeepCheckpoint(path.clone()));
     rig.saved();
     assert_eq!(passes(&path), 5);
+}
+
+/// Not even by a link: the scene's own files stay, and so does a checkpoint where pictures go.
+#[test]
+fn nothing_is_written_over_what_the_scene_is_read_from_or_what_is_kept() {
+    let folder = Folder::new("over");
+    let kept = folder.0.join("room.checkpoint");
+    std::fs::write(scene_file(), "the scene").expect("written");
+    let (rig, _) = Rig::at_pass(2);
+    rig.send(Command::KeepCheckpoint(kept.clone()));
+    rig.saved();
+    let over = |path: &Path, file: &Path| {
+        format!("cannot write {}: the scene reads that file ({})", path.display(), file.display())
+    };
+    rig.send(Command::KeepCheckpoint(scene_file()));
+    assert_eq!(failure(&rig), over(&scene_file(), &scene_file()));
+    // What was kept before is still kept.
+    rig.send(Command::SaveScene(kept.clone()));
+    let busy = |path: &Path| {
+        format!("cannot write {}: the checkpoint {} is kept there", path.display(), kept.display())
+    };
+    assert_eq!(failure(&rig), busy(&kept));
+    let [exr, png] = ["exr", "png"].map(|e| folder.0.join("room-000004").with_extension(e));
+    std::fs::hard_link(scene_file(), &exr).expect("a link");
+    std::fs::hard_link(&kept, &png).expect("a link");
+    rig.send(Command::AutoSnapshots(Some(folder.0.clone())));
+    rig.send(Command::StopAt(StopRule::passes(4)));
+    rig.done(4);
+    assert_eq!([failure(&rig), failure(&rig)], [over(&exr, &scene_file()), busy(&png)]);
+    assert_eq!(std::fs::read_to_string(scene_file()).expect("there"), "the scene");
+    assert_eq!(passes(&kept), 2);
+    std::fs::remove_file(scene_file()).expect("ours");
 }

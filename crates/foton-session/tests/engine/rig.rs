@@ -138,6 +138,11 @@ fn vast() -> SceneDescription {
     room
 }
 
+/// The file that all scenes are said to be read from.
+pub(crate) fn scene_file() -> PathBuf {
+    std::env::temp_dir().join(format!("foton-engine-{}-scene.txt", std::process::id()))
+}
+
 /// Opens "room", "vast", which is a room of 32,768² pixels, "heap" and "slow", which waits until it is let go; "faulty" panics, and "sensorless" makes the engine panic.
 pub(crate) struct Shelf {
     settings: RenderSettings,
@@ -168,6 +173,7 @@ impl Loader for Shelf {
                 ..self.settings.clone()
             },
             warnings: vec!["room.xml:1:1: a warning".into()],
+            files: vec![scene_file()],
             origin: Arc::new(42_u8),
         })
     }

@@ -7,7 +7,7 @@ use std::time::Duration;
 use clap::Args as ClapArgs;
 use foton_integrator::{Alpha, RadiusFloor, RenderSettings};
 
-use super::{Direct, Radius, Rule, Size, alpha, define, duration, exr, radius, radius_floor};
+use super::{Direct, Radius, Rule, Size, alpha, define, duration, exr, name, radius, radius_floor};
 
 /// `foton measure`.
 #[derive(Debug, ClapArgs)]
@@ -18,7 +18,7 @@ pub(crate) struct Measure {
     #[arg(short, value_name = "DIR")]
     pub(crate) output: PathBuf,
     /// Image of radiance to compare with, .exr [a long run of the sweep's own, of the same eye samples]
-    #[arg(long, value_name = "REF.exr", value_parser = exr)]
+    #[arg(long, value_name = "REF.exr", value_parser = name(exr))]
     pub(crate) reference: Option<PathBuf>,
     /// Time for all of it, e.g. 90s, 10m, 1.5h
     #[arg(long, value_name = "TIME", default_value = "10m", value_parser = duration)]

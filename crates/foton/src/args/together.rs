@@ -1,15 +1,68 @@
-//! Options of `foton render` that contradict each other: refused before anything is read.
-
-use std::path::Path;
+//! Options that contradict each other, or name one file twice: refused before anything is read.
 
 use foton_session::snapshot::Format;
 
-use super::{ErrorWish, RenderArgs};
+use super::{Args, Command, Compare, Convert, ErrorWish, Info, Measure, RenderArgs};
+use crate::roles::Roles;
+
+fn clash(roles: &Roles) -> Option<String> {
+    roles.clash().map(|clash| clash.message)
+}
+
+impl Args {
+    /// What cannot be done as it was asked for, and what would help; with the name of the command that it was asked of.
+    pub(crate) fn contradiction(&self) -> Option<(Option<&'static str>, String)> {
+        let (command, message) = match &self.command {
+            Some(Command::Render(render)) => (Some("render"), render.contradiction()),
+            Some(Command::Compare(compare)) => (Some("compare"), clash(&compare.roles())),
+            Some(Command::Convert(convert)) => (Some("convert"), clash(&convert.roles())),
+            Some(Command::Measure(measure)) => (Some("measure"), clash(&measure.roles())),
+            Some(Command::Info(info)) => (Some("info"), clash(&info.roles())),
+            None => (None, clash(&self.roles())),
+        };
+        Some((command, message?))
+    }
+
+    fn roles(&self) -> Roles {
+        let roles = Roles::default().writes("--frame-log", self.frame_log.as_deref());
+        roles.reads("the scene", self.scene.as_deref())
+    }
+}
+
+impl Compare {
+    fn roles(&self) -> Roles {
+        let output = self.output.as_ref().map(|(path, _)| &**path);
+        let roles = Roles::default().prints(true).writes("-o", output);
+        roles.reads("the image A", Some(&self.a.0)).reads("the reference B", Some(&self.b.0))
+    }
+}
+
+impl Info {
+    pub(crate) fn roles(&self) -> Roles {
+        Roles::default().prints(true).reads("the scene", Some(&self.scene))
+    }
+}
+
+impl Convert {
+    /// What else is written is named so that it is none of the files that the scene reads.
+    pub(crate) fn roles(&self) -> Roles {
+        Roles::default().writes("the output", Some(&self.output)).reads("the scene", Some(&self.scene))
+    }
+}
+
+impl Measure {
+    pub(crate) fn roles(&self) -> Roles {
+        let outputs = foton_measure::sweep::files_in(&self.output, self.reference.is_some());
+        let roles = Roles::default().prints(self.json).writes("-o", Some(&self.output));
+        let roles = outputs.iter().fold(roles, |roles, file| roles.writes("-o with its", Some(file)));
+        roles.reads("--reference", self.reference.as_deref()).reads("the scene", Some(&self.scene))
+    }
+}
 
 impl RenderArgs {
     /// What cannot be done as it was asked for, and what would help.
-    pub(crate) fn contradiction(&self) -> Option<String> {
-        self.layers_in_vain().or_else(|| self.file_in_two_roles())
+    fn contradiction(&self) -> Option<String> {
+        self.layers_in_vain().or_else(|| clash(&self.roles()))
     }
 
     fn layers_in_vain(&self) -> Option<String> {
@@ -33,20 +86,14 @@ impl RenderArgs {
         })
     }
 
-    /// A file that would be read or written as two things.
-    fn file_in_two_roles(&self) -> Option<String> {
-        let roles = [("the image", &self.output.0), ("the scene", &self.scene)];
-        let state = [("--checkpoint", &self.checkpoint), ("--resume", &self.resume)];
-        state.into_iter().find_map(|(option, file)| {
-            let file = file.as_ref()?;
-            let (role, _) = roles.into_iter().find(|(_, other)| is_same(other, file))?;
-            Some(format!("{option} {} is {role}, too; give the state a file of its own", file.display()))
-        })
+    /// The files that are named; those that the scene names are known once it was read.
+    pub(crate) fn roles(&self) -> Roles {
+        Roles::default()
+            .prints(self.json)
+            .writes("-o", Some(&self.output.0))
+            .keeps(self.checkpoint.as_deref())
+            .writes_numbered(&self.output.0, self.every)
+            .resumes(self.resume.as_deref())
+            .reads("the scene", Some(&self.scene))
     }
-}
-
-/// Whether two paths name one file, as far as names tell; links are followed where there is a file.
-fn is_same(a: &Path, b: &Path) -> bool {
-    let whole = |path: &Path| path.canonicalize().or_else(|_| std::path::absolute(path)).ok();
-    whole(a).is_some_and(|a| whole(b) == Some(a))
 }

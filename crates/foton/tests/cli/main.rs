@@ -4,11 +4,16 @@
 
 #[cfg(debug_assertions)]
 mod faults;
+#[cfg(target_os = "linux")]
+mod places;
 mod refusals;
 mod resuming;
+mod roles;
 mod scene_says;
 #[cfg(unix)]
 mod signals;
+#[cfg(target_os = "linux")]
+mod streams;
 mod strict;
 #[cfg(target_os = "linux")]
 mod write_faults;

@@ -112,3 +112,122 @@ fn without_a_scene_the_embedded_one_is_begun_and_further_interrupts_give_it_up()
     let status = child.wait().expect("ends");
     assert!(status.code().is_some(), "it ends by itself, not killed: {status}");
 }
+
+#[cfg(target_os = "linux")]
+const HUP: u32 = 1;
+#[cfg(target_os = "linux")]
+const XCPU: u32 = 24;
+#[cfg(target_os = "linux")]
+pub(super) const XFSZ: u32 = 25;
+
+/// A render that only a signal ends, in its second pass or a later one, begun by a shell that has run a line before.
+#[cfg(target_os = "linux")]
+struct Endless {
+    child: Child,
+    stdout: BufReader<std::process::ChildStdout>,
+}
+
+#[cfg(target_os = "linux")]
+impl Endless {
+    fn start(folder: &Folder, line: &str) -> Self {
+        let render = "render scene.xml -o x.exr --passes 1000000 --photons 2000 --json";
+        let line = format!("{line} exec \"{}\" {render}", env!("CARGO_BIN_EXE_foton"));
+        let mut command = Command::new("sh");
+        command.args(["-c", &line]).current_dir(&folder.0).env("TMPDIR", &folder.0).stdin(Stdio::null());
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("starts");
+        let stdout = BufReader::new(child.stdout.take().expect("piped"));
+        let mut render = Self { child, stdout };
+        render.passes(1);
+        render
+    }
+
+    /// Waits for so many passes more.
+    fn passes(&mut self, count: usize) {
+        for _ in 0..count {
+            let mut line = String::new();
+            self.stdout.read_line(&mut line).expect("a line");
+            assert!(line.starts_with('{') && line.contains("\"event\":\"pass\""), "{line}");
+        }
+    }
+
+    fn send(&self, signal: &str) {
+        let status = Command::new("kill").args([signal, &self.child.id().to_string()]).status();
+        assert!(status.expect("kill runs").success(), "{signal}");
+    }
+
+    /// Its exit code and what it said on stderr.
+    fn end(mut self) -> (Option<i32>, String) {
+        std::io::copy(&mut self.stdout, &mut std::io::sink()).expect("lines");
+        let mut said = String::new();
+        self.child.stderr.take().expect("piped").read_to_string(&mut said).expect("text");
+        (self.child.wait().expect("ends").code(), said)
+    }
+}
+
+/// Whether a signal is turned off for the tests themselves, and so for what they begin.
+#[cfg(target_os = "linux")]
+pub(super) fn is_turned_off(number: u32) -> bool {
+    let status = fs::read_to_string("/proc/self/status").expect("Linux has it");
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:")).expect("it says so");
+    u64::from_str_radix(mask.trim(), 16).expect("a mask") >> (number - 1) & 1 == 1
+}
+
+/// A batch system warns by these that time, or room for a file, is up.
+#[cfg(target_os = "linux")]
+#[test]
+fn limits_of_the_system_end_a_render_as_an_interrupt_does() {
+    let signals = [
+        ("-XCPU", XCPU, Some("the limit on processor time is reached (SIGXCPU, ulimit -t)")),
+        ("-XFSZ", XFSZ, Some("a file has reached the limit on its size (SIGXFSZ, ulimit -f)")),
+        ("-HUP", HUP, None),
+    ];
+    let signals = signals.into_iter().filter(|(_, number, _)| !is_turned_off(*number));
+    let wishes = [("-TERM", 0, None), ("-INT", 0, None)];
+    for (signal, _, why) in signals.chain(wishes) {
+        let folder = Folder::new(&format!("limit{signal}"));
+        let render = Endless::start(&folder, "");
+        render.send(signal);
+        let (code, said) = render.end();
+        assert_eq!(code, Some(0), "{signal}: {said}");
+        let warning = why.map(|why| format!("warning: the render ends early: {why}"));
+        assert_eq!(said.contains("ends early"), why.is_some(), "{signal}: {said}");
+        assert!(warning.is_none_or(|warning| said.contains(&warning)), "{signal}: {said}");
+        assert!(folder.exr("x.exr").1.get("foton:passes").is_some(), "{signal}");
+        assert_eq!(folder.images(), ["x.exr"]);
+    }
+}
+
+/// `nohup` and its like turn them off for the program that they begin.
+#[cfg(target_os = "linux")]
+#[test]
+fn signals_that_were_turned_off_stay_so() {
+    let folder = Folder::new("turned-off");
+    let mut render = Endless::start(&folder, "trap '' HUP XCPU XFSZ;");
+    for signal in ["-HUP", "-XCPU", "-XFSZ"] {
+        render.send(signal);
+        render.passes(100);
+    }
+    // A person's own wish is heard.
+    render.send("-TERM");
+    let (code, said) = render.end();
+    assert!(code == Some(0) && !said.contains("ends early"), "{code:?}: {said}");
+}
+
+/// Time of the processor: the kernel's own signal, not one that somebody sends.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_render_that_is_out_of_processor_time_leaves_its_image() {
+    if is_turned_off(XCPU) {
+        return;
+    }
+    let folder = Folder::new("out-of-time");
+    let program = env!("CARGO_BIN_EXE_foton");
+    let line = format!(
+        "ulimit -S -t 1; exec \"{program}\" render scene.xml -o x.exr --passes 1000000 --photons 2000"
+    );
+    let output = Command::new("sh").args(["-c", &line]).current_dir(&folder.0).output().expect("a shell");
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{}: {said}", output.status);
+    assert!(said.contains("the limit on processor time is reached"), "{said}");
+    assert!(folder.exr("x.exr").0.width > 0);
+}

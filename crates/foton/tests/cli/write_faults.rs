@@ -10,7 +10,7 @@ use std::process::{Child, ChildStdout};
 
 use super::*;
 
-const RENDER: &str = "render scene.xml --photons 500 --threads 2 --json";
+pub(super) const RENDER: &str = "render scene.xml --photons 500 --threads 2 --json";
 
 /// Runs the program where no file may grow beyond so many halves of a kibibyte.
 fn run_within(folder: &Folder, blocks: u32, arguments: &str) -> Output {
@@ -26,7 +26,7 @@ fn run_within(folder: &Folder, blocks: u32, arguments: &str) -> Output {
 }
 
 /// The events of a run by their kind.
-fn of_kind(events: &[Value], kind: &str) -> Vec<String> {
+pub(super) fn of_kind(events: &[Value], kind: &str) -> Vec<String> {
     let chosen = events.iter().filter(|e| e["event"] == kind);
     chosen.map(|e| e["message"].as_str().unwrap_or_default().to_owned()).collect()
 }
@@ -75,10 +75,15 @@ fn a_full_disk_costs_a_checkpoint_but_not_the_render() {
     symlink("/dev/full", folder.file("device.ck")).expect("a link");
     let output = folder.done(&format!("{RENDER} --passes 3 -o device.exr --checkpoint device.ck"));
     let warnings = of_kind(&events(&output.stdout), "warning");
-    assert_eq!(warnings, ["no checkpoint: cannot write device.ck: No space left on device (os error 28)"]);
+    let said = "no checkpoint: cannot write device.ck: No space left on device (os error 28); the state is in \
+                foton-device-001.ck instead";
+    assert_eq!(warnings, [said]);
     assert!(folder.exr("device.exr").0 == folder.exr("whole.exr").0);
-    let expected = ["device.ck", "device.exr", "one.exr", "resumed.exr", "whole.exr", "x.ck", "x.exr"];
+    let mut expected = ["device.ck", "device.exr", "foton-device-001.ck", "one.exr"].to_vec();
+    expected.extend(["resumed.exr", "whole.exr", "x.ck", "x.exr"]);
     assert_eq!(folder.images(), expected, "nothing else is left");
+    folder.done(&format!("{RENDER} --passes 3 -o rescued.exr --resume foton-device-001.ck"));
+    assert!(folder.exr("rescued.exr").0 == folder.exr("whole.exr").0);
 }
 
 #[test]
@@ -180,8 +185,8 @@ fn a_folder_that_vanishes_costs_its_files_and_nothing_that_was_rendered() {
     let (code, error) = render.end();
     assert_eq!(code, Some(1));
     assert_eq!(error.as_deref(), Some("cannot write sub/x.exr: the folder sub does not exist"));
-    // The image is rescued.
-    assert_eq!(folder.images(), ["foton-x-001.exr"]);
+    // Image and state are rescued.
+    assert_eq!(folder.images(), ["foton-x-001.ck", "foton-x-001.exr"]);
     let passes = folder.exr("foton-x-001.exr").1.get("foton:passes").and_then(|p| p.parse::<f64>().ok());
     assert!(passes > Some(pass));
 }
@@ -203,4 +208,64 @@ fn a_folder_that_comes_back_has_all_files_again() {
     folder.done(&format!("{RENDER} --passes 1 -o y.exr --resume sub/x.ck"));
     assert_eq!(passes("y.exr"), passes("sub/x.exr"), "the checkpoint has the last pass");
     assert!(folder.exr("y.exr").0 == folder.exr("sub/x.exr").0);
+}
+
+/// The limit as a shell sets it, with the signal that comes with it as the system has it.
+#[test]
+fn the_limit_on_the_size_of_files_ends_a_render_with_its_image_and_not_in_the_middle() {
+    if signals::is_turned_off(signals::XFSZ) {
+        return;
+    }
+    let folder = Folder::new("file-limit");
+    folder.write("x.exr", "the image before");
+    let program = env!("CARGO_BIN_EXE_foton");
+    let within = |blocks: u32, arguments: &str| {
+        let line = format!("ulimit -f {blocks}; exec \"{program}\" {arguments}");
+        let mut command = Command::new("sh");
+        command.args(["-c", &line]).current_dir(&folder.0).env("TMPDIR", &folder.0);
+        command.output().expect("a shell")
+    };
+    // No room for the image: as on a full disk.
+    for arguments in ["--passes 2 -o x.exr", "--passes 2 -o x.exr --every 1"] {
+        let output = within(1, &format!("{RENDER} {arguments}"));
+        assert_eq!(output.status.code(), Some(1), "{}: {}", output.status, text(&output.stderr));
+        let said = "cannot write x.exr: File too large (os error 27)";
+        assert_eq!(of_kind(&events(&output.stdout), "error"), [said], "{arguments}");
+        assert_eq!(folder.bytes("x.exr"), b"the image before");
+    }
+    // No room for the checkpoint, which is larger: the signal ends the render after its pass, and its image comes.
+    let goes_on =
+        "--passes 100000000 -o y.exr --size 48x32 --spp 64 --checkpoint y.ck --checkpoint-every 1ms";
+    let output = within(128, &format!("{RENDER} {goes_on}"));
+    assert_eq!(output.status.code(), Some(0), "{}: {}", output.status, text(&output.stderr));
+    let events = events(&output.stdout);
+    let warnings = of_kind(&events, "warning");
+    assert_eq!(warnings[0], "no checkpoint: cannot write y.ck: File too large (os error 27)");
+    let why = "the render ends early: a file has reached the limit on its size (SIGXFSZ, ulimit -f)";
+    assert!(warnings.iter().any(|w| w == why), "{warnings:?}");
+    assert!(folder.exr("y.exr").1.get("foton:passes").is_some());
+    // Other commands do not die of it either.
+    for arguments in ["compare y.exr y.exr -o d.exr", "convert scene.xml out.xml"] {
+        let output = within(1, arguments);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "foton {arguments}: {}: {said}", output.status);
+        assert!(said.contains("File too large (os error 27)") && said.contains("cannot write "), "{said}");
+    }
+    let left = folder.images();
+    assert!(left.iter().all(|name| !name.contains(".tmp-")), "{left:?}");
+    assert_eq!(left, ["meshes", "x.exr", "y.exr"]);
+}
+
+/// What cannot be an image any more where it was to be.
+#[test]
+fn an_image_whose_name_has_become_a_folder_is_beside_it() {
+    let folder = Folder::new("became-folder");
+    let mut render = Endless::start(&folder);
+    render.until("pass");
+    fs::create_dir(folder.file("sub/x.exr")).expect("a folder in the way");
+    let (code, error) = render.end();
+    assert_eq!((code, error.as_deref()), (Some(1), Some("cannot write sub/x.exr: is a directory")));
+    assert!(folder.exr("sub/foton-x-001.exr").0.width > 0);
+    // The checkpoint had its place.
+    assert!(folder.file("sub/x.ck").exists() && !folder.file("sub/foton-x-001.ck").exists());
 }

@@ -87,8 +87,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "options that contradict each other are refused",
         file: "crates/foton/src/args/together.rs",
-        from: "self.layers_in_vain().or_else(|| self.file_in_two_roles())",
-        to: "self.file_in_two_roles()",
+        from: "self.layers_in_vain().or_else(|| clash(&self.roles()))",
+        to: "clash(&self.roles())",
         target: CLI,
         test: "options_that_contradict_each_other_are_refused_at_once",
     },
