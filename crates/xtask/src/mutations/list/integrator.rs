@@ -86,7 +86,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "α = 0 is none",
-        file: "crates/foton-integrator/src/settings.rs",
+        file: "crates/foton-integrator/src/ppm/settings.rs",
         from: "(alpha > 0.0 && alpha <= 1.0)",
         to: "(alpha >= 0.0 && alpha <= 1.0)",
         target: INTEGRATOR,

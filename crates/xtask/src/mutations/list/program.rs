@@ -95,7 +95,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "options change a resumed render",
         file: "crates/foton/src/job.rs",
-        from: "session.ppm_mut().change(change);",
+        from: "session.render_mut().change(change);",
         to: "",
         target: CLI,
         test: "alpha_photons_and_presets_change_a_resumed_render_from_the_next_pass_on",
