@@ -6,6 +6,7 @@
 //! scenes, threads, arguments.
 
 mod clock;
+mod error;
 mod judge;
 mod masks;
 mod page;
@@ -15,22 +16,20 @@ mod run;
 mod store;
 mod table;
 
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use foton_film::{Image, ReadError, WriteError};
+use foton_film::Image;
 use foton_integrator::{Cancel, Cancelled, MemoryEstimate, Render, RenderSettings};
 use foton_scene::Scene;
-use thiserror::Error;
 
 pub use clock::processor_time;
+pub use error::SweepError;
 pub use masks::Masks;
 pub use plan::Configuration;
 pub use store::files_in;
 
-use crate::CompareError;
 use plan::{Job, count};
 use reference::Reference;
 use run::{Runner, Unfinished};
@@ -109,58 +108,6 @@ pub struct Outcome {
     pub recommendation: Option<String>,
     /// Jobs that ran now or before, of all.
     pub jobs: (usize, usize),
-}
-
-/// Why there is no result.
-#[derive(Debug, Error)]
-pub enum SweepError {
-    /// Stopped before there was anything to compare.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-    /// A result cannot be written.
-    #[error(transparent)]
-    Write(#[from] WriteError),
-    /// A result that took long cannot be written where it belongs; it is elsewhere.
-    #[error("{cause}; it is {} instead", spare.display())]
-    Kept {
-        /// Why.
-        cause: WriteError,
-        /// Where it is.
-        spare: PathBuf,
-    },
-    /// An image cannot be read.
-    #[error(transparent)]
-    Read(#[from] ReadError),
-    /// A folder or table cannot be made or read.
-    #[error("{}: {cause}", path.display())]
-    Io {
-        /// Of the file.
-        path: PathBuf,
-        /// What the system says.
-        cause: io::Error,
-    },
-    /// The folder holds another sweep.
-    #[error("{} holds a sweep of something else; take another folder, or remove it. There: {there}; now: {now}", folder.display())]
-    OtherSweep {
-        /// The folder.
-        folder: PathBuf,
-        /// What it holds.
-        there: String,
-        /// What was asked for.
-        now: String,
-    },
-    /// A table in the folder is none.
-    #[error("{}: not a table of this version; remove it to run its part again", path.display())]
-    Table {
-        /// Of the table.
-        path: PathBuf,
-    },
-    /// The reference has another size.
-    #[error("the reference does not fit: {0}")]
-    Compare(#[from] CompareError),
-    /// Nothing in the picture reflects light.
-    #[error("nothing that is seen reflects any light: there is no error to measure")]
-    Dark,
 }
 
 impl Sweep {
@@ -374,10 +321,4 @@ fn weight(job: &Job, centre: &Configuration) -> f64 {
 fn is_too_large(job: &Job, first: Option<&Vec<Point>>) -> bool {
     let emitted = first.and_then(|points| points.iter().map(|p| p.photons).max());
     emitted.is_some_and(|emitted| u64::from(job.photons.get()) * FEWEST_PASSES > emitted)
-}
-
-/// An error of the system about a file.
-fn io_error(path: &Path) -> impl Fn(io::Error) -> SweepError {
-    let path = path.to_owned();
-    move |cause| SweepError::Io { path: path.clone(), cause }
 }

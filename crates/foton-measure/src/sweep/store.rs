@@ -11,11 +11,11 @@ use foton_film::{
 use foton_integrator::Render;
 use foton_math::Rgb;
 
+use super::error::{SweepError, io_error};
 use super::plan::Job;
 use super::reference::{Known, Reference};
 use super::run::Picture;
 use super::table::{self, Point};
-use super::{SweepError, io_error};
 use crate::plot::short;
 use crate::{Pair, heat, scale_top};
 

@@ -1,12 +1,13 @@
 //! Checkpoints of the engine: one file, kept up to date while its render goes on, and taken up again.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use foton_film::{WriteError, check_writable, write_spare};
 
 use super::command::Event;
+use super::kept::Kept;
 use super::render::LevelRender;
 use super::worker::Worker;
 use crate::checkpoint;
@@ -14,15 +15,6 @@ use crate::metadata::SceneIdentity;
 
 /// Seconds of rendering between two writings, as of `foton render` by default.
 const EVERY: Duration = Duration::from_secs(30);
-
-/// A checkpoint that is kept.
-pub(super) struct Kept {
-    pub(super) path: PathBuf,
-    /// The scene that it is of, whatever is opened or edited next.
-    scene: SceneIdentity,
-    /// How long the render had taken when it was last written.
-    written: Duration,
-}
 
 impl Worker {
     /// Writes the render to a file, and again every half minute and at the end.

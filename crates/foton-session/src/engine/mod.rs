@@ -6,10 +6,12 @@
 mod command;
 mod frame;
 mod keeping;
+mod kept;
 mod loader;
 mod probe;
 mod rates;
 mod render;
+mod setup;
 mod slot;
 mod stage;
 mod worker;
@@ -26,22 +28,13 @@ use foton_integrator::Cancel;
 pub use command::{Change, Command, Configuration, ErrorPart, Event, Gesture, Shown, Source};
 pub use frame::{Activity, Dot, Frame, Numbers, Picture, Probe, SceneFacts, Selection, SensorFacts};
 pub use loader::{Loaded, Loader};
+pub use setup::Setup;
 
 /// Commands that may wait at once. A window sends a few for each frame it draws.
 const COMMANDS: usize = 1024;
 
 /// Events that may wait at once; the oldest are kept.
 const EVENTS: usize = 256;
-
-/// What the engine is given.
-pub struct Setup {
-    /// How scenes are opened and saved.
-    pub loader: Arc<dyn Loader>,
-    /// Called from the engine's thread when a frame or event is there.
-    pub wake: Box<dyn Fn() + Send>,
-    /// Renders beyond this many bytes are refused.
-    pub memory_limit: Option<f64>,
-}
 
 /// A handle on the engine. Dropping it ends the engine after what it is writing.
 pub struct Engine {

@@ -10,13 +10,13 @@ use foton_integrator::{Cancel, RenderSettings};
 use foton_scene::Scene;
 use rayon::ThreadPool;
 
-use super::Setup;
 use super::command::{Change, Command, Configuration, Event, Shown};
 use super::frame::{Activity, Frame, Numbers, Picture};
-use super::keeping::Kept;
+use super::kept::Kept;
 use super::loader::{Opening, Ready};
 use super::probe;
 use super::render::{Level, LevelRender};
+use super::setup::Setup;
 use super::slot::NewestSender;
 use super::stage::{Effect, Stage};
 use crate::panic::{Panic, contained};
