@@ -31,7 +31,7 @@ fn circles_are_recognised() {
     let two = [("", "mod a; mod b;"), ("a", "use crate::b::B;"), ("b", "fn f(x: super::a::A) {}")];
     assert_eq!(of(&two), [["a", "b"]]);
     assert!(
-        of(&[two[0], two[1], ("b", "// use super::a::A;\n#[cfg(test)]\nmod tests { use crate::a::A; }")])
+        of(&[two[0], two[1], ("b", "// use super::a::A;\n#[cfg(test)]\nmod tests {\nuse crate::a::A; }")])
             .is_empty()
     );
     // A name that is passed on is its child's; a method of a type may stand in a file that the type's own does not know.
@@ -149,8 +149,16 @@ impl Sources {
 
 /// A file without its comments and without what stands behind its first test.
 fn code(text: &str) -> String {
-    let text = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
-    text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect::<Vec<_>>().join("\n")
+    let lines: Vec<&str> = text.lines().collect();
+    // A module for tests stands last.
+    let is_for_tests = |two: &[&str]| {
+        two[0].starts_with("#[cfg(")
+            && two[0].contains("test")
+            && two[1].contains("mod ")
+            && two[1].ends_with('{')
+    };
+    let end = lines.windows(2).position(is_for_tests).unwrap_or(lines.len());
+    lines[..end].iter().map(|line| line.split("//").next().unwrap_or_default()).collect::<Vec<_>>().join("\n")
 }
 
 /// The paths that begin with one of these, with those of braces one by one.
