@@ -7,7 +7,7 @@ use foton_film::LayerData;
 use foton_math::Rgb;
 
 use super::{PassReport, Ppm};
-use crate::cancel::Cancel;
+use foton_math::Cancel;
 use crate::layers::LayerKind;
 use crate::settings::{DirectLight, RadiusRule, Settings};
 use crate::stage::Stage;

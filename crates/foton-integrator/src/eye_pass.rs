@@ -11,7 +11,7 @@ use foton_scene::{Scattering, Scene, Sensor, Surface, Transport};
 use rayon::prelude::*;
 use std::f32::consts::FRAC_1_PI;
 
-use crate::cancel::{Cancel, Cancelled};
+use foton_math::{Cancel, Cancelled};
 use crate::highlights::Glossy;
 use crate::hit_point::{Gloss, HitPoint};
 use crate::not_finite::{self, LeftOut, Quantity};

@@ -7,7 +7,7 @@ use foton_scene::Scene;
 use pulp::Arch;
 
 use super::Ppm;
-use crate::cancel::Cancel;
+use foton_math::Cancel;
 use crate::settings::Settings;
 use crate::test_scene::scene;
 

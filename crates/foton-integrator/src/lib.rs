@@ -5,7 +5,6 @@
 
 mod adaptive;
 mod batch;
-mod cancel;
 mod direct_light;
 mod error;
 mod eye_pass;
@@ -39,7 +38,7 @@ mod straight;
 mod test_scene;
 mod variants;
 
-pub use cancel::{Cancel, Cancelled};
+pub use foton_math::{Cancel, Cancelled};
 pub use error::{ClassError, ErrorEstimate, TileError};
 pub use features::{Feature, features};
 pub use inspect::{Disc, Radii, StoredPhoton};

@@ -13,7 +13,7 @@ use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 use crate::batch::Batch;
-use crate::cancel::{Cancel, Cancelled};
+use foton_math::{Cancel, Cancelled};
 use crate::grid::Grid;
 use crate::ledger::{Ledger, Loss, energy};
 use crate::light_use::LightUse;

@@ -9,7 +9,7 @@ use foton_scene::{Scene, Sources};
 use pulp::Arch;
 
 use crate::batch::{self, Batch, Counts};
-use crate::cancel::{Cancel, Cancelled};
+use foton_math::{Cancel, Cancelled};
 use crate::error::{ErrorSums, Question};
 use crate::eye_pass::EyePass;
 use crate::gather::{Rule, Tally};

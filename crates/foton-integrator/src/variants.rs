@@ -9,7 +9,7 @@ use foton_scene::Scene;
 use rayon::prelude::*;
 
 use crate::batch::Counts;
-use crate::cancel::{Cancel, Cancelled};
+use foton_math::{Cancel, Cancelled};
 use crate::grid::Grid;
 use crate::photon::PathClass;
 use crate::photon_pass::{Chunk, PhotonPass};
