@@ -53,9 +53,11 @@ mod values;
 mod words;
 mod write;
 
-use std::io;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use foton_math::Cancel;
 use foton_scene::description::SceneDescription;
 
 pub use diagnostic::{Diagnostic, OpenError, Place, Severity};
@@ -79,6 +81,8 @@ pub struct Options {
     pub defines: Vec<(String, String)>,
     /// Bytes that reading may take; `None`: as many as there are. What [`open`] could not read within that is refused unread.
     pub memory: Option<u64>,
+    /// Ends reading within a fraction of a second: then the outcome is [`OpenError::Cancelled`].
+    pub cancel: Cancel,
 }
 
 impl Options {
@@ -93,9 +97,23 @@ impl Options {
             let message = format!("reading it takes up to {takes} MiB, {limit} MiB may be used");
             return Err(io::Error::other(message));
         }
-        std::fs::read(path)
+        self.read_to_end(&mut File::open(path)?)
+    }
+
+    /// All that a file holds, unless cancelled.
+    fn read_to_end(&self, file: &mut impl Read) -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        loop {
+            self.cancel.check().map_err(io::Error::other)?;
+            if file.by_ref().take(BLOCK).read_to_end(&mut bytes)? == 0 {
+                return Ok(bytes);
+            }
+        }
     }
 }
+
+/// Bytes that are read between two questions whether reading goes on.
+const BLOCK: u64 = 1 << 22;
 
 /// The most bytes that reading takes for each of a file, its own included; fuzzing holds all readers of meshes to that.
 const BYTES_PER_BYTE: u64 = 4;
@@ -167,7 +185,7 @@ pub struct SceneNodes {
 /// it lacks is added, and a warning says so.
 ///
 /// # Errors
-/// Everything that is wrong with the file, unless it is not well-formed XML: then the first problem.
+/// Everything that is wrong with the file, unless it is not well-formed XML: then the first problem. Or that reading was cancelled.
 pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
     if let Some(kind) = bare::Kind::of(path) {
         return bare::open(path, kind, &|file| options.read(file), options);
@@ -183,7 +201,10 @@ pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
             let place = Place { line: u32::try_from(line).unwrap_or(0), column: 0 };
             return Err(report.fail(place, "the text is not UTF-8"));
         }
-        Err(error) => return Err(report.fail(Place::default(), format!("cannot be read: {error}"))),
+        Err(error) => {
+            options.cancel.check()?;
+            return Err(report.fail(Place::default(), format!("cannot be read: {error}")));
+        }
     };
     let opened = read(report, &text, &|file| options.read(file), options)?;
     Ok(Opened { path: Some(path.to_owned()), ..opened })
@@ -205,10 +226,11 @@ fn read(mut report: Report, xml: &str, files: &ReadFile<'_>, options: &Options) 
         Ok(document) => document,
         Err((place, message)) => return Err(report.fail(place, message)),
     };
-    let mut files = Files::new(files);
+    let mut files = Files::new(files, &options.cancel);
     let expanded = include::expand(&document, &options.defines, &mut files, &mut report);
     let mut reader = Reader::new(&expanded.document, files, report);
     reader.scene();
+    options.cancel.check()?;
     let Reader { report, files, description, mut nodes, suggested, .. } = reader;
     let warnings = report.finish()?;
     let source_hash = source_hash(xml, options, files.hash);

@@ -5,6 +5,7 @@
 
 mod aabb;
 mod cancel;
+mod cancel_reader;
 mod frame;
 pub mod octahedral;
 mod ray;
@@ -14,6 +15,7 @@ pub mod warp;
 
 pub use aabb::Aabb;
 pub use cancel::{Cancel, Cancelled};
+pub use cancel_reader::CancelReader;
 pub use frame::Frame;
 pub use glam;
 pub use ray::Ray;

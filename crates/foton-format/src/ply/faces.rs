@@ -1,5 +1,6 @@
 //! The faces of a PLY file, and its strips of triangles.
 
+use foton_math::Cancel;
 use foton_math::glam::DVec2;
 use foton_scene::description::Mesh;
 
@@ -167,7 +168,7 @@ impl Faces {
     }
 
     /// Gives the mesh its triangles, and vertices for them; what is to be warned of.
-    pub(super) fn finish(self, mesh: &mut Mesh) -> Result<Vec<Problem>, Problem> {
+    pub(super) fn finish(self, mesh: &mut Mesh, cancel: &Cancel) -> Result<Vec<Problem>, Problem> {
         let Self { mut triangles, polygons, split, short, unfit, .. } = self;
         if triangles.is_empty() {
             return Err((Place::default(), "the file has no faces".to_owned()));
@@ -181,7 +182,7 @@ impl Faces {
                 mesh.normals = split.keys.iter().map(|&(i, _)| mesh.normals[i as usize]).collect();
             }
         }
-        let mended = polygons.mend(&mut triangles, |i| mesh.positions[i as usize]);
+        let mended = polygons.mend(&mut triangles, |i| mesh.positions[i as usize], cancel);
         mesh.triangles = triangles;
         let warnings = [
             short.warning("face has", "faces have", LEFT_OUT),
