@@ -127,7 +127,7 @@ pub(crate) fn open(
         document,
         nodes,
         path: None,
-        options: options.clone(),
+        options: options.without_cancel(),
         suggested: Suggested::default(),
         warnings,
         source_hash: hash.finish(),

@@ -86,6 +86,11 @@ pub struct Options {
 }
 
 impl Options {
+    /// The same, once reading is over.
+    fn without_cancel(&self) -> Self {
+        Self { cancel: Cancel::default(), ..self.clone() }
+    }
+
     /// Reads a file of the disk, or refuses it by its size alone.
     fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
         if let Some(limit) = self.memory
@@ -238,7 +243,7 @@ fn read(mut report: Report, xml: &str, files: &ReadFile<'_>, options: &Options) 
     for node in required.chain(nodes.materials.iter_mut().flatten()) {
         *node = expanded.origin(*node);
     }
-    let options = options.clone();
+    let options = options.without_cancel();
     Ok(Opened { description, document, nodes, path: None, options, suggested, warnings, source_hash })
 }
 

@@ -1,5 +1,6 @@
 //! `foton convert`: any readable scene to Mitsuba 3 XML with PLY meshes.
 
+use foton_integrator::Cancel;
 use foton_scene::Scene;
 
 use crate::args::Convert;
@@ -9,7 +10,8 @@ use crate::talk::{Failure, Talk};
 
 /// Runs `foton convert`.
 pub(crate) fn run(args: &Convert, talk: &Talk) -> Result<(), Failure> {
-    let opened = open(&args.scene, &args.defines, None)?;
+    // A signal ends the program at once: there is nothing to keep.
+    let opened = open(&args.scene, &args.defines, None, &Cancel::default())?;
     for finding in &opened.warnings {
         talk.finding(finding);
     }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use foton_format::{Opened, Options, Saved, Severity, Suggested, save_edited};
-use foton_integrator::{Alpha, Settings};
+use foton_integrator::{Alpha, Cancel, Settings};
 use foton_preview::WindowError;
 use foton_scene::BuildError;
 use foton_scene::description::SceneDescription;
@@ -32,8 +32,9 @@ pub(crate) fn show(scene: Option<&Path>, frame_log: Option<&Path>) -> Result<(),
 struct Files;
 
 impl Loader for Files {
-    fn open(&self, source: &Source) -> Result<Loaded, String> {
-        let options = Options { memory: memory::limit(None).map(|b| b as u64), ..Options::default() };
+    fn open(&self, source: &Source, cancel: &Cancel) -> Result<Loaded, String> {
+        let memory = memory::limit(None).map(|b| b as u64);
+        let options = Options { memory, cancel: cancel.clone(), ..Options::default() };
         let (opened, name) = match source {
             Source::File(path) => (
                 foton_format::open(path, &options),
@@ -46,7 +47,7 @@ impl Loader for Files {
             }
         };
         let opened = opened.map_err(|e| {
-            let lines: Vec<String> = e.diagnostics.iter().map(ToString::to_string).collect();
+            let lines: Vec<String> = e.diagnostics().iter().map(ToString::to_string).collect();
             lines.join("\n")
         })?;
         memory::refuse_to_build(&opened.description, None).map_err(|failure| failure.to_string())?;

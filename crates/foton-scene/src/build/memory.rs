@@ -30,8 +30,9 @@ impl SceneDescription {
         self.bytes() + self.primitives() * BYTES_PER_PRIMITIVE
     }
 
-    /// Triangles and other surfaces.
-    pub(super) fn primitives(&self) -> usize {
+    /// Triangles, those without area too, and other surfaces.
+    #[must_use]
+    pub fn primitives(&self) -> usize {
         let primitives = self.shapes.iter().map(|shape| match &shape.geometry {
             Geometry::Mesh(mesh) => mesh.triangles.len(),
             _ => 1,

@@ -27,6 +27,9 @@ use crate::threads::{self, Rank};
 /// Frames are at least this far apart unless a person is waiting for one.
 const FRAME_GAP: Duration = Duration::from_millis(30);
 
+/// How long to wait for commands while a scene is opened, before there is something new to see.
+const LOOK_AGAIN: Duration = Duration::from_millis(100);
+
 /// What the thread is connected to.
 pub(super) struct Channels {
     pub(super) commands: Receiver<Command>,
@@ -47,7 +50,10 @@ enum Flow {
 pub(super) struct Worker {
     pub(super) setup: Setup,
     channels: Channels,
+    /// Discards the pass, or gives up the build, that is under way.
     cancel: Cancel,
+    /// Gives up whatever is built, once the engine is to end.
+    quit: Cancel,
     pub(super) unwritten: Arc<AtomicUsize>,
     pub(super) stage: Option<Stage>,
     opening: Option<Opening>,
@@ -83,11 +89,17 @@ pub(super) struct Worker {
 }
 
 impl Worker {
-    pub(super) fn new(setup: Setup, channels: Channels, cancel: Cancel, unwritten: Arc<AtomicUsize>) -> Self {
+    pub(super) fn new(
+        setup: Setup,
+        channels: Channels,
+        [cancel, quit]: [Cancel; 2],
+        unwritten: Arc<AtomicUsize>,
+    ) -> Self {
         Self {
             setup,
             channels,
             cancel,
+            quit,
             unwritten,
             stage: None,
             opening: None,
@@ -159,7 +171,13 @@ impl Worker {
             let mut wait = crossbeam_channel::Select::new();
             wait.recv(&self.channels.commands);
             wait.recv(opened);
-            wait.ready();
+            if self.opening.is_some() {
+                // Building goes on, and the window shows how far it is.
+                let _ = wait.ready_timeout(LOOK_AGAIN);
+                self.unseen = true;
+            } else {
+                wait.ready();
+            }
             select! {
                 recv(self.channels.commands) -> command => commands.push(command.ok()?),
                 default => {}
@@ -302,7 +320,7 @@ impl Worker {
         let loaded = &ready.loaded;
         self.event(Event::Opened { name: loaded.identity.name.clone(), warnings: loaded.warnings.clone() });
         self.settings = Settings { layers: self.settings.layers, ..loaded.settings.clone() };
-        self.stage = Some(Stage::new(ready));
+        self.stage = Some(Stage::new(ready, [self.cancel.clone(), self.quit.clone()]));
         self.moving = false;
         self.picture = None;
         self.probed = None;
@@ -331,6 +349,9 @@ impl Worker {
     /// One step: a start or a pass.
     fn work(&mut self) {
         if self.is_idle() {
+            return;
+        }
+        if !self.build_edited() {
             return;
         }
         let Some(stage) = &self.stage else { return };
@@ -374,6 +395,20 @@ impl Worker {
             None => {}
         }
         self.advance(&cancel);
+    }
+
+    /// Builds the scene of an edit, if that was given up before. Whether there is a scene to render now.
+    fn build_edited(&mut self) -> bool {
+        if !self.stage.as_ref().is_some_and(Stage::is_stale) {
+            return true;
+        }
+        self.unseen = true;
+        self.publish(true);
+        let built = self.stage.as_mut().map_or(Ok(true), Stage::freshen);
+        built.unwrap_or_else(|message| {
+            self.event(Event::Failed(message));
+            false
+        })
     }
 
     /// Eye samples of the whole picture.
@@ -425,7 +460,11 @@ impl Worker {
 
     fn activity(&self) -> Activity {
         let Some(render) = &self.render else {
-            return if self.stage.is_none() { Activity::Empty } else { Activity::Collecting };
+            return match &self.stage {
+                None => Activity::Empty,
+                Some(stage) if stage.is_stale() => Activity::Building,
+                Some(_) => Activity::Collecting,
+            };
         };
         match self.flow {
             _ if self.moving => Activity::Moving,
@@ -470,6 +509,7 @@ impl Worker {
             pictured: self.pictured,
             activity,
             opening: self.opening.as_ref().map(|o| o.name.clone()),
+            building: self.opening.as_ref().and_then(Opening::building),
             size: facts.sensors.get(sensor).map_or([0, 0], |s| s.size),
             picture: self.picture.clone(),
             shown: self.shown,

@@ -146,7 +146,7 @@ pub(crate) struct Shelf {
 }
 
 impl Loader for Shelf {
-    fn open(&self, source: &Source) -> Result<Loaded, String> {
+    fn open(&self, source: &Source, _cancel: &Cancel) -> Result<Loaded, String> {
         let name = source.to_string();
         match name.as_str() {
             "room" | "vast" | "heap" | "sensorless" => {}
