@@ -81,7 +81,10 @@ fn main() {
 }
 
 fn render(description: &SceneDescription, forced: Census, settings: &Settings) -> Cost {
-    let scene = Arc::new(Scene::build_with(description, &BuildOptions { forced, ..BuildOptions::default() }).expect("an asset"));
+    let scene = Arc::new(
+        Scene::build_with(description, &BuildOptions { forced, ..BuildOptions::default() })
+            .expect("an asset"),
+    );
     let cancel = Cancel::default();
     let clock = Clock::new();
     let mut ppm = Ppm::start(scene, settings.clone(), &mut |_| {}, &cancel).expect("not cancelled");

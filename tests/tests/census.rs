@@ -27,7 +27,8 @@ fn settings() -> Settings {
 }
 
 fn render(sketch: &Sketch, forced: Census) -> Image {
-    let scene = Scene::build_with(&sketch.0, &BuildOptions { forced, ..BuildOptions::default() }).expect("the room is sound");
+    let scene = Scene::build_with(&sketch.0, &BuildOptions { forced, ..BuildOptions::default() })
+        .expect("the room is sound");
     let cancel = Cancel::default();
     let mut ppm = Ppm::start(Arc::new(scene), settings(), &mut |_| {}, &cancel).expect("not cancelled");
     for _ in 0..4 {

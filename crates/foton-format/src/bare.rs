@@ -15,8 +15,8 @@ mod parts;
 use std::path::Path;
 use std::sync::Arc;
 
-use foton_math::{Cancel, Rgb};
 use foton_math::glam::{DAffine3, DMat3, DVec3};
+use foton_math::{Cancel, Rgb};
 use foton_scene::description::{
     Bsdf, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
     SensorDescription, ShapeDescription,

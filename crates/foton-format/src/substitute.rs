@@ -127,7 +127,8 @@ mod tests {
         let defines: Vec<_> = defines.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())).collect();
         let document = Document::parse(&format!("<scene>{xml}</scene>")).unwrap();
         let no_files = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
-        let document = expand(&document, &defines, &mut Files::new(&no_files, &Cancel::default()), &mut report).document;
+        let document =
+            expand(&document, &defines, &mut Files::new(&no_files, &Cancel::default()), &mut report).document;
         let value = document.elements().last().and_then(|(_, e)| e.attribute("v").map(|a| a.value.clone()));
         let messages = match report.finish() {
             Ok(all) => all,

@@ -2,8 +2,8 @@
 //!
 //! Lines end in `\n`, with a `\r` before it or not; in a file without any `\n` they end in `\r`.
 
-use foton_math::{Cancel, Cancelled};
 use foton_math::glam::{DVec2, DVec3};
+use foton_math::{Cancel, Cancelled};
 
 use crate::diagnostic::Place;
 

@@ -7,11 +7,11 @@ use foton_film::LayerData;
 use foton_math::Rgb;
 
 use super::{PassReport, Ppm};
-use foton_math::Cancel;
 use crate::layers::LayerKind;
 use crate::settings::{DirectLight, RadiusRule, Settings};
 use crate::stage::Stage;
 use crate::test_scene::scene;
+use foton_math::Cancel;
 
 const PHOTONS: u32 = 30_000;
 /// Three batches, and not equal ones.

@@ -11,13 +11,13 @@ use foton_scene::{Scattering, Scene, Sensor, Surface, Transport};
 use rayon::prelude::*;
 use std::f32::consts::FRAC_1_PI;
 
-use foton_math::{Cancel, Cancelled};
 use crate::highlights::Glossy;
 use crate::hit_point::{Gloss, HitPoint};
 use crate::not_finite::{self, LeftOut, Quantity};
 use crate::radius::{FirstRadius, slab2};
 use crate::sampling::PixelSamples;
 use crate::settings::Settings;
+use foton_math::{Cancel, Cancelled};
 
 /// Paths lighter than this are not split any more.
 const SPLIT_WEIGHT: f32 = 1e-3;
@@ -108,13 +108,15 @@ impl EyePass<'_> {
         let parts: Vec<EyePaths> = (0..pixels.div_ceil(CHUNK))
             .into_par_iter()
             .map(|chunk| {
-                cancel.check()?;
-                Ok(self.follow((chunk * CHUNK..pixels.min((chunk + 1) * CHUNK)).map(|p| p as u32)))
+                let part =
+                    self.follow((chunk * CHUNK..pixels.min((chunk + 1) * CHUNK)).map(|p| p as u32), cancel);
+                cancel.check().map(|()| part)
             })
             .collect::<Result<_, _>>()?;
         let mut all = EyePaths::default();
         all.hit_points.reserve_exact(parts.iter().map(|p| p.hit_points.len()).sum());
         for part in parts {
+            cancel.check()?;
             let before = all.gloss.len() as u32;
             all.hit_points.extend(part.hit_points.into_iter().map(|mut h| {
                 h.gloss = h.gloss.map(|g| g + before);
@@ -131,8 +133,8 @@ impl EyePass<'_> {
         Ok(all)
     }
 
-    /// Follows all samples of some pixels.
-    pub(crate) fn follow(&self, pixels: impl Iterator<Item = u32>) -> EyePaths {
+    /// Follows all samples of some pixels; once cancelled no more of them.
+    pub(crate) fn follow(&self, pixels: impl Iterator<Item = u32>, cancel: &Cancel) -> EyePaths {
         let mut paths = EyePaths::default();
         let radius = FirstRadius::new(self.scene, self.settings);
         let samples = self.settings.samples_per_pixel.get();
@@ -146,6 +148,9 @@ impl EyePass<'_> {
             let lamps = PixelSamples::new(&mut scramble);
             paths.shapes.push(NO_SHAPE);
             for sample in 0..samples {
+                if cancel.is_requested() {
+                    return paths;
+                }
                 let index = u64::from(pixel) * u64::from(samples) + u64::from(sample);
                 let mut walk = Walk {
                     pass: self,

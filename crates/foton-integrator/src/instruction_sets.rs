@@ -7,9 +7,9 @@ use foton_scene::Scene;
 use pulp::Arch;
 
 use super::Ppm;
-use foton_math::Cancel;
 use crate::settings::Settings;
 use crate::test_scene::scene;
+use foton_math::Cancel;
 
 /// Bits of the image after three passes, and photons found.
 fn render(scene: &Arc<Scene>, arch: Arch) -> (Vec<[u32; 3]>, u64) {

@@ -38,9 +38,9 @@ mod straight;
 mod test_scene;
 mod variants;
 
-pub use foton_math::{Cancel, Cancelled};
 pub use error::{ClassError, ErrorEstimate, TileError};
 pub use features::{Feature, features};
+pub use foton_math::{Cancel, Cancelled};
 pub use inspect::{Disc, Radii, StoredPhoton};
 pub use layers::LayerKind;
 pub use ledger::{Ledger, Loss};

@@ -13,7 +13,6 @@ use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 use crate::batch::Batch;
-use foton_math::{Cancel, Cancelled};
 use crate::grid::Grid;
 use crate::ledger::{Ledger, Loss, energy};
 use crate::light_use::LightUse;
@@ -21,6 +20,7 @@ use crate::not_finite::{LeftOut, Quantity, Surface};
 use crate::photon::{PathClass, Photon};
 use crate::settings::DirectLight;
 use draws::{Draw, Draws};
+use foton_math::{Cancel, Cancelled};
 
 /// Photons that one task emits.
 pub(crate) const CHUNK: u64 = 4096;

@@ -9,13 +9,13 @@ use foton_scene::Scene;
 use rayon::prelude::*;
 
 use crate::batch::Counts;
-use foton_math::{Cancel, Cancelled};
 use crate::grid::Grid;
 use crate::photon::PathClass;
 use crate::photon_pass::{Chunk, PhotonPass};
 use crate::ppm::{PassReport, Ppm};
 use crate::settings::{DirectLight, Settings};
 use crate::stage::Stage;
+use foton_math::{Cancel, Cancelled};
 
 /// Whose work begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,7 +67,8 @@ impl Variants {
         let runs: Vec<Ppm> = settings.iter().enumerate().map(start).collect::<Result<_, _>>()?;
         let widest = |run: &&Ppm| run.hit_points().statistics().map(|s| s.radius2()).sum::<f64>();
         let widest = runs.iter().max_by(|a, b| widest(a).total_cmp(&widest(b)));
-        let Some(everywhere) = widest.map(|run| Grid::new(&run.hit_points().packets)) else {
+        let Some(everywhere) = widest.map(|run| Grid::new(&run.hit_points().packets, cancel)).transpose()?
+        else {
             return Ok(None);
         };
         Ok(Some(Self { runs, everywhere, chunks: Vec::new() }))

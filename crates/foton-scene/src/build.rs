@@ -9,8 +9,8 @@ mod patches;
 
 use std::sync::Arc;
 
-use foton_math::{Aabb, Cancelled};
 use foton_math::glam::{DAffine3, DMat3, Mat3, Vec3};
+use foton_math::{Aabb, Cancelled};
 use thiserror::Error;
 
 use crate::bsdf::Coat;

@@ -25,11 +25,8 @@ pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failur
     let interrupt = interrupt_on_signals(talk);
     let cancel = interrupt.cancel();
     talk.begin();
-    let options = Options {
-        memory: limit(None).map(|b| b as u64),
-        cancel: cancel.clone(),
-        ..Options::default()
-    };
+    let options =
+        Options { memory: limit(None).map(|b| b as u64), cancel: cancel.clone(), ..Options::default() };
     let (opened, name) = match scene {
         Some(path) => {
             (foton_format::open(path, &options), path.file_name().unwrap_or_default().to_string_lossy())

@@ -98,7 +98,8 @@ fn cheapest_border(parts: &[Bvh2Node], bin: impl Fn(&Bvh2Node) -> usize) -> Opti
         *count += 1;
     }
     // `below[i]`: the cost of all that lies before bin i.
-    let cost = |(bounds, count): &(Aabb, usize)| if *count == 0 { 0.0 } else { bounds.half_area() * *count as f32 };
+    let cost =
+        |(bounds, count): &(Aabb, usize)| if *count == 0 { 0.0 } else { bounds.half_area() * *count as f32 };
     let add = |sum: &mut (Aabb, usize), bin: &(Aabb, usize)| *sum = (sum.0.union(&bin.0), sum.1 + bin.1);
     let (mut sum, mut below) = ((empty(), 0), [(0.0, 0); BINS]);
     for (bin, below) in bins.iter().zip(&mut below) {

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use foton_math::{Aabb, Cancelled};
 use foton_math::glam::{DAffine3, DMat3, Vec2, Vec3};
+use foton_math::{Aabb, Cancelled};
 
 use super::{BuildError, BuildOptions, Gauge};
 use crate::accel::Accel;

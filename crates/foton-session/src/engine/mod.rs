@@ -73,12 +73,8 @@ impl Engine {
         let channels =
             worker::Channels { commands: command_receiver, frames: frame_sender, events: event_sender };
         let unwritten = Arc::new(AtomicUsize::new(0));
-        let worker = worker::Worker::new(
-            setup,
-            channels,
-            [cancel.clone(), quit.clone()],
-            Arc::clone(&unwritten),
-        );
+        let worker =
+            worker::Worker::new(setup, channels, [cancel.clone(), quit.clone()], Arc::clone(&unwritten));
         thread::Builder::new().name("engine".to_owned()).spawn(move || worker.run())?;
         Ok(Self { commands, frames, events, cancel, quit, unwritten })
     }

@@ -3,10 +3,10 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use foton_math::glam::{DVec2, DVec3};
 use foton_integrator::Cancel;
-use foton_scene::{BuildError, BuildOptions, Scene};
+use foton_math::glam::{DVec2, DVec3};
 use foton_scene::description::{SceneDescription, SensorDescription};
+use foton_scene::{BuildError, BuildOptions, Scene};
 
 use super::command::{Gesture, Source};
 use super::frame::{SceneFacts, Selection, SensorFacts};
