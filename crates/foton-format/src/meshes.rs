@@ -180,35 +180,61 @@ pub(crate) fn mend(mesh: &mut Mesh, cancel: &Cancel) -> Vec<Problem> {
     normals.into_iter().chain(textures).collect()
 }
 
+/// What tells a vertex from others.
+pub(crate) trait VertexKey: Copy + PartialEq {
+    /// All of it but the position; the same for what is equal.
+    fn bits(self) -> [u64; 2];
+}
+
+impl VertexKey for Corner {
+    fn bits(self) -> [u64; 2] {
+        [u64::from(self.texture), u64::from(self.normal)]
+    }
+}
+
 /// Vertices that corners share, found by chains of those with the same position.
 pub(crate) struct Vertices<K> {
     first: Vec<u32>,
     next: Vec<u32>,
+    /// Those at positions whose chains are full.
+    crowded: HashMap<(u32, [u64; 2]), u32>,
     /// What tells each vertex from others.
     pub(crate) keys: Vec<K>,
 }
 
 const NONE: u32 = u32::MAX;
 
-impl<K: Copy + PartialEq> Vertices<K> {
+/// Vertices of a chain at most: to go through those of one position for each corner there takes the square of their number.
+const LONGEST_CHAIN: usize = 32;
+
+impl<K: VertexKey> Vertices<K> {
     pub(crate) fn new(positions: usize) -> Self {
-        Self { first: vec![NONE; positions], next: Vec::new(), keys: Vec::with_capacity(positions) }
+        let (first, keys) = (vec![NONE; positions], Vec::with_capacity(positions));
+        Self { first, next: Vec::new(), crowded: HashMap::new(), keys }
     }
 
     /// The vertex with that key, which has that position.
     pub(crate) fn index(&mut self, position: u32, key: K) -> u32 {
         let slot = &mut self.first[position as usize];
-        let mut at = *slot;
+        let (mut at, mut length) = (*slot, 0);
         while at != NONE {
             if self.keys[at as usize] == key {
                 return at;
             }
             at = self.next[at as usize];
+            length += 1;
         }
         let new = u32::try_from(self.keys.len()).unwrap_or(NONE);
-        self.next.push(*slot);
+        if length < LONGEST_CHAIN {
+            self.next.push(std::mem::replace(slot, new));
+        } else {
+            let known = *self.crowded.entry((position, key.bits())).or_insert(new);
+            if known != new {
+                return known;
+            }
+            self.next.push(NONE);
+        }
         self.keys.push(key);
-        *slot = new;
         new
     }
 }
@@ -284,6 +310,41 @@ pub(crate) fn smooth_normals(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    use std::cell::Cell;
+
+    thread_local! {
+        static COMPARED: Cell<u64> = const { Cell::new(0) };
+    }
+
+    /// Counts how often it is compared.
+    #[derive(Clone, Copy)]
+    struct Counted(u64);
+
+    impl PartialEq for Counted {
+        fn eq(&self, other: &Self) -> bool {
+            COMPARED.set(COMPARED.get() + 1);
+            self.0 == other.0
+        }
+    }
+
+    impl VertexKey for Counted {
+        fn bits(self) -> [u64; 2] {
+            [self.0, 0]
+        }
+    }
+
+    #[test]
+    fn very_many_vertices_at_one_position_are_told_apart_in_time() {
+        const COUNT: u64 = 20_000;
+        let mut vertices = Vertices::new(2);
+        for _ in 0..2 {
+            let of_one: Vec<u32> = (0..COUNT).map(|key| vertices.index(1, Counted(key))).collect();
+            assert!(of_one.into_iter().eq(0..COUNT as u32));
+        }
+        assert_eq!(vertices.index(0, Counted(7)), COUNT as u32);
+        assert!(COMPARED.get() < 100 * COUNT, "{}", COMPARED.get());
+    }
 
     const DIAGONAL: f64 = std::f64::consts::FRAC_1_SQRT_2;
 

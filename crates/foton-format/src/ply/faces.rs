@@ -8,7 +8,7 @@ use super::header::{Element, Header, Kind, Property};
 use super::numbers::Numbers;
 use super::{length, skip_value, whole};
 use crate::diagnostic::Place;
-use crate::meshes::Vertices;
+use crate::meshes::{VertexKey, Vertices};
 use crate::obj::LEFT_OUT;
 use crate::polygons::Polygons;
 use crate::tally::Tally;
@@ -24,6 +24,13 @@ pub(super) struct Faces {
     split: Option<Vertices<(u32, Option<DVec2>)>>,
     short: Tally,
     unfit: Tally,
+}
+
+impl VertexKey for (u32, Option<DVec2>) {
+    fn bits(self) -> [u64; 2] {
+        // Adding zero makes one zero of both; no file states a number of bits that none has.
+        self.1.map_or([u64::MAX; 2], |uv| [uv.x + 0.0, uv.y + 0.0].map(f64::to_bits))
+    }
 }
 
 impl Faces {

@@ -74,10 +74,13 @@ struct Scale {
 }
 
 impl Scale {
+    /// For the values that have a logarithm: others do not make it endless.
     fn new(values: impl Iterator<Item = f64>, from: f64, to: f64) -> Self {
+        let values = values.filter(|v| v.is_finite() && *v > 0.0);
         let (low, high) = values.fold((f64::MAX, f64::MIN_POSITIVE), |(a, b), v| (a.min(v), b.max(v)));
         let margin = 0.04 * (high / low).ln().max(0.5);
-        Self { low: low * (-margin).exp(), high: high * margin.exp(), from, to }
+        let (low, high) = (low * (-margin).exp(), high * margin.exp());
+        Self { low: low.max(f64::MIN_POSITIVE), high: high.min(f64::MAX), from, to }
     }
 
     fn at(&self, v: f64) -> f64 {

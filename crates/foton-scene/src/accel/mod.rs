@@ -20,6 +20,9 @@ use node::{BoxRay, Child, Node, QUAD, Quad, Target, WIDTH};
 /// Boxes grow by this share of the scene's half-size on each side: rounding errors of the triangle test, with a margin.
 const PADDING: f32 = 1e-6;
 
+/// Nodes that are looked at for each primitive that may be visited near a box: in most scenes far fewer are.
+const NODES_PER_VISIT: usize = 64;
+
 /// Places on a ray's stack before it spills to the heap.
 const STACK: usize = 32;
 
@@ -166,14 +169,15 @@ impl Accel {
     /// Calls `visit` with the index of each primitive whose box, or that of its leaf, meets a box, until about `most` were visited:
     /// where very many lie in one place, looking at all from each would never end.
     pub(crate) fn for_each_near(&self, near: &Aabb, most: usize, mut visit: impl FnMut(usize)) {
-        let mut left = most;
+        let (mut left, mut nodes) = (most, most.saturating_mul(NODES_PER_VISIT));
         let mut stack = Stack::new();
         if !self.nodes.is_empty() {
             stack.push(Place { t: 0.0, child: Child::node(0) });
         }
-        while let Some(place) = stack.pop().filter(|_| left > 0) {
+        while let Some(place) = stack.pop().filter(|_| left > 0 && nodes > 0) {
             match place.child.target() {
                 Target::Node(node) => {
+                    nodes -= 1;
                     let node = &self.nodes[node];
                     let mut met = node.near(near);
                     while met != 0 {
@@ -304,3 +308,6 @@ impl Best {
         t < self.t || self.primitive == u32::MAX
     }
 }
+
+#[cfg(test)]
+mod tests;
