@@ -270,6 +270,15 @@ mod tests {
     use super::*;
 
     #[test]
+    fn values_without_a_logarithm_make_no_axis_endless() {
+        for odd in [0.0, -1.0, f64::NAN, f64::INFINITY, f64::MAX, f64::MIN_POSITIVE, 5e-324] {
+            let ticks = Scale::new([odd, 1.0, 3.0].into_iter(), 0.0, 100.0).ticks();
+            assert!(ticks.len() < 1000, "{odd}: {}", ticks.len());
+            Scale::new([odd].into_iter(), 0.0, 100.0).ticks();
+        }
+    }
+
+    #[test]
     fn ticks_are_round_inside_and_neither_few_nor_many() {
         for (low, high) in [(0.011, 0.019), (0.8, 3.2), (1.0, 60.0), (0.02, 900.0), (1e4, 3e9)] {
             let scale = Scale::new([low, high].into_iter(), 0.0, 100.0);

@@ -439,3 +439,7 @@ impl Stage {
         markers(&self.description, sensor).into_iter().flat_map(|(_, marker)| marker).collect()
     }
 }
+
+#[cfg(test)]
+#[path = "stage_tests.rs"]
+mod tests;

@@ -112,3 +112,68 @@ fn without_a_scene_the_embedded_one_is_begun_and_further_interrupts_give_it_up()
     let status = child.wait().expect("ends");
     assert!(status.code().is_some(), "it ends by itself, not killed: {status}");
 }
+
+/// A mesh of a million triangles, which takes some processor seconds to read and build.
+fn write_large_mesh(folder: &Folder) {
+    const SIDE: u32 = 708;
+    let mut bytes = format!(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n\
+         element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        (SIDE + 1).pow(2),
+        SIDE.pow(2)
+    )
+    .into_bytes();
+    for i in 0..(SIDE + 1).pow(2) {
+        let [x, z] = [i % (SIDE + 1), i / (SIDE + 1)].map(|i| i as f32 / SIDE as f32);
+        bytes.extend([x, (i * 7919 % 13) as f32 * 1e-3, z].into_iter().flat_map(f32::to_le_bytes));
+    }
+    for i in 0..SIDE.pow(2) {
+        let first = i % SIDE + i / SIDE * (SIDE + 1);
+        bytes.push(4);
+        let corners = [first, first + SIDE + 1, first + SIDE + 2, first + 1];
+        bytes.extend(corners.into_iter().flat_map(u32::to_le_bytes));
+    }
+    fs::write(folder.file("large.ply"), bytes).expect("room");
+    let shape = "<shape type=\"ply\"><string name=\"filename\" value=\"large.ply\"/></shape></scene>";
+    folder.write("large.xml", &SCENE.replace("</scene>", shape));
+}
+
+/// Waits until the program handles SIGTERM itself: until then the system ends it at once.
+#[cfg(target_os = "linux")]
+fn wait_for_the_handler(child: &mut Child) {
+    const SIGTERM: u32 = 15;
+    loop {
+        assert!(child.try_wait().expect("ours").is_none(), "it ended by itself");
+        let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+        let caught = caught.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0);
+        if caught >> (SIGTERM - 1) & 1 != 0 {
+            return;
+        }
+        sleep(Duration::from_millis(1));
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_scene_that_is_read_or_built_is_given_up_at_the_first_signal() {
+    let folder = Folder::new("loading");
+    write_large_mesh(&folder);
+    for (signal, milliseconds) in [("-TERM", 0), ("-INT", 300), ("-TERM", 700)] {
+        let mut command =
+            folder.command("render large.xml -o x.exr --passes 1000000 --checkpoint x.ck --json");
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("starts");
+        wait_for_the_handler(&mut child);
+        // Wherever it is by then, it has no pass yet.
+        sleep(Duration::from_millis(milliseconds));
+        let status = Command::new("kill").args([signal, &child.id().to_string()]).status();
+        assert!(status.expect("kill runs").success());
+        let output = child.wait_with_output().expect("ends");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.contains("interrupted while") && !said.contains("error"), "{said}");
+        assert_eq!(events(&output.stdout).last().map(|e| e["event"].clone()), Some(json!("interrupted")));
+        let left: Vec<_> = folder.images().into_iter().filter(|name| !name.starts_with("large")).collect();
+        assert_eq!(left, [""; 0], "nothing is written");
+    }
+}
