@@ -16,7 +16,7 @@ use crate::build::{BuildOptions, BuildStep};
 use crate::description::{Bsdf, Colour, Material};
 use crate::scene::Scene;
 use crate::surface::Surface;
-use sheet::{Sheet, coincide, meet_at, tolerance, weights};
+use sheet::{Face, Sheet, coincide, meet_at, tolerance, weights};
 
 /// Surfaces that are told apart at one point.
 const MOST: usize = 8;
@@ -63,10 +63,10 @@ impl Coincidences {
             .into_par_iter()
             .filter(|&i| gauge.item(i).is_ok() && gauge.check().is_ok())
             .flat_map_iter(|i| {
-                let mut partners = Vec::new();
+                let (mut partners, own) = (Vec::new(), Face::of(&primitives[i]));
                 // A small face on a large floor is found from its own side, whatever else lies near the floor.
                 accel.for_each_near(&primitives[i].bounds(), MOST_NEAR, |j| {
-                    if j != i && partners.len() < MOST_PARTNERS && coincide(&primitives[i], &primitives[j]) {
+                    if j != i && partners.len() < MOST_PARTNERS && coincide(&own, &Face::of(&primitives[j])) {
                         partners.push([i.min(j) as u32, i.max(j) as u32]);
                     }
                 });

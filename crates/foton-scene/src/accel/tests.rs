@@ -3,8 +3,9 @@
 use foton_math::glam::Vec3;
 use foton_math::{Aabb, Cancel, Purpose, Ray, Stream, warp};
 use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::node::Bvh2Node;
 
-use super::{Accel, cluster};
+use super::{Accel, cluster, divide};
 use crate::build::{BuildOptions, BuildStep};
 use crate::primitive::Primitive;
 
@@ -80,6 +81,23 @@ fn a_heap_of_ties_takes_work_in_proportion_to_its_size() {
         let depth = depth(&tree.unwrap_or_else(|_| panic!("{name} takes too long")), boxes.len());
         assert!(depth < 160, "{name} is a chain: {depth}");
     }
+}
+
+/// Centres that draw together by the same factor: by cost alone each division takes one off.
+#[test]
+fn what_is_divided_becomes_no_chain() {
+    let part = |i: u32| {
+        let at = Vec3::X * 0.8f32.powi(i as i32);
+        Bvh2Node::new(obvhs::aabb::Aabb { min: at.into(), max: (at * 1.01).into() }, 1, i)
+    };
+    let mut parts: Vec<_> = (0..300).map(part).collect();
+    let mut nodes = vec![Bvh2Node::default(); 599];
+    let options = BuildOptions::default();
+    let deepest = divide::divide(&mut parts, &mut nodes, &options.step(BuildStep::Tree, 300));
+    let tree = Bvh2 { nodes, primitive_indices: (0..300).collect(), ..Bvh2::default() };
+    let deepest = deepest.expect("not cancelled");
+    assert_eq!(depth(&tree, 300), deepest + 1);
+    assert!(deepest < 30, "{deepest}");
 }
 
 #[test]

@@ -138,18 +138,31 @@ fn write_large_mesh(folder: &Folder) {
     folder.write("large.xml", &SCENE.replace("</scene>", shape));
 }
 
+/// A line of what the system says of a running program.
+#[cfg(target_os = "linux")]
+fn status(child: &mut Child, name: &str) -> String {
+    assert!(child.try_wait().expect("ours").is_none(), "it ended by itself");
+    let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+    let value = status.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(':'));
+    value.unwrap_or_default().trim().to_owned()
+}
+
 /// Waits until the program handles SIGTERM itself: until then the system ends it at once.
 #[cfg(target_os = "linux")]
 fn wait_for_the_handler(child: &mut Child) {
     const SIGTERM: u32 = 15;
-    loop {
-        assert!(child.try_wait().expect("ours").is_none(), "it ended by itself");
-        let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
-        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
-        let caught = caught.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0);
-        if caught >> (SIGTERM - 1) & 1 != 0 {
-            return;
-        }
+    let is_handled =
+        |mask: String| u64::from_str_radix(&mask, 16).is_ok_and(|caught| caught >> (SIGTERM - 1) & 1 != 0);
+    while !is_handled(status(child, "SigCgt")) {
+        sleep(Duration::from_millis(1));
+    }
+}
+
+/// Waits until the program holds so many MiB.
+#[cfg(target_os = "linux")]
+fn wait_for_memory(child: &mut Child, mebibytes: u64) {
+    let held = |text: String| text.trim_end_matches("kB").trim().parse::<u64>().unwrap_or(0) >> 10;
+    while held(status(child, "VmRSS")) < mebibytes {
         sleep(Duration::from_millis(1));
     }
 }
@@ -157,21 +170,23 @@ fn wait_for_the_handler(child: &mut Child) {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_scene_that_is_read_or_built_is_given_up_at_the_first_signal() {
+    // Once it is read it holds less than 100 MiB, and while its tree is built far more.
+    const BUILDING: u64 = 200;
     let folder = Folder::new("loading");
     write_large_mesh(&folder);
-    for (signal, milliseconds) in [("-TERM", 0), ("-INT", 300), ("-TERM", 700)] {
+    for (signal, mebibytes) in [("-TERM", 0), ("-INT", 0), ("-TERM", BUILDING)] {
         let mut command =
             folder.command("render large.xml -o x.exr --passes 1000000 --checkpoint x.ck --json");
         let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("starts");
         wait_for_the_handler(&mut child);
-        // Wherever it is by then, it has no pass yet.
-        sleep(Duration::from_millis(milliseconds));
+        wait_for_memory(&mut child, mebibytes);
         let status = Command::new("kill").args([signal, &child.id().to_string()]).status();
         assert!(status.expect("kill runs").success());
         let output = child.wait_with_output().expect("ends");
         let said = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{said}");
-        assert!(said.contains("interrupted while") && !said.contains("error"), "{said}");
+        let at = if mebibytes == BUILDING { "building the scene" } else { "" };
+        assert!(said.contains(&format!("interrupted while {at}")) && !said.contains("error"), "{said}");
         assert_eq!(events(&output.stdout).last().map(|e| e["event"].clone()), Some(json!("interrupted")));
         let left: Vec<_> = folder.images().into_iter().filter(|name| !name.starts_with("large")).collect();
         assert_eq!(left, [""; 0], "nothing is written");
