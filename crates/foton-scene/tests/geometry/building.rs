@@ -39,22 +39,45 @@ fn ground(side: u32) -> SceneDescription {
     ])
 }
 
+/// Builds with a request that comes after so many questions; what building was at last.
+fn build_after(
+    questions: u64,
+    description: &SceneDescription,
+) -> (Result<Scene, BuildError>, Option<BuildStep>) {
+    let last = Mutex::new(None);
+    let tell = |step: BuildStep, _| *last.lock().expect("whole") = Some(step);
+    let cancel = Cancel::after(questions);
+    let options = BuildOptions { cancel, tell: Some(&tell), ..BuildOptions::default() };
+    let built = Scene::build_with(description, &options);
+    (built, last.into_inner().expect("whole"))
+}
+
 #[test]
 fn a_build_that_is_cancelled_ends_in_that_wherever_it_comes() {
-    let description = ground(80);
-    let (mut questions, mut cancelled) = (0, 0);
-    let scene = loop {
-        let options = BuildOptions { cancel: Cancel::after(questions), ..BuildOptions::default() };
-        match Scene::build_with(&description, &options) {
-            Ok(scene) => break scene,
-            Err(error) => assert_eq!(error, BuildError::Cancelled(Cancelled)),
+    const PLACES: u64 = 400;
+    let description = ground(50);
+    let all = (0..).map(|power| 1 << power).find(|&n| build_after(n, &description).0.is_ok());
+    let all = all.expect("some number is enough");
+    let mut cancelled_in = Vec::new();
+    for place in 0..PLACES {
+        match build_after(all * place / PLACES, &description) {
+            (Ok(_), _) => break,
+            (Err(error), step) => {
+                assert_eq!(error, BuildError::Cancelled(Cancelled));
+                cancelled_in.push(step);
+            }
         }
-        cancelled += 1;
-        // Every one at first, then ever fewer.
-        questions += 1 + questions / 8;
-    };
-    assert!(cancelled > 60, "{cancelled} places");
-    assert_eq!(scene.census().triangles, 2 * 80 * 80 + 2);
+    }
+    // Questions are asked all over it: the longer a step, the more.
+    let share =
+        |step| cancelled_in.iter().filter(|s| **s == Some(step)).count() as f64 / cancelled_in.len() as f64;
+    for (step, least) in
+        [(BuildStep::Tree, 0.02), (BuildStep::Patches, 0.25), (BuildStep::Coincidences, 0.25)]
+    {
+        assert!(share(step) > least, "{step:?}: {} of {}", share(step), cancelled_in.len());
+    }
+    let scene = build_after(all, &description).0.expect("not cancelled");
+    assert_eq!(scene.census().triangles, 2 * 50 * 50 + 2);
 }
 
 #[test]
