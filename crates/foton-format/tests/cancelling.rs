@@ -156,7 +156,7 @@ fn meshes_of_every_format_are_given_up_wherever_that_is_asked_for() {
 fn pictures_are_given_up_wherever_that_is_asked_for() {
     let folder = Folder::new("pictures");
     let mut noise = 1_u32;
-    let mut image = Image::black(256, 256);
+    let mut image = Image::black(400, 400);
     for pixel in &mut image.pixels {
         noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         *pixel = Rgb::splat((noise >> 8) as f32 / (1 << 24) as f32);
@@ -173,7 +173,8 @@ fn pictures_are_given_up_wherever_that_is_asked_for() {
         ),
     ] {
         let (needed, _) = questions(&folder.scene(body));
-        assert!(needed > 9, "{file}: {needed}");
+        // Without decoders that ask it would be a dozen.
+        assert!(needed > 40, "{file}: {needed}");
     }
 }
 

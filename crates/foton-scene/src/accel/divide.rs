@@ -1,5 +1,5 @@
 //! What rounds of joining do not come to an end with, divided from the top: where the surface area heuristic says, but never so
-//! unevenly that the tree could become a chain. `[Wal07]`
+//! unevenly that the tree could become a chain. `[WAL07]`
 
 use foton_math::Cancelled;
 use foton_math::glam::Vec3A;

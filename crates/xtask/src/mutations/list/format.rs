@@ -114,7 +114,7 @@ pub(super) const LIST: &[Mutation] = &[
     options.cancel.check()?;",
         to: "reader.scene();",
         target: CANCELLING,
-        test: "a_request_says_nothing_of_a_file_that_is_wrong",
+        test: "meshes_of_every_format_are_given_up_wherever_that_is_asked_for",
     },
     Mutation {
         what: "vertices at one position are hashed",

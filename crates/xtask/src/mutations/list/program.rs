@@ -144,8 +144,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "axes of plots end",
         file: "crates/foton-measure/src/plot/mod.rs",
-        from: "let values = values.filter(|v| v.is_finite() && *v > 0.0);",
-        to: "",
+        from: "Self { low: low.max(f64::MIN_POSITIVE), high: high.min(f64::MAX), from, to }",
+        to: "Self { low, high, from, to }",
         target: MEASURE,
         test: "values_without_a_logarithm_make_no_axis_endless",
     },
