@@ -12,7 +12,7 @@ use std::time::Instant;
 use foton_format::Options;
 use foton_integrator::{Cancel, DirectLight, PpmSettings, Render, RenderSettings};
 use foton_scene::description::SceneDescription;
-use foton_scene::{Census, Scene};
+use foton_scene::{BuildOptions, Census, Scene};
 
 const PASSES: u32 = 6;
 const RENDERS: u32 = 5;
@@ -89,7 +89,10 @@ fn main() {
 }
 
 fn render(description: &SceneDescription, forced: Census, settings: &RenderSettings) -> Cost {
-    let scene = Arc::new(Scene::build_as_if(description, forced).expect("an asset"));
+    let scene = Arc::new(
+        Scene::build_with(description, &BuildOptions { forced, ..BuildOptions::default() })
+            .expect("an asset"),
+    );
     let cancel = Cancel::default();
     let clock = Clock::new();
     let mut render = Render::start(scene, settings.clone(), &mut |_| {}, &cancel).expect("not cancelled");

@@ -7,7 +7,7 @@ use foton_film::Image;
 use foton_integrator::{Cancel, LightUse, PpmSettings, Render, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
-use foton_scene::{Census, Scene};
+use foton_scene::{BuildOptions, Census, Scene};
 use foton_tests::{Sketch, grey};
 
 /// A lit room of plain walls with a ball in it, and no more.
@@ -33,7 +33,8 @@ fn settings() -> RenderSettings {
 }
 
 fn render(sketch: &Sketch, forced: Census) -> Image {
-    let scene = Scene::build_as_if(&sketch.0, forced).expect("the room is sound");
+    let scene = Scene::build_with(&sketch.0, &BuildOptions { forced, ..BuildOptions::default() })
+        .expect("the room is sound");
     let cancel = Cancel::default();
     let mut render = Render::start(Arc::new(scene), settings(), &mut |_| {}, &cancel).expect("not cancelled");
     for _ in 0..4 {

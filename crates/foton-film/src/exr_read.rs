@@ -7,7 +7,7 @@ use std::path::Path;
 
 use exr::meta::MetaData;
 use exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, Vec2, read};
-use foton_math::Rgb;
+use foton_math::{Cancel, CancelReader, Rgb};
 
 use crate::image::area;
 use crate::{Image, Metadata, ReadError, exr_header};
@@ -24,6 +24,14 @@ const PIXELS_PER_BYTE: usize = 4096;
 /// # Errors
 /// [`ReadError`] with the path: it cannot be opened, is no EXR file or a broken one, or has neither R, G, B nor Y alone.
 pub fn read_exr(path: &Path) -> Result<(Image, Metadata), ReadError> {
+    read_exr_unless(&Cancel::default(), path)
+}
+
+/// As [`read_exr`]; an error of some kind as well once `cancel` is requested.
+///
+/// # Errors
+/// As [`read_exr`].
+pub fn read_exr_unless(cancel: &Cancel, path: &Path) -> Result<(Image, Metadata), ReadError> {
     let malformed = |reason: String| ReadError::Malformed { path: path.into(), format: "EXR", reason };
     let bytes = fs::read(path).map_err(|cause| ReadError::Io { path: path.into(), cause })?;
     let meta = MetaData::read_from_buffered(Cursor::new(&bytes), false)
@@ -39,7 +47,7 @@ pub fn read_exr(path: &Path) -> Result<(Image, Metadata), ReadError> {
             )
             .first_valid_layer()
             .all_attributes()
-            .from_buffered(Cursor::new(&bytes))
+            .from_buffered(CancelReader::new(Cursor::new(&bytes), cancel))
             .map(|image| image.layer_data.channel_data.pixels),
         Channels::Grey => levels
             .specific_channels()
@@ -50,7 +58,7 @@ pub fn read_exr(path: &Path) -> Result<(Image, Metadata), ReadError> {
             )
             .first_valid_layer()
             .all_attributes()
-            .from_buffered(Cursor::new(&bytes))
+            .from_buffered(CancelReader::new(Cursor::new(&bytes), cancel))
             .map(|image| image.layer_data.channel_data.pixels),
     };
     Ok((pixels.map_err(|cause| malformed(cause.to_string()))?, metadata))

@@ -41,7 +41,7 @@ pub mod tone_map;
 
 pub use atomic::{atomic_write, check_writable, create_log, is_same_file, stands_for, write_spare};
 pub use error::{ContentError, ReadError, WriteError};
-pub use exr_read::read_exr;
+pub use exr_read::{read_exr, read_exr_unless};
 pub use exr_write::write_exr;
 pub use image::{Image, Layer, LayerData, Plane};
 pub use metadata::{Metadata, MetadataError};

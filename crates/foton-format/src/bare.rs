@@ -15,8 +15,8 @@ mod parts;
 use std::path::Path;
 use std::sync::Arc;
 
-use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DMat3, DVec3};
+use foton_math::{Cancel, Rgb};
 use foton_scene::description::{
     Bsdf, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
     SensorDescription, ShapeDescription,
@@ -91,7 +91,10 @@ pub(crate) fn open(
     }
     let bytes = match files(path) {
         Ok(bytes) => bytes,
-        Err(error) => return Err(report.fail(Place::default(), format!("cannot be read: {error}"))),
+        Err(error) => {
+            options.cancel.check()?;
+            return Err(report.fail(Place::default(), format!("cannot be read: {error}")));
+        }
     };
     let mut hash = Fnv1a::default();
     hash.add(&bytes);
@@ -104,7 +107,9 @@ pub(crate) fn open(
         hash.add(&found.1);
         Some(found)
     };
-    let description = match read(&bytes, kind, &mut library, &mut report) {
+    let read = read(&bytes, kind, &mut library, &mut report, &options.cancel);
+    options.cancel.check()?;
+    let description = match read {
         Ok(description) => description,
         Err(problems) => {
             problems.into_iter().for_each(|(place, message)| report.error(place, message));
@@ -123,7 +128,7 @@ pub(crate) fn open(
         nodes,
         path: None,
         files: Vec::new(),
-        options: options.clone(),
+        options: options.without_cancel(),
         suggested: Suggested::default(),
         warnings,
         source_hash: hash.finish(),
@@ -138,22 +143,24 @@ fn read(
     kind: Kind,
     library: &mut Library<'_>,
     report: &mut Report,
+    cancel: &Cancel,
 ) -> Result<SceneDescription, Vec<Problem>> {
     let mut scene = SceneDescription::default();
     match kind {
         Kind::Obj => {
-            let mut obj = Obj::parse(bytes)?;
+            let mut obj = Obj::parse(bytes, cancel)?;
             warn(std::mem::take(&mut obj.warnings), report);
-            parts::add_obj(&obj, library, report, &mut scene);
+            parts::add_obj(&obj, library, report, &mut scene, cancel);
         }
         Kind::Ply => {
             let wanted = Wanted { format: Format::Ply, face_normals: false, flip_v: false };
-            let (mesh, warnings) = ply::parse(bytes).map_err(|problem| vec![problem])?;
+            let (mesh, warnings) = ply::parse(bytes, cancel).map_err(|problem| vec![problem])?;
             warn(warnings, report);
-            add_shape("mesh", meshes::finished(&mesh, wanted, &DAffine3::IDENTITY), None, &mut scene);
+            let mesh = meshes::finished(&mesh, wanted, &DAffine3::IDENTITY, cancel);
+            add_shape("mesh", mesh, None, &mut scene);
         }
         Kind::Stl => {
-            let (mesh, warnings) = stl::parse(bytes).map_err(|problem| vec![problem])?;
+            let (mesh, warnings) = stl::parse(bytes, cancel).map_err(|problem| vec![problem])?;
             warn(warnings, report);
             add_shape("mesh", mesh, None, &mut scene);
         }

@@ -5,6 +5,8 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use foton_math::Cancelled;
+
 /// How bad a finding is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
@@ -51,14 +53,26 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Why a scene could not be opened: everything found in one go, in the order of the file.
-///
-/// Displays the errors, one a line.
+/// Why a scene could not be opened. Displays the errors, one a line.
 #[derive(Debug, thiserror::Error)]
-#[error("{}", errors_by_line(diagnostics))]
-pub struct OpenError {
-    /// All findings, at least one of them an error; warnings are among them.
-    pub diagnostics: Vec<Diagnostic>,
+pub enum OpenError {
+    /// Everything found in one go, in the order of the file: at least one error; warnings are among them.
+    #[error("{}", errors_by_line(.0))]
+    Faults(Vec<Diagnostic>),
+    /// Someone asked to stop: nothing is said of the file.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl OpenError {
+    /// What is wrong with the file; nothing where reading was cancelled.
+    #[must_use]
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        match self {
+            Self::Faults(diagnostics) => diagnostics,
+            Self::Cancelled(_) => &[],
+        }
+    }
 }
 
 fn errors_by_line(diagnostics: &[Diagnostic]) -> String {
@@ -172,7 +186,7 @@ impl Report {
     /// Ends with a problem that leaves nothing to go on with.
     pub(crate) fn fail(mut self, place: Place, message: impl Into<String>) -> OpenError {
         self.error(place, message);
-        OpenError { diagnostics: self.diagnostics }
+        OpenError::Faults(self.diagnostics)
     }
 
     /// The findings by place, those about the scene file first; the error if there is one among them.
@@ -183,7 +197,7 @@ impl Report {
             key(a).0.cmp(&key(b).0).then_with(|| a.file.cmp(&b.file)).then_with(|| key(a).cmp(&key(b)))
         });
         if self.diagnostics.iter().any(|d| d.severity == Severity::Error) {
-            Err(OpenError { diagnostics: self.diagnostics })
+            Err(OpenError::Faults(self.diagnostics))
         } else {
             Ok(self.diagnostics)
         }

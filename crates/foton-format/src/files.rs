@@ -4,6 +4,8 @@ use std::collections::HashSet;
 use std::io;
 use std::path::PathBuf;
 
+use foton_math::Cancel;
+
 use crate::ReadFile;
 use crate::diagnostic::{Place, Report};
 use crate::hash::Fnv1a;
@@ -11,14 +13,20 @@ use crate::hash::Fnv1a;
 /// Reads files and remembers which.
 pub(crate) struct Files<'a> {
     read: &'a ReadFile<'a>,
+    cancel: &'a Cancel,
     seen: HashSet<PathBuf>,
     /// The contents of all files, in the order in which they were first read.
     pub(crate) hash: Fnv1a,
 }
 
 impl<'a> Files<'a> {
-    pub(crate) fn new(read: &'a ReadFile<'a>) -> Self {
-        Self { read, seen: HashSet::new(), hash: Fnv1a::default() }
+    pub(crate) fn new(read: &'a ReadFile<'a>, cancel: &'a Cancel) -> Self {
+        Self { read, cancel, seen: HashSet::new(), hash: Fnv1a::default() }
+    }
+
+    /// What ends reading: from then on no file is read.
+    pub(crate) const fn cancel(&self) -> &'a Cancel {
+        self.cancel
     }
 
     /// The path where a file named at `place` is looked for first: its identity, whether it is there or not.
@@ -33,6 +41,9 @@ impl<'a> Files<'a> {
         place: Place,
         report: &mut Report,
     ) -> Option<(PathBuf, Vec<u8>)> {
+        if self.cancel.is_requested() {
+            return None;
+        }
         let mut failure = None;
         for path in candidates(filename, place, report) {
             match (self.read)(&path) {

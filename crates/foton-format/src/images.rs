@@ -7,7 +7,7 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use foton_math::Rgb;
+use foton_math::{Cancel, CancelReader, Rgb};
 use foton_scene::description::Bitmap;
 use image::{ImageDecoder, ImageFormat, ImageReader};
 
@@ -56,7 +56,7 @@ fn read(
 ) -> Option<Bitmap> {
     let place = filename.place;
     let (path, bytes) = files.read(&filename.value, place, report)?;
-    let mut bitmap = match decode(&path, &bytes, raw) {
+    let mut bitmap = match decode(&path, &bytes, raw, files.cancel()) {
         Ok(bitmap) => bitmap,
         Err(message) => {
             report.error(place, format!("cannot read {}: {message}", path.display()));
@@ -84,14 +84,14 @@ fn read(
     Some(bitmap)
 }
 
-fn decode(path: &Path, bytes: &[u8], raw: bool) -> Result<Bitmap, String> {
+fn decode(path: &Path, bytes: &[u8], raw: bool, cancel: &Cancel) -> Result<Bitmap, String> {
     if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
-        return decode_exr(path, bytes);
+        return decode_exr(path, bytes, cancel);
     }
     let Some(format) = format(path, bytes) else {
         return Err("it is no PNG, JPEG, BMP, TGA, PNM, Radiance HDR or EXR image".to_owned());
     };
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    let mut reader = ImageReader::with_format(CancelReader::new(Cursor::new(bytes), cancel), format);
     reader.no_limits();
     let decoder = reader.into_decoder().map_err(|e| e.to_string())?;
     let (width, height) = decoder.dimensions();
@@ -153,12 +153,12 @@ fn is_cut_jpeg(bytes: &[u8]) -> bool {
     true
 }
 
-fn decode_exr(path: &Path, bytes: &[u8]) -> Result<Bitmap, String> {
+fn decode_exr(path: &Path, bytes: &[u8], cancel: &Cancel) -> Result<Bitmap, String> {
     // EXR files are read by path; what the caller gave must be what lies there.
     if std::fs::read(path).ok().as_deref() != Some(bytes) {
         return Err("an EXR image must lie on the disk".to_owned());
     }
-    let image = match foton_film::read_exr(path) {
+    let image = match foton_film::read_exr_unless(cancel, path) {
         Ok((image, _)) => image,
         Err(foton_film::ReadError::Malformed { reason, .. }) => return Err(reason),
         Err(foton_film::ReadError::NoRgb { channels, .. }) => {

@@ -86,6 +86,9 @@ struct Walk<'a, 'f> {
 impl Walk<'_, '_> {
     /// `parent` is the plugin around it, `None` for a root.
     fn element(&mut self, node: NodeId, old: bool, parent: Option<&str>) {
+        if self.files.cancel().is_requested() {
+            return;
+        }
         let Some(element) = self.expanded.document.element_mut(node) else { return };
         self.parameters.apply(element, self.report);
         if old {

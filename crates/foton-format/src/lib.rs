@@ -54,9 +54,11 @@ mod words;
 mod write;
 
 use std::cell::RefCell;
-use std::io;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use foton_math::Cancel;
 use foton_scene::description::SceneDescription;
 
 pub use diagnostic::{Diagnostic, OpenError, Place, Severity};
@@ -80,9 +82,16 @@ pub struct Options {
     pub defines: Vec<(String, String)>,
     /// Bytes that reading may take; `None`: as many as there are. What [`open`] could not read within that is refused unread.
     pub memory: Option<u64>,
+    /// Ends reading within a fraction of a second: then the outcome is [`OpenError::Cancelled`].
+    pub cancel: Cancel,
 }
 
 impl Options {
+    /// The same, once reading is over.
+    fn without_cancel(&self) -> Self {
+        Self { cancel: Cancel::default(), ..self.clone() }
+    }
+
     /// Reads a file of the disk, or refuses it by its size alone.
     fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
         if let Some(limit) = self.memory
@@ -94,9 +103,23 @@ impl Options {
             let message = format!("reading it takes up to {takes} MiB, {limit} MiB may be used");
             return Err(io::Error::other(message));
         }
-        std::fs::read(path)
+        self.read_to_end(&mut File::open(path)?)
+    }
+
+    /// All that a file holds, unless cancelled.
+    fn read_to_end(&self, file: &mut impl Read) -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        loop {
+            self.cancel.check().map_err(io::Error::other)?;
+            if file.by_ref().take(BLOCK).read_to_end(&mut bytes)? == 0 {
+                return Ok(bytes);
+            }
+        }
     }
 }
+
+/// Bytes that are read between two questions whether reading goes on.
+const BLOCK: u64 = 1 << 22;
 
 /// The most bytes that reading takes for each of a file, its own included; fuzzing holds all readers of meshes to that.
 const BYTES_PER_BYTE: u64 = 4;
@@ -170,7 +193,7 @@ pub struct SceneNodes {
 /// it lacks is added, and a warning says so.
 ///
 /// # Errors
-/// Everything that is wrong with the file, unless it is not well-formed XML: then the first problem.
+/// Everything that is wrong with the file, unless it is not well-formed XML: then the first problem. Or that reading was cancelled.
 pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
     let files = RefCell::new(Vec::new());
     let opened = open_with(path, options, &|file| {
@@ -196,7 +219,10 @@ fn open_with(path: &Path, options: &Options, files: &ReadFile<'_>) -> Result<Ope
             let place = Place { line: u32::try_from(line).unwrap_or(0), column: 0 };
             return Err(report.fail(place, "the text is not UTF-8"));
         }
-        Err(error) => return Err(report.fail(Place::default(), format!("cannot be read: {error}"))),
+        Err(error) => {
+            options.cancel.check()?;
+            return Err(report.fail(Place::default(), format!("cannot be read: {error}")));
+        }
     };
     let opened = read(report, &text, files, options)?;
     Ok(Opened { path: Some(path.to_owned()), ..opened })
@@ -218,10 +244,11 @@ fn read(mut report: Report, xml: &str, files: &ReadFile<'_>, options: &Options) 
         Ok(document) => document,
         Err((place, message)) => return Err(report.fail(place, message)),
     };
-    let mut files = Files::new(files);
+    let mut files = Files::new(files, &options.cancel);
     let expanded = include::expand(&document, &options.defines, &mut files, &mut report);
     let mut reader = Reader::new(&expanded.document, files, report);
     reader.scene();
+    options.cancel.check()?;
     let Reader { report, files, description, mut nodes, suggested, .. } = reader;
     let warnings = report.finish()?;
     let source_hash = source_hash(xml, options, files.hash);
@@ -229,7 +256,7 @@ fn read(mut report: Report, xml: &str, files: &ReadFile<'_>, options: &Options) 
     for node in required.chain(nodes.materials.iter_mut().flatten()) {
         *node = expanded.origin(*node);
     }
-    let options = options.clone();
+    let options = options.without_cancel();
     let (path, files) = (None, Vec::new());
     Ok(Opened { description, document, nodes, path, files, options, suggested, warnings, source_hash })
 }

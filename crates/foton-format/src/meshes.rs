@@ -15,6 +15,7 @@ use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::Arc;
 
+use foton_math::Cancel;
 use foton_math::glam::{DAffine3, DVec2, DVec3};
 use foton_scene::description::Mesh;
 
@@ -91,11 +92,11 @@ impl Meshes {
         let (mesh, depends_on_transform) = match &*contents {
             Contents::Obj(obj) => {
                 let smooth = !wanted.face_normals && obj.triangles.iter().flatten().any(|c| c.normal == 0);
-                (build(obj, wanted, to_world), smooth)
+                (build(obj, wanted, to_world, files.cancel()), smooth)
             }
             Contents::Mesh(mesh) => {
                 let smooth = !wanted.face_normals && mesh.normals.is_empty();
-                (finished(mesh, wanted, to_world), smooth)
+                (finished(mesh, wanted, to_world, files.cancel()), smooth)
             }
         };
         let mesh = Arc::new(mesh);
@@ -113,18 +114,19 @@ fn read(
     report: &mut Report,
 ) -> Option<Contents> {
     let (path, bytes) = files.read(&filename.value, filename.place, report)?;
+    let cancel = files.cancel();
     let one = |parsed: Parsed| match parsed {
         Ok((mesh, warnings)) => Ok((Contents::Mesh(mesh), warnings)),
         Err(problem) => Err(vec![problem]),
     };
     let contents = match format {
-        Format::Obj => Obj::parse(&bytes).map(|mut obj| {
+        Format::Obj => Obj::parse(&bytes, cancel).map(|mut obj| {
             let warnings = std::mem::take(&mut obj.warnings);
             (Contents::Obj(obj), warnings)
         }),
-        Format::Ply => one(ply::parse(&bytes)),
-        Format::Stl => one(stl::parse(&bytes)),
-        Format::Serialized(number) => one(serialized::parse(&bytes, number)),
+        Format::Ply => one(ply::parse(&bytes, cancel)),
+        Format::Stl => one(stl::parse(&bytes, cancel)),
+        Format::Serialized(number) => one(serialized::parse(&bytes, number, cancel)),
     };
     let file = path.to_string_lossy();
     match contents {
@@ -140,12 +142,12 @@ fn read(
 }
 
 /// A mesh as a shape wants it.
-pub(crate) fn finished(mesh: &Mesh, wanted: Wanted, to_world: &DAffine3) -> Mesh {
+pub(crate) fn finished(mesh: &Mesh, wanted: Wanted, to_world: &DAffine3, cancel: &Cancel) -> Mesh {
     let mut mesh = mesh.clone();
     if wanted.face_normals {
         mesh.normals = Vec::new();
     } else if mesh.normals.is_empty() {
-        mesh.normals = smooth_normals(&mesh.positions, &mesh.triangles, to_world);
+        mesh.normals = smooth_normals(&mesh.positions, &mesh.triangles, to_world, cancel);
     }
     if wanted.flip_v {
         mesh.texture_coordinates.iter_mut().for_each(|uv| uv.y = 1.0 - uv.y);
@@ -155,13 +157,13 @@ pub(crate) fn finished(mesh: &Mesh, wanted: Wanted, to_world: &DAffine3) -> Mesh
 
 /// Computes normals that a file states as zero or not as numbers, and takes texture coordinates that are none as zero. What
 /// is said of those; normals of vertices without triangles are often zero, and nothing is said of them.
-pub(crate) fn mend(mesh: &mut Mesh) -> Vec<Problem> {
+pub(crate) fn mend(mesh: &mut Mesh, cancel: &Cancel) -> Vec<Problem> {
     let (mut normals, mut textures) = (Tally::default(), Tally::default());
     let is_bad = |n: &DVec3| n.try_normalize().is_none();
     if mesh.normals.iter().any(is_bad) {
         let mut is_used = vec![false; mesh.positions.len()];
         mesh.triangles.iter().flatten().for_each(|&i| is_used[i as usize] = true);
-        let smooth = smooth_normals(&mesh.positions, &mesh.triangles, &DAffine3::IDENTITY);
+        let smooth = smooth_normals(&mesh.positions, &mesh.triangles, &DAffine3::IDENTITY, cancel);
         for ((normal, smooth), is_used) in mesh.normals.iter_mut().zip(smooth).zip(is_used) {
             if is_bad(normal) {
                 *normal = smooth;
@@ -178,41 +180,67 @@ pub(crate) fn mend(mesh: &mut Mesh) -> Vec<Problem> {
     normals.into_iter().chain(textures).collect()
 }
 
+/// What tells a vertex from others.
+pub(crate) trait VertexKey: Copy + PartialEq {
+    /// All of it but the position; the same for what is equal.
+    fn bits(self) -> [u64; 2];
+}
+
+impl VertexKey for Corner {
+    fn bits(self) -> [u64; 2] {
+        [u64::from(self.texture), u64::from(self.normal)]
+    }
+}
+
 /// Vertices that corners share, found by chains of those with the same position.
 pub(crate) struct Vertices<K> {
     first: Vec<u32>,
     next: Vec<u32>,
+    /// Those at positions whose chains are full.
+    crowded: HashMap<(u32, [u64; 2]), u32>,
     /// What tells each vertex from others.
     pub(crate) keys: Vec<K>,
 }
 
 const NONE: u32 = u32::MAX;
 
-impl<K: Copy + PartialEq> Vertices<K> {
+/// Vertices of a chain at most: to go through those of one position for each corner there takes the square of their number.
+const LONGEST_CHAIN: usize = 32;
+
+impl<K: VertexKey> Vertices<K> {
     pub(crate) fn new(positions: usize) -> Self {
-        Self { first: vec![NONE; positions], next: Vec::new(), keys: Vec::with_capacity(positions) }
+        let (first, keys) = (vec![NONE; positions], Vec::with_capacity(positions));
+        Self { first, next: Vec::new(), crowded: HashMap::new(), keys }
     }
 
     /// The vertex with that key, which has that position.
     pub(crate) fn index(&mut self, position: u32, key: K) -> u32 {
         let slot = &mut self.first[position as usize];
-        let mut at = *slot;
+        let (mut at, mut length) = (*slot, 0);
         while at != NONE {
             if self.keys[at as usize] == key {
                 return at;
             }
             at = self.next[at as usize];
+            length += 1;
         }
         let new = u32::try_from(self.keys.len()).unwrap_or(NONE);
-        self.next.push(*slot);
+        if length < LONGEST_CHAIN {
+            self.next.push(std::mem::replace(slot, new));
+        } else {
+            let known = *self.crowded.entry((position, key.bits())).or_insert(new);
+            if known != new {
+                return known;
+            }
+            self.next.push(NONE);
+        }
         self.keys.push(key);
-        *slot = new;
         new
     }
 }
 
 /// The mesh of an OBJ file as a shape wants it, its triangles in the order of the file.
-pub(crate) fn build(obj: &Obj, wanted: Wanted, to_world: &DAffine3) -> Mesh {
+pub(crate) fn build(obj: &Obj, wanted: Wanted, to_world: &DAffine3, cancel: &Cancel) -> Mesh {
     let mut vertices = Vertices::new(obj.positions.len());
     let key = |c: Corner| if wanted.face_normals { Corner { normal: 0, ..c } } else { c };
     let triangles: Vec<[u32; 3]> =
@@ -222,7 +250,7 @@ pub(crate) fn build(obj: &Obj, wanted: Wanted, to_world: &DAffine3) -> Mesh {
     if !wanted.face_normals {
         normals = vertices.keys.iter().map(|k| stated_normal(obj, *k)).collect();
         if vertices.keys.iter().any(|k| k.normal == 0) {
-            let smooth = smooth_normals(&positions, &triangles, to_world);
+            let smooth = smooth_normals(&positions, &triangles, to_world, cancel);
             for (normal, (key, smooth)) in normals.iter_mut().zip(vertices.keys.iter().zip(smooth)) {
                 if key.normal == 0 {
                     *normal = smooth;
@@ -250,11 +278,19 @@ fn stated_normal(obj: &Obj, key: Corner) -> DVec3 {
 }
 
 /// Angle-weighted normals of the mesh as it stands in the world, brought back to object space so that the inverse
-/// transpose of `to_world` yields them.
-pub(crate) fn smooth_normals(positions: &[DVec3], triangles: &[[u32; 3]], to_world: &DAffine3) -> Vec<DVec3> {
+/// transpose of `to_world` yields them. Once cancelled they are whatever they are by then.
+pub(crate) fn smooth_normals(
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    to_world: &DAffine3,
+    cancel: &Cancel,
+) -> Vec<DVec3> {
     let m = to_world.matrix3;
     let mut sums = vec![DVec3::ZERO; positions.len()];
-    for triangle in triangles {
+    for (i, triangle) in triangles.iter().enumerate() {
+        if cancel.check_at(i).is_err() {
+            break;
+        }
         let corners = triangle.map(|i| m * positions[i as usize]);
         let Some(normal) = (corners[1] - corners[0]).cross(corners[2] - corners[0]).try_normalize() else {
             continue;
@@ -275,11 +311,46 @@ pub(crate) fn smooth_normals(positions: &[DVec3], triangles: &[[u32; 3]], to_wor
 mod tests {
     use super::*;
 
+    use std::cell::Cell;
+
+    thread_local! {
+        static COMPARED: Cell<u64> = const { Cell::new(0) };
+    }
+
+    /// Counts how often it is compared.
+    #[derive(Clone, Copy)]
+    struct Counted(u64);
+
+    impl PartialEq for Counted {
+        fn eq(&self, other: &Self) -> bool {
+            COMPARED.set(COMPARED.get() + 1);
+            self.0 == other.0
+        }
+    }
+
+    impl VertexKey for Counted {
+        fn bits(self) -> [u64; 2] {
+            [self.0, 0]
+        }
+    }
+
+    #[test]
+    fn very_many_vertices_at_one_position_are_told_apart_in_time() {
+        const COUNT: u64 = 20_000;
+        let mut vertices = Vertices::new(2);
+        for _ in 0..2 {
+            let of_one: Vec<u32> = (0..COUNT).map(|key| vertices.index(1, Counted(key))).collect();
+            assert!(of_one.into_iter().eq(0..COUNT as u32));
+        }
+        assert_eq!(vertices.index(0, Counted(7)), COUNT as u32);
+        assert!(COMPARED.get() < 100 * COUNT, "{}", COMPARED.get());
+    }
+
     const DIAGONAL: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
     fn mesh(text: &str, face_normals: bool, to_world: DAffine3) -> Mesh {
-        let obj = Obj::parse(text.as_bytes()).map_err(|p| format!("{p:?}")).unwrap();
-        build(&obj, Wanted { format: Format::Obj, face_normals, flip_v: true }, &to_world)
+        let obj = Obj::parse(text.as_bytes(), &Cancel::default()).map_err(|p| format!("{p:?}")).unwrap();
+        build(&obj, Wanted { format: Format::Obj, face_normals, flip_v: true }, &to_world, &Cancel::default())
     }
 
     fn world_normals(mesh: &Mesh, to_world: DAffine3) -> Vec<DVec3> {

@@ -19,7 +19,7 @@
 //!   What then would be invisible by `Tr` is opaque all the same.
 //! - `d 0` in all materials of a file.
 
-use foton_math::Rgb;
+use foton_math::{Cancel, Rgb};
 use foton_scene::description::{Bsdf, Colour, Material, MicrofacetDistribution, Microfacets};
 
 use crate::diagnostic::Place;
@@ -35,10 +35,10 @@ pub(crate) struct Entry {
 }
 
 /// The materials of a file in its order, and what is wrong with it or had to be assumed.
-pub(crate) fn parse(bytes: &[u8]) -> (Vec<Entry>, Vec<Problem>) {
+pub(crate) fn parse(bytes: &[u8], cancel: &Cancel) -> (Vec<Entry>, Vec<Problem>) {
     let mut statements: Vec<Statements> = Vec::new();
     let mut warnings = Vec::new();
-    let mut words = Words::new(bytes);
+    let mut words = Words::new(bytes, cancel);
     while words.next_line() {
         let Some(keyword) = words.next() else { continue };
         if keyword.text == b"newmtl" {

@@ -6,6 +6,7 @@
 //! without is mended or left out, counted and warned of: normals and texture coordinates that are no numbers, faces of
 //! fewer than three corners.
 
+use foton_math::Cancel;
 use foton_math::glam::{DVec2, DVec3};
 
 use crate::diagnostic::Place;
@@ -52,11 +53,11 @@ impl Obj {
     ///
     /// # Errors
     /// All problems of the file, at most [`MOST_PROBLEMS`] of them one by one.
-    pub(crate) fn parse(bytes: &[u8]) -> Result<Self, Vec<Problem>> {
+    pub(crate) fn parse(bytes: &[u8], cancel: &Cancel) -> Result<Self, Vec<Problem>> {
         if u32::try_from(bytes.len()).is_err() {
             return Err(vec![(Place::default(), "the file is larger than 4 GiB".to_owned())]);
         }
-        let totals = Totals::count(bytes);
+        let totals = Totals::count(bytes, cancel);
         let mut parser = Parser {
             totals,
             face: Vec::new(),
@@ -76,7 +77,7 @@ impl Obj {
             },
         };
         let mut unlisted = 0;
-        let mut words = Words::new(bytes);
+        let mut words = Words::new(bytes, cancel);
         while words.next_line() {
             if let Err(problem) = parser.line(&mut words) {
                 if parser.problems.len() < MOST_PROBLEMS {
@@ -91,7 +92,7 @@ impl Obj {
         } else if parser.problems.is_empty() && parser.obj.triangles.is_empty() {
             parser.problems.push((Place::default(), "the file has no faces".to_owned()));
         }
-        if parser.problems.is_empty() { Ok(parser.finish()) } else { Err(parser.problems) }
+        if parser.problems.is_empty() { Ok(parser.finish(cancel)) } else { Err(parser.problems) }
     }
 
     /// Corners whose normal is zero have none; how many normals those are.
@@ -130,9 +131,9 @@ struct Totals {
 }
 
 impl Totals {
-    fn count(bytes: &[u8]) -> Self {
+    fn count(bytes: &[u8], cancel: &Cancel) -> Self {
         let mut totals = Self::default();
-        let mut words = Words::new(bytes);
+        let mut words = Words::new(bytes, cancel);
         while words.next_line() {
             match words.next().map_or(&b""[..], |w| w.text) {
                 b"v" => totals.positions += 1,
@@ -218,10 +219,10 @@ impl Parser {
     }
 
     /// The file, its polygons and normals mended.
-    fn finish(self) -> Obj {
+    fn finish(self, cancel: &Cancel) -> Obj {
         let Self { mut obj, polygons, short_faces, bad_normal, bad_textures, .. } = self;
         let positions = std::mem::take(&mut obj.positions);
-        let mended = polygons.mend(&mut obj.triangles, |corner| positions[corner.position as usize]);
+        let mended = polygons.mend(&mut obj.triangles, |corner| positions[corner.position as usize], cancel);
         obj.positions = positions;
         obj.renumber_materials(&mended.gone);
         let mut bad_normals = Tally::default();
@@ -274,11 +275,11 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Obj {
-        Obj::parse(text.as_bytes()).map_err(|p| format!("{p:?}")).unwrap()
+        Obj::parse(text.as_bytes(), &Cancel::default()).map_err(|p| format!("{p:?}")).unwrap()
     }
 
     fn problems(text: &str) -> Vec<String> {
-        let problems = Obj::parse(text.as_bytes()).err().unwrap_or_default();
+        let problems = Obj::parse(text.as_bytes(), &Cancel::default()).err().unwrap_or_default();
         problems.iter().map(|(p, message)| format!("{}:{}: {message}", p.line, p.column)).collect()
     }
 
@@ -421,7 +422,7 @@ mod tests {
                 state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
                 text.extend_from_slice(pieces[(state >> 33) as usize % pieces.len()]);
             }
-            let _ = Obj::parse(&text);
+            let _ = Obj::parse(&text, &Cancel::default());
         }
     }
 }

@@ -5,6 +5,7 @@
 //! crate `earcut` in the coordinate plane that it faces most.
 
 use earcut::Earcut;
+use foton_math::Cancel;
 use foton_math::glam::{DVec2, DVec3};
 
 use crate::tally::Tally;
@@ -70,12 +71,22 @@ impl Polygons {
     }
 
     /// Puts ears in the place of the fans that do not cover their polygon once.
-    pub(crate) fn mend<C: Copy>(&self, triangles: &mut Vec<[C; 3]>, position: impl Fn(C) -> DVec3) -> Mended {
+    /// Once cancelled all others stay fans.
+    pub(crate) fn mend<C: Copy>(
+        &self,
+        triangles: &mut Vec<[C; 3]>,
+        position: impl Fn(C) -> DVec3,
+        cancel: &Cancel,
+    ) -> Mended {
         let mut mended = Mended::default();
         let mut cutter = Earcut::new();
         for run in &self.runs {
             let size = run.corners - 2;
             for first in (0..run.faces).map(|face| run.first + face * size) {
+                // One with many corners takes long by itself.
+                if cancel.is_requested() {
+                    return mended;
+                }
                 let fan = &mut triangles[first..first + size];
                 let Some(area) = wrong_area(fan, &position) else { continue };
                 if run.corners > MOST_CORNERS {
@@ -169,7 +180,7 @@ mod tests {
         let mut triangles: Vec<[usize; 3]> = (2..points.len()).map(|i| [0, i - 1, i]).collect();
         let mut polygons = Polygons::default();
         polygons.note(0, points.len());
-        let mended = polygons.mend(&mut triangles, |i| points[i]);
+        let mended = polygons.mend(&mut triangles, |i| points[i], &Cancel::default());
         (triangles, mended)
     }
 

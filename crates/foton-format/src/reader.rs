@@ -87,6 +87,9 @@ impl<'a> Reader<'a> {
             self.scene_emitter(emitter.node);
         }
         for shape in contents.nested("shape") {
+            if self.files.cancel().is_requested() {
+                return;
+            }
             self.shape(shape.node);
         }
         for emitter in emitters.iter().filter(|e| self.loose_areas.get(&e.node) == Some(&false)) {

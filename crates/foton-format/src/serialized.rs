@@ -6,6 +6,7 @@
 use std::io::Read;
 
 use flate2::read::ZlibDecoder;
+use foton_math::Cancel;
 use foton_math::glam::{DVec2, DVec3};
 use foton_scene::description::Mesh;
 
@@ -17,6 +18,8 @@ const HAS_NORMALS: u32 = 0x0001;
 const HAS_TEXTURE_COORDINATES: u32 = 0x0002;
 const HAS_COLOURS: u32 = 0x0008;
 const DOUBLE_PRECISION: u32 = 0x2000;
+/// Bytes that are unpacked between two questions whether reading goes on.
+const BLOCK: u64 = 1 << 20;
 /// Deflate packs at most this many bytes into one.
 const DENSEST: u64 = 1032;
 
@@ -24,13 +27,13 @@ const DENSEST: u64 = 1032;
 ///
 /// # Errors
 /// The first problem of the file, or that it has not as many meshes.
-pub(crate) fn parse(bytes: &[u8], shape_index: u32) -> Parsed {
-    let mut mesh = mesh(bytes, shape_index).map_err(|message| (Place::default(), message))?;
-    let warnings = meshes::mend(&mut mesh);
+pub(crate) fn parse(bytes: &[u8], shape_index: u32, cancel: &Cancel) -> Parsed {
+    let mut mesh = mesh(bytes, shape_index, cancel).map_err(|message| (Place::default(), message))?;
+    let warnings = meshes::mend(&mut mesh, cancel);
     Ok((mesh, warnings))
 }
 
-fn mesh(bytes: &[u8], shape_index: u32) -> Result<Mesh, String> {
+fn mesh(bytes: &[u8], shape_index: u32, cancel: &Cancel) -> Result<Mesh, String> {
     let version = version(bytes)?;
     let start = if shape_index == 0 { 0 } else { offset(bytes, version, shape_index)? };
     let part = usize::try_from(start).ok().and_then(|s| bytes.get(s..)).unwrap_or_default();
@@ -39,6 +42,7 @@ fn mesh(bytes: &[u8], shape_index: u32) -> Result<Mesh, String> {
         most: (part.len() as u64).saturating_mul(DENSEST),
         decoder: ZlibDecoder::new(&part[4..]),
         is_double: false,
+        cancel,
     };
     stream.mesh(version)
 }
@@ -78,13 +82,20 @@ struct Stream<'a> {
     /// No stream of this length holds more bytes.
     most: u64,
     is_double: bool,
+    cancel: &'a Cancel,
 }
 
 impl Stream<'_> {
     fn mesh(&mut self, version: u16) -> Result<Mesh, String> {
         let flags = u32::from_le_bytes(self.array()?);
         if version == 4 {
-            while self.array::<1>()? != [0] {}
+            // The name of the mesh.
+            for read in 0.. {
+                self.cancel.check_at(read).map_err(|cancelled| cancelled.to_string())?;
+                if self.array::<1>()? == [0] {
+                    break;
+                }
+            }
         }
         self.is_double = flags & DOUBLE_PRECISION != 0;
         let (vertices, faces) = (u64::from_le_bytes(self.array()?), u64::from_le_bytes(self.array()?));
@@ -144,8 +155,14 @@ impl Stream<'_> {
             return Err("the file is too short for what it claims to hold".to_owned());
         }
         let mut bytes = Vec::new();
-        self.decoder.by_ref().take(count).read_to_end(&mut bytes).map_err(broken)?;
-        if (bytes.len() as u64) < count { Err("the mesh ends too early".to_owned()) } else { Ok(bytes) }
+        while (bytes.len() as u64) < count {
+            self.cancel.check().map_err(|cancelled| cancelled.to_string())?;
+            let more = BLOCK.min(count - bytes.len() as u64);
+            if self.decoder.by_ref().take(more).read_to_end(&mut bytes).map_err(broken)? == 0 {
+                return Err("the mesh ends too early".to_owned());
+            }
+        }
+        Ok(bytes)
     }
 
     fn array<const N: usize>(&mut self) -> Result<[u8; N], String> {

@@ -4,12 +4,13 @@
 //! state zero are many; the winding says where outside is, as the format demands. A number of triangles that was never
 //! filled in is counted anew.
 
+use foton_math::Cancel;
 use foton_math::glam::DVec3;
 use foton_scene::description::Mesh;
 
 use crate::diagnostic::Place;
 use crate::meshes::Parsed;
-use crate::words::{Problem, Words, shown, vector, without_mark};
+use crate::words::{Problem, Words, shown, unread, vector, without_mark};
 
 /// What stands before the triangles of a binary file: 80 bytes of anything, and their number.
 const HEADER: usize = 84;
@@ -24,7 +25,7 @@ const START: usize = 1024;
 ///
 /// # Errors
 /// The first problem, with its line in a text file and with its byte in the message for a binary one.
-pub(crate) fn parse(bytes: &[u8]) -> Parsed {
+pub(crate) fn parse(bytes: &[u8], cancel: &Cancel) -> Parsed {
     let stated = bytes[..bytes.len().min(HEADER)].last_chunk::<4>().filter(|_| bytes.len() >= HEADER);
     let stated = stated.map_or(0, |n| u32::from_le_bytes(*n) as usize);
     let room = bytes.len().saturating_sub(HEADER);
@@ -36,13 +37,13 @@ pub(crate) fn parse(bytes: &[u8]) -> Parsed {
         is_exact || (is_unstated || fits) && has_bytes_of_no_text(&bytes[..bytes.len().min(START)]);
     let mut warnings = Vec::new();
     let mesh = if says_solid(bytes) && !is_binary {
-        text(bytes)?
+        text(bytes, cancel)?
     } else if is_unstated {
         let triangles = room / TRIANGLE;
         let message =
             format!("the file says that it has {stated} triangles: all {triangles} that are there are read");
         warnings.push((Place::default(), message));
-        binary(bytes, triangles)?
+        binary(bytes, triangles, cancel)?
     } else if bytes.len() < HEADER || stated > room / TRIANGLE {
         let message = format!("the file is too short for {stated} triangles, or no STL file");
         return Err((Place::default(), message));
@@ -54,7 +55,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Parsed {
             );
             warnings.push((Place::default(), message));
         }
-        binary(bytes, stated)?
+        binary(bytes, stated, cancel)?
     };
     if mesh.triangles.is_empty() {
         return Err((Place::default(), "the file has no triangles".to_owned()));
@@ -72,10 +73,11 @@ fn has_bytes_of_no_text(bytes: &[u8]) -> bool {
     bytes.iter().any(|b| b.is_ascii_control() && !b.is_ascii_whitespace())
 }
 
-fn binary(bytes: &[u8], triangles: usize) -> Result<Mesh, Problem> {
+fn binary(bytes: &[u8], triangles: usize, cancel: &Cancel) -> Result<Mesh, Problem> {
     let length = HEADER + triangles * TRIANGLE;
     let mut positions = Vec::with_capacity(3 * triangles);
     for (i, triangle) in bytes[HEADER..length].chunks_exact(TRIANGLE).enumerate() {
+        cancel.check_at(i).map_err(unread)?;
         for corner in triangle[12..48].chunks_exact(12) {
             let axis = |i: usize| {
                 let bytes = corner[4 * i..].first_chunk().copied().unwrap_or_default();
@@ -91,9 +93,9 @@ fn binary(bytes: &[u8], triangles: usize) -> Result<Mesh, Problem> {
     Ok(flat(positions))
 }
 
-fn text(bytes: &[u8]) -> Result<Mesh, Problem> {
+fn text(bytes: &[u8], cancel: &Cancel) -> Result<Mesh, Problem> {
     let mut positions = Vec::new();
-    let mut words = Words::new(bytes);
+    let mut words = Words::new(bytes, cancel);
     let mut corners = 0;
     while words.next_line() {
         let Some(keyword) = words.next() else { continue };

@@ -114,6 +114,8 @@ fn replace(attribute: &mut Attribute, parameters: &mut [Parameter], report: &mut
 mod tests {
     use std::path::Path;
 
+    use foton_math::Cancel;
+
     use super::*;
     use crate::document::Document;
     use crate::files::Files;
@@ -125,11 +127,12 @@ mod tests {
         let defines: Vec<_> = defines.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())).collect();
         let document = Document::parse(&format!("<scene>{xml}</scene>")).unwrap();
         let no_files = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
-        let document = expand(&document, &defines, &mut Files::new(&no_files), &mut report).document;
+        let document =
+            expand(&document, &defines, &mut Files::new(&no_files, &Cancel::default()), &mut report).document;
         let value = document.elements().last().and_then(|(_, e)| e.attribute("v").map(|a| a.value.clone()));
         let messages = match report.finish() {
             Ok(all) => all,
-            Err(e) => e.diagnostics,
+            Err(e) => e.diagnostics().to_vec(),
         };
         (value.unwrap_or_default(), messages.iter().map(ToString::to_string).collect())
     }

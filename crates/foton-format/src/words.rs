@@ -3,11 +3,17 @@
 //! Lines end in `\n`, with a `\r` before it or not; in a file without any `\n` they end in `\r`.
 
 use foton_math::glam::{DVec2, DVec3};
+use foton_math::{Cancel, Cancelled};
 
 use crate::diagnostic::Place;
 
 /// What is wrong, and where.
 pub(crate) type Problem = (Place, String);
+
+/// What stands for the problem that reading was cancelled, until the one who opened the file sees that.
+pub(crate) fn unread(cancelled: Cancelled) -> Problem {
+    (Place::default(), cancelled.to_string())
+}
 
 /// The three finite numbers after a keyword; more are ignored.
 pub(crate) fn vector<'a>(keyword: Word<'a>, words: &mut Words<'a>) -> Result<DVec3, Problem> {
@@ -77,9 +83,16 @@ pub(crate) struct Word<'a> {
     pub(crate) place: Place,
 }
 
-/// The words of each line. Comments are skipped, and a backslash at the end of a line continues it.
+/// Bytes that are read between two questions whether reading goes on.
+const BYTES_UNASKED: usize = 1 << 16;
+
+/// The words of each line. Comments are skipped, and a backslash at the end of a line continues it. Once cancelled the file seems to
+/// end, and whoever opened it does not look at what was found.
 pub(crate) struct Words<'a> {
     bytes: &'a [u8],
+    cancel: &'a Cancel,
+    /// From where on it is to be asked again.
+    asks_at: usize,
     at: usize,
     line: u32,
     line_start: usize,
@@ -88,10 +101,20 @@ pub(crate) struct Words<'a> {
 }
 
 impl<'a> Words<'a> {
-    pub(crate) fn new(bytes: &'a [u8]) -> Self {
+    pub(crate) fn new(bytes: &'a [u8], cancel: &'a Cancel) -> Self {
         let bytes = without_mark(bytes);
         let line_end = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
-        Self { bytes, at: 0, line: 1, line_start: 0, line_end, started: false }
+        Self { bytes, cancel, asks_at: 0, at: 0, line: 1, line_start: 0, line_end, started: false }
+    }
+
+    /// Goes to the end of the file once cancelled.
+    fn ask(&mut self) {
+        if self.at >= self.asks_at {
+            self.asks_at = self.at + BYTES_UNASKED;
+            if self.cancel.is_requested() {
+                self.bytes = &self.bytes[..self.at.min(self.bytes.len())];
+            }
+        }
     }
 
     /// Goes to the beginning of the next line; whether there is one.
@@ -103,11 +126,13 @@ impl<'a> Words<'a> {
             self.line_start = self.at;
         }
         self.started = true;
+        self.ask();
         self.at < self.bytes.len()
     }
 
     /// The next word of this line.
     pub(crate) fn next(&mut self) -> Option<Word<'a>> {
+        self.ask();
         loop {
             match *self.bytes.get(self.at)? {
                 b if b == self.line_end => return None,
@@ -160,7 +185,8 @@ mod tests {
     use super::*;
 
     fn lines(text: &str) -> Vec<(u32, String)> {
-        let (mut words, mut found) = (Words::new(text.as_bytes()), Vec::new());
+        let cancel = Cancel::default();
+        let (mut words, mut found) = (Words::new(text.as_bytes(), &cancel), Vec::new());
         while words.next_line() {
             while let Some(word) = words.next() {
                 found.push((word.place.line, shown(word.text)));

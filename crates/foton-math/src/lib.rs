@@ -1,8 +1,11 @@
 //! Values for light transport: colours, rays, frames, boxes, keyed random streams, and warps beside their densities.
 //!
-//! Nothing here knows what a scene is. Everything is `Copy`, single precision unless said otherwise, and free of state.
+//! Nothing here knows what a scene is. Everything is `Copy`, single precision unless said otherwise, and free of state, but for
+//! [`Cancel`], the request to stop that all layers share.
 
 mod aabb;
+mod cancel;
+mod cancel_reader;
 mod frame;
 pub mod octahedral;
 mod ray;
@@ -11,6 +14,8 @@ mod stream;
 pub mod warp;
 
 pub use aabb::Aabb;
+pub use cancel::{Cancel, Cancelled};
+pub use cancel_reader::CancelReader;
 pub use frame::Frame;
 pub use glam;
 pub use ray::Ray;

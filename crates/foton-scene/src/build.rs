@@ -3,13 +3,14 @@
 mod checks;
 mod emitters;
 mod gather;
+mod gauge;
 mod memory;
 mod patches;
 
 use std::sync::Arc;
 
-use foton_math::Aabb;
 use foton_math::glam::{DAffine3, DMat3, Mat3, Vec3};
+use foton_math::{Aabb, Cancelled};
 use thiserror::Error;
 
 use crate::bsdf::Coat;
@@ -27,6 +28,8 @@ use checks::{
 };
 use emitters::{ball, emitter_choice, unattached_emitter};
 use gather::Gathered;
+pub(crate) use gauge::Gauge;
+pub use gauge::{BuildOptions, BuildStep, Tell};
 pub(crate) use patches::Patch;
 
 /// Why a description makes no scene. Names are those of the scene file.
@@ -107,6 +110,9 @@ pub enum BuildError {
     /// More primitives than indices.
     #[error("the scene has more than 2^31 primitives")]
     TooLarge,
+    /// Someone asked to stop: nothing is wrong with the description.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 impl BuildError {
@@ -114,7 +120,7 @@ impl BuildError {
     #[must_use]
     pub fn part(&self) -> Option<&str> {
         match self {
-            Self::NoSensor | Self::TooLarge => None,
+            Self::NoSensor | Self::TooLarge | Self::Cancelled(_) => None,
             Self::BadSensor(name)
             | Self::NotFinite(name)
             | Self::TooBright { name, .. }
@@ -137,21 +143,25 @@ impl Scene {
     /// # Errors
     /// When a shape or sensor of the description makes no sense; see [`BuildError`].
     pub fn build(description: &SceneDescription) -> Result<Self, BuildError> {
-        Self::build_as_if(description, Census::default())
+        Self::build_with(description, &BuildOptions::default())
     }
 
-    /// Builds the scene as if it also had what `forced` says: its picture is the same, but takes more work and memory. For tests
-    /// and measurements of what leaving things out saves.
+    /// Builds the scene as the options say.
     ///
     /// # Errors
-    /// As [`Scene::build`].
-    pub fn build_as_if(description: &SceneDescription, forced: Census) -> Result<Self, BuildError> {
+    /// As [`Scene::build`], and when cancelled.
+    pub fn build_with(
+        description: &SceneDescription,
+        options: &BuildOptions<'_>,
+    ) -> Result<Self, BuildError> {
+        options.cancel.check()?;
         check_described_emitters(description)?;
         check_textures(description)?;
         let (min, max) = world_bounds(description)?;
         let normalisation = Normalisation::for_bounds(min, max);
         check_sensors(&description.sensors, &normalisation)?;
-        let mut gathered = Gathered::new(forced);
+        let gauge = options.step(BuildStep::Shapes, description.primitives());
+        let mut gathered = Gathered::new(options.forced);
         for material in &description.materials {
             check_material(material, description)?;
             gathered.census.textures |= material.colours().any(|c| matches!(c, Colour::Texture(_)));
@@ -162,7 +172,8 @@ impl Scene {
         let mut casters = Aabb::EMPTY;
         for (i, shape) in description.shapes.iter().enumerate() {
             let first = gathered.primitives.len();
-            gathered.add(i as u32, shape, &normalisation)?;
+            gathered.add(i as u32, shape, &normalisation, &gauge)?;
+            gauge.add(gathered.primitives.len() - first)?;
             if gathered.primitives.len() > i32::MAX as usize {
                 return Err(BuildError::TooLarge);
             }
@@ -200,7 +211,7 @@ impl Scene {
         let at = (scene_ball, casters);
         emitters.extend(description.emitters.iter().map(|e| unattached_emitter(e, &normalisation, at)));
         check_emitters(&emitters, description, &normalisation)?;
-        let mut scene = gathered.into_scene(normalisation, bounds);
+        let mut scene = gathered.into_scene(normalisation, bounds, options)?;
         scene.shapes = shapes;
         scene.textures = description.textures.iter().map(Sampler::new).collect();
         scene.materials.clone_from(&description.materials);
@@ -214,8 +225,8 @@ impl Scene {
             .iter()
             .map(|s| scene.material_of(s).bsdfs().any(|b| b.keeps() || b.roughness().is_some()))
             .collect();
-        let patches = patches::find(&scene.accel, |i| keeps[scene.shape_of(i) as usize]);
-        let coincidences = Coincidences::find(&scene);
+        let patches = patches::find(&scene.accel, |i| keeps[scene.shape_of(i) as usize], options)?;
+        let coincidences = Coincidences::find(&scene, options)?;
         for (i, (part, patch)) in Arc::make_mut(&mut scene.parts).iter_mut().zip(patches).enumerate() {
             *part = Part { patch, coincides: coincidences.share(i as u32).any, ..*part };
         }

@@ -9,13 +9,14 @@
 mod sheet;
 
 use foton_math::glam::DVec3;
-use foton_math::{Aabb, Ray};
+use foton_math::{Aabb, Cancelled, Ray};
 use rayon::prelude::*;
 
+use crate::build::{BuildOptions, BuildStep};
 use crate::description::{Bsdf, Colour, Material};
 use crate::scene::Scene;
 use crate::surface::Surface;
-use sheet::{Sheet, coincide, meet_at, tolerance, weights};
+use sheet::{Face, Sheet, coincide, meet_at, tolerance, weights};
 
 /// Surfaces that are told apart at one point.
 const MOST: usize = 8;
@@ -54,31 +55,35 @@ pub(crate) struct Coincidences {
 
 impl Coincidences {
     /// Finds all pairs.
-    pub(crate) fn find(scene: &Scene) -> Self {
+    pub(crate) fn find(scene: &Scene, options: &BuildOptions<'_>) -> Result<Self, Cancelled> {
         let accel = &scene.accel;
         let (primitives, shape_of) = (accel.primitives(), |i: usize| scene.shape_of(i));
+        let gauge = options.step(BuildStep::Coincidences, primitives.len());
         let mut pairs: Vec<[u32; 2]> = (0..primitives.len())
             .into_par_iter()
+            .filter(|&i| gauge.item(i).is_ok() && gauge.check().is_ok())
             .flat_map_iter(|i| {
-                let mut partners = Vec::new();
+                let (mut partners, own) = (Vec::new(), Face::of(&primitives[i]));
                 // A small face on a large floor is found from its own side, whatever else lies near the floor.
                 accel.for_each_near(&primitives[i].bounds(), MOST_NEAR, |j| {
-                    if j != i && partners.len() < MOST_PARTNERS && coincide(&primitives[i], &primitives[j]) {
+                    if j != i && partners.len() < MOST_PARTNERS && coincide(&own, &Face::of(&primitives[j])) {
                         partners.push([i.min(j) as u32, i.max(j) as u32]);
                     }
                 });
                 partners
             })
             .collect();
+        gauge.check()?;
         pairs.par_sort_unstable();
         pairs.dedup();
         if pairs.is_empty() {
-            return Self::default();
+            return Ok(Self::default());
         }
         let count = scene.shapes.len();
         let (mut shared, mut gaps) = (vec![Share::default(); primitives.len()], vec![0f32; count]);
         let mut shapes = Vec::with_capacity(pairs.len());
-        for pair in pairs {
+        for (number, pair) in pairs.into_iter().enumerate() {
+            gauge.item(number)?;
             let [a, b] = pair.map(|i| i as usize);
             let gap = 2.0 * tolerance(&primitives[a], &primitives[b]) as f32;
             let normal = |i: usize| Sheet::of(&primitives[i], primitives[i].bounds().max.as_dvec3()).normal;
@@ -97,7 +102,7 @@ impl Coincidences {
         shapes.sort_unstable();
         shapes.dedup();
         shapes.retain(|([a, b], _)| a != b);
-        Self { shared, shapes, gaps }
+        Ok(Self { shared, shapes, gaps })
     }
 
     /// What a primitive has in common with others.

@@ -25,7 +25,7 @@ mod texture;
 
 pub use accel::Hit;
 pub use bsdf::{BsdfSample, Coat, FollowedLobe, Lobe, Scattering, Transport};
-pub use build::BuildError;
+pub use build::{BuildError, BuildOptions, BuildStep, Tell};
 pub use census::Census;
 pub use description::SceneDescription;
 pub use emitter::{Emission, Emitter, Illumination};

@@ -5,17 +5,31 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use foton_integrator::Cancel;
 
-/// Asked once, the pass under way is finished and the render stops. Asked again, the pass is discarded.
+/// Asked once, the pass under way is finished and the render stops. Asked again, the pass is discarded. Before there are passes
+/// there is nothing to finish, and asking once is enough.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt {
     finish: Arc<AtomicBool>,
+    /// Whether the scene is still being read, built or looked at.
+    loading: Arc<AtomicBool>,
     cancel: Cancel,
 }
 
 impl Interrupt {
+    /// For a scene that is still to be read: asked once, whatever goes on is given up, until [`Interrupt::begin_passes`].
+    #[must_use]
+    pub fn while_loading() -> Self {
+        Self { loading: Arc::new(AtomicBool::new(true)), ..Self::default() }
+    }
+
+    /// From here on a pass can be finished.
+    pub fn begin_passes(&self) {
+        self.loading.store(false, Ordering::SeqCst);
+    }
+
     /// Asks.
     pub fn request(&self) {
-        if self.finish.swap(true, Ordering::Relaxed) {
+        if self.finish.swap(true, Ordering::SeqCst) || self.loading.load(Ordering::SeqCst) {
             self.cancel.request();
         }
     }
@@ -26,9 +40,27 @@ impl Interrupt {
         self.finish.load(Ordering::Relaxed)
     }
 
-    /// What discards the pass under way.
+    /// What gives up loading, and discards the pass under way.
     #[must_use]
     pub const fn cancel(&self) -> &Cancel {
         &self.cancel
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_request_gives_up_loading_and_finishes_a_pass_two_discard_it() {
+        let interrupt = Interrupt::while_loading();
+        interrupt.request();
+        assert!(interrupt.cancel().is_requested());
+        let interrupt = Interrupt::while_loading();
+        interrupt.begin_passes();
+        interrupt.request();
+        assert!(interrupt.is_requested() && !interrupt.cancel().is_requested());
+        interrupt.request();
+        assert!(interrupt.cancel().is_requested());
     }
 }

@@ -5,7 +5,6 @@
 //! ([`foton_scene::Scene::normalisation`]); power and radiance are those of the scene.
 
 pub mod camera_paths;
-mod cancel;
 pub mod codec;
 pub mod direct_light;
 mod ledger;
@@ -17,7 +16,7 @@ pub mod shading;
 mod stage;
 pub mod straight;
 
-pub use cancel::{Cancel, Cancelled};
+pub use foton_math::{Cancel, Cancelled};
 pub use ledger::{Ledger, Loss};
 pub use light_use::LightUse;
 pub use not_finite::{Halt, LeftOut, NotFinite, Omissions, Quantity, Surface};

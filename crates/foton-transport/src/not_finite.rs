@@ -11,7 +11,7 @@ use foton_math::glam::{DVec3, Vec3};
 use foton_scene::Scene;
 use thiserror::Error;
 
-use crate::cancel::Cancelled;
+use foton_math::Cancelled;
 
 /// How far before a point its surface is looked for, in scene units: the scene's half-size is a thousand at least.
 const BEFORE: f32 = 0.01;

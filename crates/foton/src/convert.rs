@@ -1,6 +1,7 @@
 //! `foton convert`: any readable scene to Mitsuba 3 XML with PLY meshes.
 
 use foton_film::check_writable;
+use foton_integrator::Cancel;
 use foton_scene::Scene;
 
 use crate::args::Convert;
@@ -11,7 +12,8 @@ use crate::talk::{Failure, Talk};
 /// Runs `foton convert`.
 pub(crate) fn run(args: &Convert, talk: &Talk) -> Result<(), Failure> {
     check_writable(&args.output)?;
-    let opened = open(&args.scene, &args.defines, None)?;
+    // A signal ends the program at once: there is nothing to keep.
+    let opened = open(&args.scene, &args.defines, None, &Cancel::default())?;
     refuse_two_roles(args.roles(), &opened)?;
     for finding in &opened.warnings {
         talk.finding(finding);

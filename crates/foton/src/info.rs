@@ -19,12 +19,14 @@ const PROBE_PHOTONS: NonZeroU32 = NonZeroU32::new(1 << 14).expect("above 0");
 
 /// Runs `foton info`.
 pub(crate) fn print(args: &Info, talk: &Talk) -> Result<(), Failure> {
-    let opened = open(&args.scene, &args.defines, args.memory)?;
+    // A signal ends the program at once: there is nothing to keep.
+    let cancel = Cancel::default();
+    let opened = open(&args.scene, &args.defines, args.memory, &cancel)?;
     refuse_two_roles(args.roles(), &opened)?;
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let probed = opened.description.clone();
-    let (scene, identity) = build(opened, &name, sensor, (None, args.memory), talk)?;
+    let (scene, identity) = build(opened, &name, sensor, (None, args.memory), talk, &cancel)?;
     let settings = RenderSettings { sensor, ..RenderSettings::default() };
     if args.json {
         talk.event(&as_json(&scene, &settings, &name, identity.hash));

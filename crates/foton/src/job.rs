@@ -7,10 +7,10 @@ use std::time::Duration;
 
 use foton_film::{check_writable, write_spare};
 use foton_format::{Opened, Options, Severity, Suggested};
-use foton_integrator::{Alpha, Cancelled, LayerKind, PpmSettings, Render, RenderSettings, SettingChange};
-use foton_scene::Scene;
+use foton_integrator::{Alpha, Cancel, LayerKind, PpmSettings, Render, RenderSettings, SettingChange};
+use foton_scene::{BuildOptions, Scene};
 use foton_session::snapshot::{self, Format};
-use foton_session::{Interrupt, Preset, SceneIdentity, Session, StartError, StopCause, StopRule, checkpoint};
+use foton_session::{Interrupt, Preset, SceneIdentity, Session, StopCause, StopRule, checkpoint};
 
 use crate::args::{ErrorWish, Radius, RenderArgs, Size};
 use crate::memory;
@@ -32,12 +32,15 @@ pub(crate) fn render(args: &RenderArgs, talk: &mut Talk) -> Result<(), Failure> 
     if let Some(every) = args.every {
         check_writable(&snapshot::numbered(path, every.first()))?;
     }
-    let opened = open(&args.scene, &args.defines, args.memory)?;
+    let interrupt = interrupt_on_signals(talk);
+    talk.begin();
+    let opened = open(&args.scene, &args.defines, args.memory, interrupt.cancel())?;
     refuse_two_roles(args.roles(), &opened)?;
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let suggested = opened.suggested;
-    let (scene, identity) = build(opened, &name, sensor, (args.size, args.memory), talk)?;
+    let bounds = (args.size, args.memory);
+    let (scene, identity) = build(opened, &name, sensor, bounds, talk, interrupt.cancel())?;
     let (defaults, suggested) = match args.preset {
         Some(preset) => (
             Preset::from(preset).apply(RenderSettings::default()),
@@ -87,9 +90,9 @@ pub(crate) fn render(args: &RenderArgs, talk: &mut Talk) -> Result<(), Failure> 
     }
     let threads = args.threads.map(usize::from);
     refuse_beyond_memory(&scene, &settings, threads, args.memory)?;
-    let interrupt = interrupt_on_signals(talk);
-    talk.begin();
+    talk.stage("collecting hit points");
     let mut session = Session::start(scene, settings, threads, interrupt.cancel())?;
+    interrupt.begin_passes();
     if args.strict {
         session.render_mut().stop_at_first_not_finite();
     }
@@ -208,9 +211,11 @@ pub(crate) fn open(
     scene: &Path,
     defines: &[(String, String)],
     memory: Option<u64>,
+    cancel: &Cancel,
 ) -> Result<Opened, Failure> {
-    let options = Options { defines: defines.to_vec(), memory: memory::limit(memory).map(|b| b as u64) };
-    foton_format::open(scene, &options).map_err(Failure::Open)
+    let memory = memory::limit(memory).map(|b| b as u64);
+    let options = Options { defines: defines.to_vec(), memory, cancel: cancel.clone() };
+    foton_format::open(scene, &options).map_err(Failure::of_open)
 }
 
 /// Builds the scene, at another size if one is asked for and within that many bytes, and says what its file got wrong and what is
@@ -221,6 +226,7 @@ pub(crate) fn build(
     sensor: usize,
     (size, memory): (Option<Size>, Option<u64>),
     talk: &Talk,
+    cancel: &Cancel,
 ) -> Result<(Arc<Scene>, SceneIdentity), Failure> {
     for finding in &opened.warnings {
         talk.finding(finding);
@@ -232,8 +238,10 @@ pub(crate) fn build(
         }
     }
     memory::refuse_to_build(&opened.description, memory)?;
-    let scene =
-        Scene::build(&opened.description).map_err(|cause| Failure::of_build(&opened, name, &cause))?;
+    let tell = talk.building();
+    let options = BuildOptions { cancel: cancel.clone(), tell: Some(&tell), ..BuildOptions::default() };
+    let scene = Scene::build_with(&opened.description, &options)
+        .map_err(|cause| Failure::of_build(&opened, name, &cause))?;
     let census = scene.census();
     if census.degenerate_triangles > 0 {
         talk.warning(&format!("left out {} triangles without area", census.degenerate_triangles));
@@ -288,9 +296,10 @@ pub(crate) fn refuse_beyond_memory(
     refusal.map_or(Ok(()), |why| Err(Failure::Memory(why)))
 }
 
-/// Ctrl-C, SIGTERM and the limits of the system end the render after its pass; a second one discards the pass.
+/// Ctrl-C, SIGTERM and the limits of the system end the render after its pass; a second one discards the pass. Before there are passes
+/// one is enough.
 pub(crate) fn interrupt_on_signals(talk: &Talk) -> Interrupt {
-    let interrupt = Interrupt::default();
+    let interrupt = Interrupt::while_loading();
     let handler = interrupt.clone();
     if let Err(error) = signals::on_end(move || handler.request()) {
         talk.warning(&format!("Ctrl-C will not be handled: {error}"));
@@ -315,7 +324,7 @@ pub(crate) fn finish(
     };
     if session.render().passes() == 0 {
         // Without a fault it was interrupted twice in the first pass: there is no picture yet.
-        return Err(fault(None).unwrap_or_else(|| StartError::Cancelled(Cancelled).into()));
+        return Err(fault(None).unwrap_or(Failure::Interrupted("rendering the first pass")));
     }
     if let Some(panic) = session.panic().filter(|p| !p.leaves_the_image_whole()) {
         return Err(Failure::Panicked { panic: panic.clone(), passes: None });

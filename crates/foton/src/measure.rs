@@ -16,12 +16,14 @@ use crate::talk::{Failure, Talk};
 /// Runs `foton measure`.
 pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
     let given = args.reference.as_deref().map(read_exr).transpose()?;
-    let opened = open(&args.scene, &args.defines, None)?;
+    let interrupt = interrupt_on_signals(talk);
+    talk.begin();
+    let opened = open(&args.scene, &args.defines, None, interrupt.cancel())?;
     refuse_two_roles(args.roles(), &opened)?;
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let suggested = opened.suggested;
-    let (scene, identity) = build(opened, &name, sensor, (args.size, None), talk)?;
+    let (scene, identity) = build(opened, &name, sensor, (args.size, None), talk, interrupt.cancel())?;
     let defaults = RenderSettings::default();
     let suggested_alpha = suggested.alpha.and_then(Alpha::new);
     let suggested_photons = suggested.photons_per_pass.and_then(NonZeroU32::new);
@@ -63,8 +65,8 @@ pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
     if let Some(why) = refusal {
         return Err(Failure::Memory(why));
     }
-    let interrupt = interrupt_on_signals(talk);
-    talk.begin();
+    talk.stage("collecting hit points");
+    // What a part found is kept when it is done: one that is interrupted may as well end at once.
     let outcome = {
         let mut tell = |event: &Event| say(event, talk);
         pool.install(|| sweep.run(&|| interrupt.is_requested(), interrupt.cancel(), &mut tell))

@@ -22,14 +22,19 @@ const FIRST_PICTURE: Duration = Duration::from_secs(8);
 
 /// Renders `scene`, or the embedded one, to the next free `foton-001.png` and `.exr` in the working folder.
 pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failure> {
-    let options = Options { memory: limit(None).map(|b| b as u64), ..Options::default() };
+    let interrupt = interrupt_on_signals(talk);
+    let cancel = interrupt.cancel();
+    talk.begin();
+    let options =
+        Options { memory: limit(None).map(|b| b as u64), cancel: cancel.clone(), ..Options::default() };
     let (opened, name) = match scene {
         Some(path) => {
             (foton_format::open(path, &options), path.file_name().unwrap_or_default().to_string_lossy())
         }
         None => (ALL[0].open(&options), ALL[0].name.into()),
     };
-    let (scene, identity) = build(opened.map_err(Failure::Open)?, &name, 0, (None, None), talk)?;
+    let opened = opened.map_err(Failure::of_open)?;
+    let (scene, identity) = build(opened, &name, 0, (None, None), talk, cancel)?;
     let settings = RenderSettings { error: true, ..RenderSettings::default() };
     refuse_beyond_memory(&scene, &settings, None, None)?;
     let stem = snapshot::next_free(Path::new(""));
@@ -37,10 +42,10 @@ pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failur
     for path in [&png, &exr] {
         check_writable(path)?;
     }
-    let interrupt = interrupt_on_signals(talk);
+    talk.stage("collecting hit points");
+    let mut session = Session::start(scene, settings, None, cancel)?;
+    interrupt.begin_passes();
     talk.line(&format!("rendering {name} for a minute to {}; Ctrl-C stops earlier", png.display()));
-    talk.begin();
-    let mut session = Session::start(scene, settings, None, interrupt.cancel())?;
     let rule = StopRule::time(TIME);
     let mut first_picture = false;
     let cause = session.run(&rule, &interrupt, &mut |progress| {

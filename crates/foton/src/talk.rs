@@ -11,7 +11,7 @@ use foton_format::{Diagnostic, OpenError, Opened, Severity};
 use foton_integrator::{DirectLight, Ledger, NotFinite, Render};
 use foton_measure::CompareError;
 use foton_measure::sweep::SweepError;
-use foton_scene::BuildError;
+use foton_scene::{BuildError, BuildStep};
 use foton_session::checkpoint::ResumeError;
 use foton_session::{Panic, Progress, Session, StartError, StopRule};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -27,6 +27,8 @@ const WORTH_A_WARNING: f64 = 1e-3;
 #[derive(Debug)]
 pub(crate) enum Failure {
     Open(OpenError),
+    /// Someone asked to stop before there was anything to write; what went on then.
+    Interrupted(&'static str),
     /// What was read makes no scene.
     Build(Diagnostic),
     Memory(String),
@@ -76,6 +78,7 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Open(cause) => cause.fmt(f),
+            Self::Interrupted(at) => write!(f, "interrupted while {at}: nothing was written"),
             Self::Build(cause) => cause.fmt(f),
             Self::Memory(why) => {
                 write!(f, "{why}. A smaller --size, --spp or --photons needs less; --memory sets the limit")
@@ -123,8 +126,19 @@ impl fmt::Display for Failure {
 }
 
 impl Failure {
+    /// Why a scene was not opened.
+    pub(crate) fn of_open(cause: OpenError) -> Self {
+        match cause {
+            OpenError::Cancelled(_) => Self::Interrupted("reading the scene"),
+            OpenError::Faults(_) => Self::Open(cause),
+        }
+    }
+
     /// Why the scene of that name cannot be built, with its place.
     pub(crate) fn of_build(opened: &Opened, scene: &str, cause: &BuildError) -> Self {
+        if let BuildError::Cancelled(_) = cause {
+            return Self::Interrupted("building the scene");
+        }
         Self::Build(opened.finding(Severity::Error, scene, cause.part(), cause.to_string()))
     }
 }
@@ -143,7 +157,10 @@ impl From<ReadError> for Failure {
 
 impl From<SweepError> for Failure {
     fn from(cause: SweepError) -> Self {
-        Self::Sweep(cause)
+        match cause {
+            SweepError::Cancelled(_) => Self::Interrupted("making the reference"),
+            other => Self::Sweep(other),
+        }
     }
 }
 
@@ -155,7 +172,10 @@ impl From<ResumeError> for Failure {
 
 impl From<StartError> for Failure {
     fn from(cause: StartError) -> Self {
-        Self::Start(cause)
+        match cause {
+            StartError::Cancelled(_) => Self::Interrupted("collecting hit points"),
+            other => Self::Start(other),
+        }
     }
 }
 
@@ -233,7 +253,7 @@ impl Talk {
     pub(crate) fn failure(&mut self, failure: &Failure) {
         self.bar.finish_and_clear();
         let found = match failure {
-            Failure::Open(OpenError { diagnostics }) => &diagnostics[..],
+            Failure::Open(cause) => cause.diagnostics(),
             Failure::Build(diagnostic) => std::slice::from_ref(diagnostic),
             _ => &[],
         };
@@ -246,6 +266,11 @@ impl Talk {
                 self.event(&located(severity, d));
                 self.line(&format!("{severity}: {d}"));
             }
+            return;
+        }
+        if let Failure::Interrupted(at) = failure {
+            self.event(&json!({ "event": "interrupted", "while": at }));
+            self.line(&failure.to_string());
             return;
         }
         if let Failure::NotFinite { place, .. } = failure {
@@ -264,7 +289,22 @@ impl Talk {
         self.bar = ProgressBar::new(1000);
         let style = ProgressStyle::with_template("{bar:32} {elapsed}  {msg}");
         self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        self.bar.set_message("collecting hit points");
+        self.bar.set_message("reading the scene");
+    }
+
+    /// Says what is done next, from its beginning.
+    pub(crate) fn stage(&self, what: &'static str) {
+        self.bar.set_position(0);
+        self.bar.set_message(what);
+    }
+
+    /// Says how far building a scene is, from any thread.
+    pub(crate) fn building(&self) -> impl Fn(BuildStep, f64) + Sync + use<> {
+        let bar = self.bar.clone();
+        move |step, share| {
+            bar.set_position((share * 1000.0) as u64);
+            bar.set_message(step.text());
+        }
     }
 
     /// Says how far something is, from 0 to 1, and what it is at.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use foton_format::{Opened, Options, Saved, Severity, Suggested, save_edited};
-use foton_integrator::{Alpha, PpmSettings, RenderSettings};
+use foton_integrator::{Alpha, Cancel, PpmSettings, RenderSettings};
 use foton_preview::{Close, WindowError};
 use foton_scene::BuildError;
 use foton_scene::description::SceneDescription;
@@ -58,8 +58,9 @@ fn close_on_signals(close: Close) {
 struct Files;
 
 impl Loader for Files {
-    fn open(&self, source: &Source) -> Result<Loaded, String> {
-        let options = Options { memory: memory::limit(None).map(|b| b as u64), ..Options::default() };
+    fn open(&self, source: &Source, cancel: &Cancel) -> Result<Loaded, String> {
+        let memory = memory::limit(None).map(|b| b as u64);
+        let options = Options { memory, cancel: cancel.clone(), ..Options::default() };
         let (opened, name) = match source {
             Source::File(path) => (
                 foton_format::open(path, &options),
@@ -72,7 +73,7 @@ impl Loader for Files {
             }
         };
         let opened = opened.map_err(|e| {
-            let lines: Vec<String> = e.diagnostics.iter().map(ToString::to_string).collect();
+            let lines: Vec<String> = e.diagnostics().iter().map(ToString::to_string).collect();
             lines.join("\n")
         })?;
         memory::refuse_to_build(&opened.description, None).map_err(|failure| failure.to_string())?;

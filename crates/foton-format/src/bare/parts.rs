@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use foton_math::Cancel;
 use foton_math::glam::DAffine3;
 use foton_scene::description::{Mesh, SceneDescription};
 
@@ -17,6 +18,7 @@ pub(super) fn add_obj(
     library: &mut Library<'_>,
     report: &mut Report,
     scene: &mut SceneDescription,
+    cancel: &Cancel,
 ) {
     let mut known: HashMap<String, mtl::Entry> = HashMap::new();
     for (place, line) in &obj.libraries {
@@ -25,7 +27,7 @@ pub(super) fn add_obj(
             report.warning(*place, format!("{filename} is not there: its materials are grey"));
         }
         for (path, bytes) in files {
-            let (entries, problems) = mtl::parse(&bytes);
+            let (entries, problems) = mtl::parse(&bytes, cancel);
             for (place, message) in problems {
                 report.warning_in(&path, place, message);
             }
@@ -35,7 +37,7 @@ pub(super) fn add_obj(
         }
     }
     let wanted = Wanted { format: Format::Obj, face_normals: false, flip_v: true };
-    let mesh = meshes::build(obj, wanted, &DAffine3::IDENTITY);
+    let mesh = meshes::build(obj, wanted, &DAffine3::IDENTITY, cancel);
     let mut remap = vec![u32::MAX; mesh.positions.len()];
     for (name, triangles) in by_material(obj, &mesh) {
         let entry = find(name, &known);

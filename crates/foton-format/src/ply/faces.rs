@@ -1,5 +1,6 @@
 //! The faces of a PLY file, and its strips of triangles.
 
+use foton_math::Cancel;
 use foton_math::glam::DVec2;
 use foton_scene::description::Mesh;
 
@@ -7,7 +8,7 @@ use super::header::{Element, Header, Kind, Property};
 use super::numbers::Numbers;
 use super::{length, skip_value, whole};
 use crate::diagnostic::Place;
-use crate::meshes::Vertices;
+use crate::meshes::{VertexKey, Vertices};
 use crate::obj::LEFT_OUT;
 use crate::polygons::Polygons;
 use crate::tally::Tally;
@@ -23,6 +24,13 @@ pub(super) struct Faces {
     split: Option<Vertices<(u32, Option<DVec2>)>>,
     short: Tally,
     unfit: Tally,
+}
+
+impl VertexKey for (u32, Option<DVec2>) {
+    fn bits(self) -> [u64; 2] {
+        // Adding zero makes one zero of both; no file states a number of bits that none has.
+        self.1.map_or([u64::MAX; 2], |uv| [uv.x + 0.0, uv.y + 0.0].map(f64::to_bits))
+    }
 }
 
 impl Faces {
@@ -167,7 +175,7 @@ impl Faces {
     }
 
     /// Gives the mesh its triangles, and vertices for them; what is to be warned of.
-    pub(super) fn finish(self, mesh: &mut Mesh) -> Result<Vec<Problem>, Problem> {
+    pub(super) fn finish(self, mesh: &mut Mesh, cancel: &Cancel) -> Result<Vec<Problem>, Problem> {
         let Self { mut triangles, polygons, split, short, unfit, .. } = self;
         if triangles.is_empty() {
             return Err((Place::default(), "the file has no faces".to_owned()));
@@ -181,7 +189,7 @@ impl Faces {
                 mesh.normals = split.keys.iter().map(|&(i, _)| mesh.normals[i as usize]).collect();
             }
         }
-        let mended = polygons.mend(&mut triangles, |i| mesh.positions[i as usize]);
+        let mended = polygons.mend(&mut triangles, |i| mesh.positions[i as usize], cancel);
         mesh.triangles = triangles;
         let warnings = [
             short.warning("face has", "faces have", LEFT_OUT),

@@ -10,6 +10,7 @@ mod faces;
 mod header;
 mod numbers;
 
+use foton_math::Cancel;
 use foton_math::glam::{DVec2, DVec3};
 use foton_scene::description::Mesh;
 
@@ -17,19 +18,19 @@ use crate::meshes::{self, Parsed};
 use crate::words::Problem;
 use faces::Faces;
 use header::{Element, Encoding, Header, Kind, Property};
-use numbers::{Binary, Numbers, Text};
+use numbers::{Binary, Cancellable, Numbers, Text};
 
 /// Reads a file.
 ///
 /// # Errors
 /// The first problem, with its line in a text file and with its byte in the message for a binary one.
-pub(crate) fn parse(bytes: &[u8]) -> Parsed {
+pub(crate) fn parse(bytes: &[u8], cancel: &Cancel) -> Parsed {
     let header = Header::parse(bytes)?;
     let body = &bytes[header.length..];
     let (mesh, mut warnings) = match header.encoding {
-        Encoding::Ascii => read(&header, Text::new(body, header.line_end, header.lines + 1))?,
-        Encoding::LittleEndian => read(&header, Binary::<false>::new(body, header.length))?,
-        Encoding::BigEndian => read(&header, Binary::<true>::new(body, header.length))?,
+        Encoding::Ascii => read(&header, Text::new(body, header.line_end, header.lines + 1), cancel)?,
+        Encoding::LittleEndian => read(&header, Binary::<false>::new(body, header.length), cancel)?,
+        Encoding::BigEndian => read(&header, Binary::<true>::new(body, header.length), cancel)?,
     };
     let wrapped = header.wrapped.warning("line of the header goes", "lines of the header go", WRAPPED);
     warnings.extend(wrapped);
@@ -38,7 +39,8 @@ pub(crate) fn parse(bytes: &[u8]) -> Parsed {
 
 const WRAPPED: &str = "on with the one before";
 
-fn read(header: &Header, mut numbers: impl Numbers) -> Parsed {
+fn read(header: &Header, numbers: impl Numbers, cancel: &Cancel) -> Parsed {
+    let mut numbers = Cancellable { numbers, cancel, left: 0 };
     let mut mesh = Mesh::default();
     let mut faces = Faces::new(header);
     let fits = |element: &Element, numbers: &_| {
@@ -61,8 +63,8 @@ fn read(header: &Header, mut numbers: impl Numbers) -> Parsed {
             _ => skip(element, &mut numbers)?,
         }
     }
-    let mut warnings = faces.finish(&mut mesh)?;
-    warnings.extend(meshes::mend(&mut mesh));
+    let mut warnings = faces.finish(&mut mesh, cancel)?;
+    warnings.extend(meshes::mend(&mut mesh, cancel));
     Ok((mesh, warnings))
 }
 

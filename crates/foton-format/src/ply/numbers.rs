@@ -1,8 +1,10 @@
 //! The numbers after a PLY header, one by one: as words of a text, or as bytes in either order.
 
+use foton_math::Cancel;
+
 use super::header::{Kind, Number};
 use crate::diagnostic::Place;
-use crate::words::{Problem, parsed, shown};
+use crate::words::{Problem, parsed, shown, unread};
 
 /// A way to store numbers.
 pub(super) trait Numbers {
@@ -133,5 +135,40 @@ impl<const BIG_ENDIAN: bool> Numbers for Binary<'_, BIG_ENDIAN> {
 
     fn problem(&self, message: String) -> Problem {
         (Place::default(), format!("byte {}: {message}", self.before + self.at))
+    }
+}
+
+/// Numbers that end in a problem once reading is cancelled.
+pub(super) struct Cancellable<'a, N> {
+    pub(super) numbers: N,
+    pub(super) cancel: &'a Cancel,
+    /// Numbers until it is asked again.
+    pub(super) left: usize,
+}
+
+impl<N: Numbers> Numbers for Cancellable<'_, N> {
+    fn next(&mut self, kind: Number) -> Result<f64, Problem> {
+        if self.left == 0 {
+            self.cancel.check().map_err(unread)?;
+            self.left = Cancel::EVERY;
+        }
+        self.left -= 1;
+        self.numbers.next(kind)
+    }
+
+    fn end_element(&mut self) {
+        self.numbers.end_element();
+    }
+
+    fn least_bytes(&self, kind: Kind) -> u64 {
+        self.numbers.least_bytes(kind)
+    }
+
+    fn bytes_left(&self) -> usize {
+        self.numbers.bytes_left()
+    }
+
+    fn problem(&self, message: String) -> Problem {
+        self.numbers.problem(message)
     }
 }

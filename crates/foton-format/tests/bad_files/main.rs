@@ -57,7 +57,7 @@ fn files(path: &Path) -> io::Result<Vec<u8>> {
 fn found(xml: &str, options: &Options) -> Vec<String> {
     let findings = match read_str("s.xml", xml, &files, options) {
         Ok(opened) => opened.warnings,
-        Err(error) => error.diagnostics,
+        Err(error) => error.diagnostics().to_vec(),
     };
     let text = |severity| if severity == Severity::Error { "" } else { "warning: " };
     findings.iter().map(|d| format!("{}{d}", text(d.severity))).collect()

@@ -25,7 +25,7 @@ fn shape(plugin: &str, bytes: &[u8], more: &str) -> Result<Mesh, Vec<String>> {
     );
     match read_str("s.xml", &xml, &files, &Options::default()) {
         Ok(opened) => Ok(mesh(&opened, 0).clone()),
-        Err(error) => Err(error.diagnostics.iter().map(ToString::to_string).collect()),
+        Err(error) => Err(error.diagnostics().iter().map(ToString::to_string).collect()),
     }
 }
 

@@ -71,7 +71,8 @@ impl Ppm {
         watch(Stage::Layout);
         let shadow_rays = settings.ppm.direct_light == DirectLight::ShadowRays;
         let normals = scene.census().shading_normals;
-        let hit_points = HitPoints::new(&eye.hit_points, &eye.gloss, eye.pixel_start(), normals, shadow_rays);
+        let hit_points =
+            HitPoints::new(&eye.hit_points, &eye.gloss, eye.pixel_start(), normals, shadow_rays, cancel)?;
         let asks = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;
         let hit_points = if asks { hit_points.with_evidence() } else { hit_points };
         let start = Start { hit_points: hit_points.len() as u64, eye_rays: eye.rays, dropped: eye.dropped };
@@ -81,7 +82,8 @@ impl Ppm {
         let sources = scene.sources(&seen);
         let not_finite = eye.left_out.map(|left_out| NotFinite::new(&scene, 0, left_out));
         drop((eye.hit_points, eye.gloss));
-        let grid = Grid::new(&hit_points.packets);
+        let grid = Grid::new(&hit_points.packets, cancel)?;
+        cancel.check()?;
         let light = Light::new(eye.emission, &hit_points, &settings);
         let (width, samples) = (scene.sensors()[settings.sensor].width, settings.samples_per_pixel.get());
         let error = settings.error.then(|| ErrorSums::new(&hit_points, width, samples));

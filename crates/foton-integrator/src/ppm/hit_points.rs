@@ -7,7 +7,7 @@ use foton_math::Rgb;
 use foton_math::glam::Vec3;
 use foton_transport::camera_paths::{Gloss, HitPoint};
 use foton_transport::photon_map::{self, LANES, Packet};
-use foton_transport::{LeftOut, Quantity};
+use foton_transport::{Cancel, Cancelled, LeftOut, Quantity};
 
 use super::adaptive::Evidence;
 use super::statistics::Statistics;
@@ -49,17 +49,24 @@ pub(crate) struct HitPoints {
 
 impl HitPoints {
     /// Lays hit points out. `pixel_start` is as in [`HitPoints`].
+    ///
+    /// # Errors
+    /// When cancelled.
+    ///
+    /// # Errors
+    /// When cancelled.
     pub(crate) fn new(
         found: &[HitPoint],
         gloss: &[Gloss],
         pixel_start: Vec<u32>,
         shading_normals: bool,
         shadow_rays: bool,
-    ) -> Self {
-        let mut groups = photon_map::group(found, |h| h.gloss.is_none());
+        cancel: &Cancel,
+    ) -> Result<Self, Cancelled> {
+        let mut groups = photon_map::group(found, |h| h.gloss.is_none(), cancel)?;
         let first_glossy = groups.len();
         if !gloss.is_empty() {
-            groups.extend(photon_map::group(found, |h| h.gloss.is_some()));
+            groups.extend(photon_map::group(found, |h| h.gloss.is_some(), cancel)?);
         }
         let mut gloss_slots = vec![None; (groups.len() - first_glossy) * LANES];
         let mut packets = Vec::with_capacity(groups.len());
@@ -71,6 +78,7 @@ impl HitPoints {
         let nowhere = ShadowOrigin { origin: Vec3::ZERO, shading_normal: Vec3::ZERO };
         let mut shadow_slots = vec![nowhere; if shadow_rays { slots } else { 0 }];
         for (p, group) in groups.iter().enumerate() {
+            cancel.check_at(p)?;
             let members = || group.iter().map(|&i| &found[i as usize]);
             packets.push(Packet::new(members()));
             if shading_normals {
@@ -90,7 +98,7 @@ impl HitPoints {
                 }
             }
         }
-        Self {
+        Ok(Self {
             packets,
             first_glossy,
             gloss_slots,
@@ -102,7 +110,7 @@ impl HitPoints {
             slot_of,
             weights: found.iter().map(|h| h.weight).collect(),
             pixel_start,
-        }
+        })
     }
 
     /// Makes room for what radii that adapt go by, and the error's upper end.

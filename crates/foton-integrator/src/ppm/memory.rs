@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use foton_math::{Purpose, Rgb};
+use foton_math::{Cancel, Purpose, Rgb};
 use foton_scene::Scene;
 use foton_transport::camera_paths::{Gloss, HitPoint};
 use foton_transport::light_paths::{Batch, MAX_PHOTONS};
@@ -98,7 +98,7 @@ impl MemoryEstimate {
         let looked_at = pixels.min(u64::from(PILOT_PIXELS));
         let one_sample = RenderSettings { samples_per_pixel: std::num::NonZeroU32::MIN, ..settings.clone() };
         let pass = eye_pass(scene, &one_sample, settings.max_depth_in(scene), Purpose::Pilot);
-        let pilot = pass.follow((0..looked_at).map(|i| (i * pixels / looked_at) as u32));
+        let pilot = pass.follow((0..looked_at).map(|i| (i * pixels / looked_at) as u32), &Cancel::default());
         let (found, glossy) = (pilot.hit_points.len(), pilot.gloss.len());
         let samples = pixels as f64 * f64::from(settings.samples_per_pixel.get());
         let hit_points = found as f64 / looked_at as f64 * samples;

@@ -64,7 +64,9 @@ impl Variants {
         let runs: Vec<Render> = settings.iter().enumerate().map(start).collect::<Result<_, _>>()?;
         let widest = |run: &&Render| run.ppm().hit_points.statistics().map(|s| s.radius2()).sum::<f64>();
         let widest = runs.iter().max_by(|a, b| widest(a).total_cmp(&widest(b)));
-        let Some(everywhere) = widest.map(|run| Grid::new(&run.ppm().hit_points.packets)) else {
+        let Some(everywhere) =
+            widest.map(|run| Grid::new(&run.ppm().hit_points.packets, cancel)).transpose()?
+        else {
             return Ok(None);
         };
         Ok(Some(Self { runs, everywhere, chunks: Vec::new() }))

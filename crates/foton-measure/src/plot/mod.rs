@@ -3,6 +3,7 @@
 pub(crate) mod colours;
 
 use std::fmt::Write;
+use std::ops::RangeInclusive;
 
 const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 400.0;
@@ -74,14 +75,22 @@ struct Scale {
 }
 
 impl Scale {
+    /// For the values that have a logarithm: others do not make it endless.
     fn new(values: impl Iterator<Item = f64>, from: f64, to: f64) -> Self {
+        let values = values.filter(|v| v.is_finite() && *v > 0.0);
         let (low, high) = values.fold((f64::MAX, f64::MIN_POSITIVE), |(a, b), v| (a.min(v), b.max(v)));
         let margin = 0.04 * (high / low).ln().max(0.5);
-        Self { low: low * (-margin).exp(), high: high * margin.exp(), from, to }
+        let (low, high) = (low * (-margin).exp(), high * margin.exp());
+        Self { low: low.max(f64::MIN_POSITIVE), high: high.min(f64::MAX), from, to }
     }
 
     fn at(&self, v: f64) -> f64 {
         self.from + (self.to - self.from) * (v / self.low).ln() / (self.high / self.low).ln()
+    }
+
+    /// The powers of ten around it.
+    fn decades(&self) -> RangeInclusive<i32> {
+        self.low.log10().floor() as i32..=self.high.log10().ceil() as i32
     }
 
     /// Round values: 1, 2, 5 in each decade, fewer over many, more within one.
@@ -96,8 +105,7 @@ impl Scale {
             d if d < 3.5 => &[1.0, 2.0, 5.0],
             _ => &[1.0],
         };
-        let (first, last) = (self.low.log10().floor() as i32, self.high.log10().ceil() as i32);
-        let all = (first..=last).flat_map(|power| steps.iter().map(move |s| s * 10f64.powi(power)));
+        let all = self.decades().flat_map(|power| steps.iter().map(move |s| s * 10f64.powi(power)));
         all.filter(|t| (self.low..=self.high).contains(t)).collect()
     }
 }
@@ -265,6 +273,17 @@ fn tick_text(v: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn values_without_a_logarithm_make_no_axis_endless() {
+        for odd in [0.0, -1.0, f64::NAN, f64::INFINITY, f64::MAX, f64::MIN_POSITIVE, 5e-324] {
+            for values in [&[odd, 1.0, 3.0][..], &[odd]] {
+                let scale = Scale::new(values.iter().copied(), 0.0, 100.0);
+                let all = scale.decades();
+                assert!(i64::from(*all.end()) - i64::from(*all.start()) < 1000, "{odd}: {all:?}");
+            }
+        }
+    }
 
     #[test]
     fn ticks_are_round_inside_and_neither_few_nor_many() {

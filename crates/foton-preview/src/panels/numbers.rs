@@ -52,6 +52,7 @@ fn activity(frame: &Frame) -> String {
     match frame.activity {
         Activity::Empty => "no scene".to_owned(),
         Activity::Moving => "moving".to_owned(),
+        Activity::Building => "building the scene…".to_owned(),
         Activity::Collecting => "collecting hit points…".to_owned(),
         Activity::Rendering => match share_done(frame) {
             Some(share) => format!("rendering {:.0} %", share * 100.0),

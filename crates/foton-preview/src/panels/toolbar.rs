@@ -58,10 +58,13 @@ fn scene_menu(ui: &mut egui::Ui, state: &mut State) {
             state.open(file);
         }
     }
-    let opening = state.frame.as_ref().and_then(|f| f.opening.clone());
-    if let Some(name) = opening {
+    let opening = state.frame.as_ref().and_then(|f| f.opening.clone().map(|name| (name, f.building)));
+    if let Some((name, building)) = opening {
         ui.spinner();
         ui.label(format!("Opening {name}"));
+        if let Some((step, share)) = building {
+            ui.add(egui::ProgressBar::new(share as f32).desired_width(160.0).text(step.text()));
+        }
         if ui.button("Cancel").clicked() {
             state.ask(Command::CancelOpen);
         }

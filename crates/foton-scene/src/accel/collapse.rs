@@ -1,13 +1,15 @@
-//! From obvhs's binary tree to eight-wide nodes and quads of triangles, at the least expected cost of a ray.
+//! From a binary tree to eight-wide nodes and quads of triangles, at the least expected cost of a ray.
 //!
 //! The cheapest way to cut a binary subtree into at most i pieces, for every subtree and i, by dynamic programming as in
 //! Ylitie, Karras and Laine (2017), section 3.1. `[YKL17]`
 
+use foton_math::Cancelled;
 use foton_math::glam::Vec3;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::node::Bvh2Node;
 
 use super::node::{Child, Node, QUAD, Quad, WIDTH};
+use crate::build::Gauge;
 use crate::primitive::Primitive;
 
 /// Cost of testing eight boxes: the unit.
@@ -46,16 +48,20 @@ struct Collapse<'a> {
 }
 
 /// Collapses a tree with one primitive a leaf.
-pub(super) fn collapse(tree: &Bvh2, primitives: &[Primitive]) -> Collapsed {
+pub(super) fn collapse(
+    tree: &Bvh2,
+    primitives: &[Primitive],
+    gauge: &Gauge<'_>,
+) -> Result<Collapsed, Cancelled> {
     let out = Collapsed {
         nodes: vec![Node::EMPTY],
         quads: Vec::new(),
         order: Vec::with_capacity(primitives.len()),
     };
     let mut collapse = Collapse { tree, primitives, cuts: vec![Cuts::default(); tree.nodes.len()], out };
-    collapse.weigh();
-    collapse.emit();
-    collapse.out
+    collapse.weigh(gauge)?;
+    collapse.emit(gauge)?;
+    Ok(collapse.out)
 }
 
 fn half_area(node: &Bvh2Node) -> f32 {
@@ -74,7 +80,7 @@ impl Collapse<'_> {
     }
 
     /// Children before parents.
-    fn weigh(&mut self) {
+    fn weigh(&mut self, gauge: &Gauge<'_>) -> Result<(), Cancelled> {
         let mut order = Vec::with_capacity(self.tree.nodes.len());
         let mut open = vec![0u32];
         while let Some(index) = open.pop() {
@@ -84,7 +90,8 @@ impl Collapse<'_> {
                 open.extend([node.first_index, node.first_index + 1]);
             }
         }
-        for index in order.into_iter().rev() {
+        for (i, index) in order.into_iter().rev().enumerate() {
+            gauge.item(2 * i)?;
             let node = &self.tree.nodes[index as usize];
             let area = half_area(node);
             let cuts = if node.is_leaf() {
@@ -97,13 +104,15 @@ impl Collapse<'_> {
             };
             self.cuts[index as usize] = cuts;
         }
+        Ok(())
     }
 
     /// Nodes from the root on, those of one parent's children side by side.
-    fn emit(&mut self) {
+    fn emit(&mut self, gauge: &Gauge<'_>) -> Result<(), Cancelled> {
         let mut open = vec![(0u32, 0usize)];
         let mut pieces = Vec::with_capacity(WIDTH);
         while let Some((source, target)) = open.pop() {
+            gauge.check()?;
             pieces.clear();
             if self.is_leaf(source) {
                 pieces.push(source);
@@ -122,6 +131,7 @@ impl Collapse<'_> {
                 self.out.nodes[target].set(slot, child, aabb.min.into(), aabb.max.into());
             }
         }
+        Ok(())
     }
 
     /// The roots of a subtree's at most `count` pieces; of `WIDTH` ones as a node's children.

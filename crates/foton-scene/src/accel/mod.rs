@@ -1,23 +1,27 @@
 //! Rays against many primitives: an eight-wide tree behind two questions, nearest hit and any hit.
 //!
-//! obvhs builds a binary tree, [`collapse`] makes nodes of eight boxes and leaves of four triangles of it, and both are
+//! [`cluster`] builds a binary tree, [`collapse`] makes nodes of eight boxes and leaves of four triangles of it, and both are
 //! tested side by side. Boxes are padded so that the watertight triangle test behind them stays watertight.
 
+mod cluster;
 mod collapse;
+mod divide;
 mod node;
 
 use foton_math::glam::{Vec2, Vec4};
-use foton_math::{Aabb, Ray};
-use obvhs::BvhBuildParams;
-use obvhs::bvh2::builder::build_bvh2;
+use foton_math::{Aabb, Cancelled, Ray};
 use rayon::prelude::*;
 
+use crate::build::{BuildOptions, BuildStep};
 use crate::primitive::{Primitive, ShearedRay};
 use crate::surface::Plane;
 use node::{BoxRay, Child, Node, QUAD, Quad, Target, WIDTH};
 
 /// Boxes grow by this share of the scene's half-size on each side: rounding errors of the triangle test, with a margin.
 const PADDING: f32 = 1e-6;
+
+/// Nodes that are looked at for each primitive that may be visited near a box: in most scenes far fewer are.
+const NODES_PER_VISIT: usize = 64;
 
 /// Places on a ray's stack before it spills to the heap.
 const STACK: usize = 32;
@@ -43,39 +47,32 @@ pub struct Hit {
     pub(crate) barycentric: Vec2,
 }
 
-struct Padded(Aabb);
-
-impl obvhs::Boundable for Padded {
-    fn aabb(&self) -> obvhs::aabb::Aabb {
-        obvhs::aabb::Aabb { min: self.0.min.into(), max: self.0.max.into() }
-    }
-}
-
 impl Accel {
     /// Builds the tree. Returns it with `order`, where `order[i]` is the old index of primitive `i`.
-    pub(crate) fn build(primitives: &[Primitive]) -> (Self, Vec<u32>) {
+    pub(crate) fn build(
+        primitives: &[Primitive],
+        options: &BuildOptions<'_>,
+    ) -> Result<(Self, Vec<u32>), Cancelled> {
         if primitives.is_empty() {
-            return (
+            return Ok((
                 Self { nodes: Vec::new(), quads: Vec::new(), primitives: Vec::new(), planes: Vec::new() },
                 Vec::new(),
-            );
+            ));
         }
+        let gauge = options.step(BuildStep::Tree, cluster::items(primitives.len()));
         let bounds = primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
         let padding = bounds.size().max_element() * 0.5 * PADDING;
-        let boxes: Vec<Padded> = primitives
-            .iter()
-            .map(|p| {
-                let b = p.bounds();
-                Padded(Aabb { min: b.min - padding, max: b.max + padding })
-            })
-            .collect();
-        let one_a_leaf = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::fast_build() };
-        let tree = build_bvh2(&boxes, one_a_leaf, &mut Default::default());
-        let collapsed = collapse::collapse(&tree, primitives);
+        let padded = |p: &Primitive| {
+            let b = p.bounds();
+            obvhs::aabb::Aabb { min: (b.min - padding).into(), max: (b.max + padding).into() }
+        };
+        let boxes: Vec<_> = primitives.iter().map(padded).collect();
+        let tree = cluster::build(&boxes, &gauge)?;
+        let collapsed = collapse::collapse(&tree, primitives, &gauge)?;
         let ordered: Vec<Primitive> = collapsed.order.iter().map(|&i| primitives[i as usize]).collect();
         let planes = ordered.par_iter().map(Plane::of).collect();
         let accel = Self { nodes: collapsed.nodes, quads: collapsed.quads, primitives: ordered, planes };
-        (accel, collapsed.order)
+        Ok((accel, collapsed.order))
     }
 
     /// The nearest hit in the ray's interval.
@@ -172,14 +169,15 @@ impl Accel {
     /// Calls `visit` with the index of each primitive whose box, or that of its leaf, meets a box, until about `most` were visited:
     /// where very many lie in one place, looking at all from each would never end.
     pub(crate) fn for_each_near(&self, near: &Aabb, most: usize, mut visit: impl FnMut(usize)) {
-        let mut left = most;
+        let (mut left, mut nodes) = (most, most.saturating_mul(NODES_PER_VISIT));
         let mut stack = Stack::new();
         if !self.nodes.is_empty() {
             stack.push(Place { t: 0.0, child: Child::node(0) });
         }
-        while let Some(place) = stack.pop().filter(|_| left > 0) {
+        while let Some(place) = stack.pop().filter(|_| left > 0 && nodes > 0) {
             match place.child.target() {
                 Target::Node(node) => {
+                    nodes -= 1;
                     let node = &self.nodes[node];
                     let mut met = node.near(near);
                     while met != 0 {
@@ -310,3 +308,6 @@ impl Best {
         t < self.t || self.primitive == u32::MAX
     }
 }
+
+#[cfg(test)]
+mod tests;

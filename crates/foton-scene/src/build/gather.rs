@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use foton_math::Aabb;
 use foton_math::glam::{DAffine3, DMat3, Vec2, Vec3};
+use foton_math::{Aabb, Cancelled};
 
-use super::BuildError;
+use super::{BuildError, BuildOptions, Gauge};
 use crate::accel::Accel;
 use crate::census::Census;
 use crate::description::{Geometry, Mesh, ShapeDescription};
@@ -41,9 +41,10 @@ impl Gathered {
         index: u32,
         shape: &ShapeDescription,
         to_scene: &Normalisation,
+        gauge: &Gauge<'_>,
     ) -> Result<(), BuildError> {
         match &shape.geometry {
-            Geometry::Mesh(mesh) => self.add_mesh(index, shape, mesh, to_scene),
+            Geometry::Mesh(mesh) => self.add_mesh(index, shape, mesh, to_scene, gauge),
             Geometry::Sphere { centre, radius } => {
                 let scale = even_scale(&shape.to_world, &[0, 1, 2], ROUNDNESS, &shape.name)?;
                 let centre = to_scene.point(shape.to_world.transform_point3(*centre));
@@ -88,6 +89,7 @@ impl Gathered {
         shape: &ShapeDescription,
         mesh: &Mesh,
         to_scene: &Normalisation,
+        gauge: &Gauge<'_>,
     ) -> Result<(), BuildError> {
         let smooth = !mesh.normals.is_empty();
         let textured = self.census.textures || self.census.anisotropy;
@@ -103,7 +105,8 @@ impl Gathered {
         let positions: Vec<Vec3> =
             mesh.positions.iter().map(|&p| to_scene.point(shape.to_world.transform_point3(p))).collect();
         let normals = smooth.then(|| world_normals(shape, mesh)).transpose()?;
-        for triangle in &mesh.triangles {
+        for (i, triangle) in mesh.triangles.iter().enumerate() {
+            gauge.check_at(i)?;
             if triangle.iter().any(|&i| i as usize >= positions.len()) {
                 return Err(BuildError::BadMesh(shape.name.clone()));
             }
@@ -144,11 +147,16 @@ impl Gathered {
         self.vertex_uvs.extend((self.census.textures || self.census.anisotropy).then_some([Vec2::ZERO; 3]));
     }
 
-    pub(super) fn into_scene(self, normalisation: Normalisation, bounds: Aabb) -> Scene {
-        let (accel, order) = Accel::build(&self.primitives);
+    pub(super) fn into_scene(
+        self,
+        normalisation: Normalisation,
+        bounds: Aabb,
+        options: &BuildOptions<'_>,
+    ) -> Result<Scene, Cancelled> {
+        let (accel, order) = Accel::build(&self.primitives, options)?;
         let smooth = self.vertex_normals.iter().any(|n| n[0] != Vec3::ZERO);
         let ordered = order.iter().map(|&i| i as usize);
-        Scene {
+        Ok(Scene {
             coincidences: Arc::default(),
             parts: ordered.clone().map(|i| Part { shape: self.shape_of[i], ..Part::default() }).collect(),
             vertex_uvs: ordered.clone().filter_map(|i| self.vertex_uvs.get(i).copied()).collect(),
@@ -174,7 +182,7 @@ impl Gathered {
             max_depth: None,
             census: self.census,
             picture_bytes: 0,
-        }
+        })
     }
 }
 

@@ -27,11 +27,17 @@ impl SceneDescription {
     /// Bytes held at most while [`Scene::build`](crate::Scene::build) makes a scene of it, its own included.
     #[must_use]
     pub fn build_bytes(&self) -> usize {
+        self.bytes() + self.primitives() * BYTES_PER_PRIMITIVE
+    }
+
+    /// Triangles, those without area too, and other surfaces.
+    #[must_use]
+    pub fn primitives(&self) -> usize {
         let primitives = self.shapes.iter().map(|shape| match &shape.geometry {
             Geometry::Mesh(mesh) => mesh.triangles.len(),
             _ => 1,
         });
-        self.bytes() + primitives.sum::<usize>() * BYTES_PER_PRIMITIVE
+        primitives.sum()
     }
 
     /// Bytes of pictures, those that are shared once.

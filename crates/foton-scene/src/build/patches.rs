@@ -9,9 +9,10 @@
 //! what lies flush with it.
 
 use foton_math::glam::{DVec3, Vec2, Vec3};
-use foton_math::{Aabb, Frame, Ray};
+use foton_math::{Aabb, Cancelled, Frame, Ray};
 use rayon::prelude::*;
 
+use super::{BuildOptions, BuildStep, Gauge};
 use crate::accel::Accel;
 use crate::primitive::{Primitive, ShearedRay};
 use crate::surface::locate;
@@ -49,20 +50,29 @@ pub(crate) struct Patch {
 }
 
 /// Finds the patches of those primitives that `keeps` picks, in the tree's order.
-pub(super) fn find(accel: &Accel, keeps: impl Fn(usize) -> bool + Sync) -> Vec<Patch> {
+pub(super) fn find(
+    accel: &Accel,
+    keeps: impl Fn(usize) -> bool + Sync,
+    options: &BuildOptions<'_>,
+) -> Result<Vec<Patch>, Cancelled> {
     let primitives = accel.primitives();
+    let gauge = options.step(BuildStep::Patches, 2 * primitives.len());
     let mut sets = Sets::new(primitives.len());
     let mut free: Vec<u8> = vec![0b111; primitives.len()];
-    join_equal_edges(primitives, &keeps, &mut sets, &mut free);
+    join_equal_edges(primitives, &keeps, &mut sets, &mut free, &gauge)?;
+    // What is left of a loop over threads once it is cancelled has nothing to do.
     let found: Vec<(u32, u32, bool)> = (0..primitives.len())
         .into_par_iter()
-        .filter(|&i| keeps(i))
+        .filter(|&i| gauge.item(i).is_ok() && gauge.check().is_ok() && keeps(i))
         .flat_map_iter(|i| probed(accel, i, free[i], &keeps))
         .collect();
-    for (a, b, turned) in found {
+    for (i, (a, b, turned)) in found.into_iter().enumerate() {
+        gauge.check_at(i)?;
         sets.join(a, b, turned);
     }
-    number(primitives, &keeps, &mut sets)
+    let patches = number(primitives, &keeps, &mut sets);
+    gauge.check()?;
+    Ok(patches)
 }
 
 /// One side of a triangle.
@@ -121,7 +131,8 @@ fn join_equal_edges(
     keeps: &(impl Fn(usize) -> bool + Sync),
     sets: &mut Sets,
     free: &mut [u8],
-) {
+    gauge: &Gauge<'_>,
+) -> Result<(), Cancelled> {
     let sides_of = |i: usize| match primitives[i] {
         Primitive::Triangle(corners) if keeps(i) => Some(corners),
         _ => None,
@@ -138,13 +149,18 @@ fn join_equal_edges(
             })
         })
         .collect();
+    gauge.check()?;
     edges.par_sort_unstable();
+    gauge.check()?;
     let side = |e: &Edge| match primitives[e.primitive as usize] {
         Primitive::Triangle(corners) => Side::new(corners, usize::from(e.side)),
         _ => None,
     };
-    for group in edges.chunk_by(|a, b| a.hash == b.hash).filter(|group| group.len() > 1) {
+    let groups = edges.chunk_by(|a, b| a.hash == b.hash);
+    for (number, group) in groups.enumerate().filter(|(_, group)| group.len() > 1) {
+        gauge.item(number)?;
         for (i, edge) in group.iter().enumerate().skip(1) {
+            gauge.check_at(i)?;
             let Some(one) = side(edge) else { continue };
             for other_edge in &group[..i.min(MOST_AT_AN_EDGE)] {
                 let Some(turned) = side(other_edge).and_then(|other| one.continued_by(&other)) else {
@@ -157,6 +173,7 @@ fn join_equal_edges(
             }
         }
     }
+    Ok(())
 }
 
 /// What continues a primitive flush beyond its free edges: pairs of primitives, and whether their normals are turned.

@@ -41,34 +41,64 @@ impl Sheet {
     }
 }
 
+/// A primitive, and its plane if it is flat: known once for all that lies near it.
+#[derive(Clone, Copy)]
+pub(super) struct Face<'a> {
+    primitive: &'a Primitive,
+    /// A point of the plane and its unit normal.
+    plane: Option<[DVec3; 2]>,
+}
+
+impl<'a> Face<'a> {
+    pub(super) fn of(primitive: &'a Primitive) -> Self {
+        let point = match *primitive {
+            Primitive::Triangle([point, ..]) | Primitive::Disc { centre: point, .. } => Some(point),
+            Primitive::Sphere { .. } | Primitive::Tube { .. } => None,
+        };
+        let plane = point.map(|p| [p.as_dvec3(), Sheet::of(primitive, DVec3::ZERO).normal]);
+        Self { primitive, plane }
+    }
+
+    /// What rounding of coordinates does along the normal, in the unit of [`TOLERANCE`].
+    fn spread(&self) -> f64 {
+        // A quarter turn leaves a trace of the other axes.
+        let turned = |p: Vec3| 1e-6 * f64::from(p.abs().max_element());
+        let normal = self.plane.map_or(DVec3::ZERO, |[_, normal]| normal.abs());
+        match *self.primitive {
+            Primitive::Triangle(corners) => {
+                corners.map(|c| normal.dot(c.as_dvec3().abs()) + turned(c)).into_iter().fold(0.0, f64::max)
+            }
+            Primitive::Disc { centre, radius, .. } => {
+                // A normal is rounded too, so the rim is off the plane.
+                let tilt = f64::from(radius) * (1.0 - normal.max_element()).min(0.1);
+                normal.dot(centre.as_dvec3().abs()) + tilt + turned(centre)
+            }
+            Primitive::Sphere { centre, radius, .. } => f64::from(centre.abs().max_element() + radius),
+            Primitive::Tube { from, axis, radius } => {
+                f64::from(from.abs().max((from + axis).abs()).max_element() + radius.abs())
+            }
+        }
+    }
+}
+
 /// How far two surfaces may be apart and still be one: what rounding of their coordinates does along their normal.
 pub(super) fn tolerance(a: &Primitive, b: &Primitive) -> f64 {
-    // A quarter turn leaves a trace of the other axes.
-    let turned = |p: Vec3| 1e-6 * f64::from(p.abs().max_element());
-    let of = |p: &Primitive| match *p {
-        Primitive::Triangle(corners) => {
-            let normal = Sheet::of(p, DVec3::ZERO).normal.abs();
-            corners.map(|c| normal.dot(c.as_dvec3().abs()) + turned(c)).into_iter().fold(0.0, f64::max)
-        }
-        Primitive::Disc { centre, normal, radius } => {
-            let normal = normal.as_dvec3().abs();
-            // A normal is rounded too, so the rim is off the plane.
-            let tilt = f64::from(radius) * (1.0 - normal.max_element()).min(0.1);
-            normal.dot(centre.as_dvec3().abs()) + tilt + turned(centre)
-        }
-        Primitive::Sphere { centre, radius, .. } => f64::from(centre.abs().max_element() + radius),
-        Primitive::Tube { from, axis, radius } => {
-            f64::from(from.abs().max((from + axis).abs()).max_element() + radius.abs())
-        }
-    };
-    TOLERANCE * of(a).max(of(b))
+    tolerance_of(&Face::of(a), &Face::of(b))
+}
+
+fn tolerance_of(a: &Face<'_>, b: &Face<'_>) -> f64 {
+    TOLERANCE * a.spread().max(b.spread())
 }
 
 /// Whether two primitives share a part of their surfaces, more than an edge.
-pub(super) fn coincide(a: &Primitive, b: &Primitive) -> bool {
-    let tolerance = tolerance(a, b);
+pub(super) fn coincide(a: &Face<'_>, b: &Face<'_>) -> bool {
+    if let (Some([_, normal]), Some([_, other])) = (a.plane, b.plane) {
+        // Most that lie near each other are not parallel, and this is known at once.
+        return normal.dot(other).abs() > PARALLEL && are_in_one_plane(a, b) && overlap(a, b);
+    }
+    let tolerance = tolerance_of(a, b);
     let near = |p: &Primitive, at: Vec3| Sheet::of(p, at.as_dvec3()).distance.abs() <= tolerance;
-    match (a, b) {
+    match (a.primitive, b.primitive) {
         (
             Primitive::Sphere { centre, radius, .. },
             Primitive::Sphere { centre: other, radius: its_radius, .. },
@@ -82,21 +112,25 @@ pub(super) fn coincide(a: &Primitive, b: &Primitive) -> bool {
             let parallel = axis.normalize().dot(other.normalize()).abs() > PARALLEL as f32;
             let ends = [*from, *from + *other];
             let rims = [across, beside, -across];
-            parallel && ends.iter().all(|&end| rims.iter().all(|&r| near(a, end + r))) && overlap(a, b)
+            parallel
+                && ends.iter().all(|&end| rims.iter().all(|&r| near(a.primitive, end + r)))
+                && overlap(a, b)
         }
-        (Primitive::Sphere { .. } | Primitive::Tube { .. }, _)
-        | (_, Primitive::Sphere { .. } | Primitive::Tube { .. }) => false,
-        _ => {
-            let (na, nb) = (Sheet::of(a, DVec3::ZERO).normal, Sheet::of(b, DVec3::ZERO).normal);
-            // The plane of the larger is the better known one.
-            let (large, small) = if a.area() >= b.area() { (a, b) } else { (b, a) };
-            let flat = match *small {
-                Primitive::Triangle(corners) => corners.into_iter().all(|c| near(large, c)),
-                Primitive::Disc { centre, .. } => near(large, centre),
-                _ => false,
-            };
-            na.dot(nb).abs() > PARALLEL && flat && overlap(a, b)
-        }
+        _ => false,
+    }
+}
+
+/// Whether two flat primitives that are parallel are so in one plane.
+fn are_in_one_plane(a: &Face<'_>, b: &Face<'_>) -> bool {
+    // The plane of the larger is the better known one.
+    let (large, small) = if a.primitive.area() >= b.primitive.area() { (a, b) } else { (b, a) };
+    let Some([point, normal]) = large.plane else { return false };
+    let tolerance = tolerance_of(a, b);
+    let near = |at: Vec3| (at.as_dvec3() - point).dot(normal).abs() <= tolerance;
+    match *small.primitive {
+        Primitive::Triangle(corners) => corners.into_iter().all(near),
+        Primitive::Disc { centre, .. } => near(centre),
+        _ => false,
     }
 }
 
@@ -112,7 +146,7 @@ pub(super) fn meet_at(own: &Primitive, other: &Primitive, p: DVec3) -> bool {
 /// How far within a primitive's edges a point of its surface is; negative outside.
 fn room(primitive: &Primitive, p: DVec3) -> f64 {
     match *primitive {
-        Primitive::Triangle(_) => inward_edges(primitive).map_or(0.0, |edges| {
+        Primitive::Triangle(_) => inward_edges(&Face::of(primitive)).map_or(0.0, |edges| {
             edges.into_iter().map(|(corner, inward)| (p - corner).dot(inward)).fold(f64::INFINITY, f64::min)
         }),
         Primitive::Disc { centre, radius, .. } => f64::from(radius) - p.distance(centre.as_dvec3()),
@@ -126,9 +160,10 @@ fn room(primitive: &Primitive, p: DVec3) -> f64 {
 }
 
 /// A corner and the unit direction inwards of each edge of a triangle.
-fn inward_edges(primitive: &Primitive) -> Option<[(DVec3, DVec3); 3]> {
-    let Primitive::Triangle(corners) = *primitive else { return None };
-    let normal = Sheet::of(primitive, DVec3::ZERO).normal;
+fn inward_edges(face: &Face<'_>) -> Option<[(DVec3, DVec3); 3]> {
+    let (Primitive::Triangle(corners), Some([_, normal])) = (*face.primitive, face.plane) else {
+        return None;
+    };
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     Some([(a, b), (b, c), (c, a)].map(|(p, q)| (p, normal.cross(q - p).normalize_or_zero())))
 }
@@ -140,16 +175,16 @@ fn edge_margin(primitive: &Primitive) -> f64 {
 }
 
 /// Whether two primitives in one surface have more than edges in common: no edge of either has all of the other beyond it.
-fn overlap(a: &Primitive, b: &Primitive) -> bool {
-    let margin = edge_margin(a).max(edge_margin(b));
-    let apart = |one: &Primitive, other: &Primitive| match (*one, *other) {
+fn overlap(a: &Face<'_>, b: &Face<'_>) -> bool {
+    let margin = edge_margin(a.primitive).max(edge_margin(b.primitive));
+    let apart = |one: &Face<'_>, other: &Face<'_>| match (*one.primitive, *other.primitive) {
         (Primitive::Triangle(_), Primitive::Triangle(corners)) => inward_edges(one).is_some_and(|edges| {
             edges
                 .into_iter()
                 .any(|(corner, inward)| corners.iter().all(|c| (c.as_dvec3() - corner).dot(inward) <= margin))
         }),
         (Primitive::Triangle(_), Primitive::Disc { centre, radius, .. }) => {
-            room(one, centre.as_dvec3()) <= margin - f64::from(radius)
+            room(one.primitive, centre.as_dvec3()) <= margin - f64::from(radius)
         }
         (
             Primitive::Disc { centre, radius, .. },

@@ -3,6 +3,7 @@
 //!
 //! Not here: densities of emitters, BSDFs, sensors and filters, which are tested beside their code.
 
+mod building;
 mod coincident;
 mod contacts;
 mod descriptions;

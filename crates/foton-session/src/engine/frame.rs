@@ -6,6 +6,7 @@ use std::time::Duration;
 use foton_film::{Image, Plane};
 use foton_integrator::{ErrorEstimate, Ledger, PathClass, Radii, RenderSettings};
 use foton_math::Rgb;
+use foton_scene::BuildStep;
 
 use super::command::Shown;
 use crate::clock::StageTimes;
@@ -20,6 +21,8 @@ pub enum Activity {
     Empty,
     /// Small pictures, while the camera or an object moves.
     Moving,
+    /// Building the scene after an edit.
+    Building,
     /// Following eye paths.
     Collecting,
     /// Passes.
@@ -174,6 +177,8 @@ pub struct Frame {
     pub activity: Activity,
     /// Whether another scene is being opened.
     pub opening: Option<String>,
+    /// What building that scene is at and the share of it that is done; `None` while its file is read.
+    pub building: Option<(BuildStep, f64)>,
     /// Size of the whole image in pixels.
     pub size: [u32; 2],
     /// The picture; smaller than `size` while things move.

@@ -3,13 +3,13 @@
 
 use std::any::Any;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 
 use crossbeam_channel::{Receiver, Sender, bounded};
-use foton_integrator::RenderSettings;
+use foton_integrator::{Cancel, RenderSettings};
 use foton_scene::description::SceneDescription;
-use foton_scene::{BuildError, Scene};
+use foton_scene::{BuildError, BuildOptions, BuildStep, Scene};
 
 use super::command::Source;
 use crate::metadata::SceneIdentity;
@@ -34,11 +34,11 @@ pub struct Loaded {
 
 /// Opens and saves scenes.
 pub trait Loader: Send + Sync + 'static {
-    /// Opens a scene.
+    /// Opens a scene, unless cancelled: nobody sees the outcome then.
     ///
     /// # Errors
     /// Everything that is wrong with it, each fault with its place, a line each.
-    fn open(&self, source: &Source) -> Result<Loaded, String>;
+    fn open(&self, source: &Source, cancel: &Cancel) -> Result<Loaded, String>;
 
     /// Why what was opened makes no scene: with its place, where the loader knows it.
     fn why_not_built(&self, loaded: &Loaded, cause: &BuildError) -> String {
@@ -64,10 +64,21 @@ pub(super) struct Ready {
     pub(super) scene: Arc<Scene>,
 }
 
-/// A scene that is being opened.
+/// What building a scene is at, and the share of that which is done.
+pub(super) type Building = (BuildStep, f64);
+
+/// A scene that is being opened; dropped it is given up.
 pub(super) struct Opening {
     pub(super) name: String,
     pub(super) result: Receiver<Result<Box<Ready>, String>>,
+    at: Arc<Mutex<Option<Building>>>,
+    cancel: Cancel,
+}
+
+impl Drop for Opening {
+    fn drop(&mut self) {
+        self.cancel.request();
+    }
 }
 
 impl Opening {
@@ -75,29 +86,48 @@ impl Opening {
     pub(super) fn begin(loader: &Arc<dyn Loader>, source: Source) -> Self {
         let (sender, result) = bounded(1);
         let loader = Arc::clone(loader);
-        let name = source.to_string();
-        let work = move || open(&*loader, source, &sender);
+        let (name, cancel, at) = (source.to_string(), Cancel::default(), Arc::new(Mutex::new(None)));
+        let (told, asked) = (Arc::clone(&at), cancel.clone());
+        let work = move || open(&*loader, source, &sender, &told, asked);
         if let Err(error) = thread::Builder::new().name("open".to_owned()).spawn(work) {
             let (sender, result) = bounded(1);
             let _ = sender.send(Err(format!("cannot make a thread: {error}")));
-            return Self { name, result };
+            return Self { name, result, at, cancel };
         }
-        Self { name, result }
+        Self { name, result, at, cancel }
+    }
+
+    /// How far building is; `None` while the file is read.
+    pub(super) fn building(&self) -> Option<Building> {
+        *self.at.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-fn open(loader: &dyn Loader, source: Source, sender: &Sender<Result<Box<Ready>, String>>) {
+fn open(
+    loader: &dyn Loader,
+    source: Source,
+    sender: &Sender<Result<Box<Ready>, String>>,
+    at: &Mutex<Option<Building>>,
+    cancel: Cancel,
+) {
     let name = source.to_string();
-    let work = || open_and_build(loader, source);
+    let work = || open_and_build(loader, source, at, cancel);
     let result =
         contained(work).unwrap_or_else(|message| Err(format!("{name}: foton has a fault: {message}")));
     // Nobody listens any more when opening was cancelled.
     let _ = sender.send(result);
 }
 
-fn open_and_build(loader: &dyn Loader, source: Source) -> Result<Box<Ready>, String> {
-    loader.open(&source).and_then(|loaded| {
-        let built = Scene::build(&loaded.description);
+fn open_and_build(
+    loader: &dyn Loader,
+    source: Source,
+    at: &Mutex<Option<Building>>,
+    cancel: Cancel,
+) -> Result<Box<Ready>, String> {
+    loader.open(&source, &cancel).and_then(|loaded| {
+        let tell = |step, share| *at.lock().unwrap_or_else(PoisonError::into_inner) = Some((step, share));
+        let options = BuildOptions { cancel, tell: Some(&tell), ..BuildOptions::default() };
+        let built = Scene::build_with(&loaded.description, &options);
         let scene = built.map_err(|cause| loader.why_not_built(&loaded, &cause))?;
         Ok(Box::new(Ready { source, loaded, scene: Arc::new(scene) }))
     })

@@ -42,6 +42,8 @@ pub struct Engine {
     frames: Receiver<Frame>,
     events: Receiver<Event>,
     cancel: Cancel,
+    /// Gives up whatever is built, for good.
+    quit: Cancel,
     /// Files that were asked for and are not written yet.
     unwritten: Arc<AtomicUsize>,
 }
@@ -61,19 +63,23 @@ impl Engine {
         let (commands, command_receiver) = bounded(COMMANDS);
         let (frame_sender, frames) = slot::newest();
         let (event_sender, events) = bounded(EVENTS);
-        let cancel = Cancel::default();
+        let (cancel, quit) = (Cancel::default(), Cancel::default());
         let channels =
             worker::Channels { commands: command_receiver, frames: frame_sender, events: event_sender };
         let unwritten = Arc::new(AtomicUsize::new(0));
-        let worker = worker::Worker::new(setup, channels, cancel.clone(), Arc::clone(&unwritten));
+        let worker =
+            worker::Worker::new(setup, channels, [cancel.clone(), quit.clone()], Arc::clone(&unwritten));
         thread::Builder::new().name("engine".to_owned()).spawn(move || worker.run())?;
-        Ok(Self { commands, frames, events, cancel, unwritten })
+        Ok(Self { commands, frames, events, cancel, quit, unwritten })
     }
 
     /// Asks for something. Where the pass under way would be for nothing, it is discarded. Returns whether the engine is there
     /// and had room.
     pub fn send(&self, command: Command) -> bool {
         let (interrupts, writes) = (command.interrupts(), command.writes());
+        if matches!(command, Command::Quit) {
+            self.quit.request();
+        }
         if writes {
             self.unwritten.fetch_add(1, Ordering::SeqCst);
         }

@@ -4,9 +4,10 @@ use std::any::Any;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use foton_integrator::Cancel;
 use foton_math::glam::{DVec2, DVec3};
-use foton_scene::Scene;
 use foton_scene::description::{SceneDescription, SensorDescription};
+use foton_scene::{BuildError, BuildOptions, Scene};
 
 use super::command::{Gesture, Source};
 use super::frame::{SceneFacts, Selection, SensorFacts};
@@ -23,6 +24,9 @@ const NUDGE: f64 = 4.0;
 /// Scenes of more triangles take too long to be built for every move of a hand: the outline goes with it, and the picture
 /// follows when it lets go.
 const MOST_LIVE_TRIANGLES: u64 = 100_000;
+
+/// Scenes of fewer surfaces are built before anyone could give that up.
+const QUICK: usize = 10_000;
 
 /// What a change asks of the render.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,11 +80,18 @@ pub(super) struct Stage {
     /// The history's description with the sensors as they are.
     description: Arc<SceneDescription>,
     scene: Arc<Scene>,
+    /// The history's description that the scene was built of, unless building a newer one was given up.
+    built: Arc<SceneDescription>,
+    /// Whether the scene is older than the description.
+    is_stale: bool,
+    /// Gives up building what is edited once something newer was asked for, and everything once the engine is to end.
+    cancel: Cancel,
+    quit: Cancel,
     facts: Arc<SceneFacts>,
 }
 
 impl Stage {
-    pub(super) fn new(ready: Ready) -> Self {
+    pub(super) fn new(ready: Ready, [cancel, quit]: [Cancel; 2]) -> Self {
         let Ready { source, loaded, scene } = ready;
         let description = Arc::new(loaded.description);
         let sensors = description.sensors.clone();
@@ -95,8 +106,12 @@ impl Stage {
             sensors,
             camera: None,
             chosen: None,
-            description,
+            description: Arc::clone(&description),
             scene,
+            built: Arc::clone(&description),
+            is_stale: false,
+            cancel,
+            quit,
             facts: Arc::default(),
         };
         stage.refresh_facts();
@@ -191,6 +206,10 @@ impl Stage {
 
     /// Chooses what is seen at a film position; nothing where nothing is.
     pub(super) fn choose(&mut self, sensor: usize, film: Option<[f64; 2]>) {
+        // A click is for what is seen now, however long that takes.
+        if self.is_stale && self.build(&self.quit.clone()).is_err() {
+            return;
+        }
         let picked = film.and_then(|film| pick_any(&self.scene, &self.description, sensor, film));
         self.chosen = picked.map(|picked| Chosen {
             target: picked.target,
@@ -322,16 +341,63 @@ impl Stage {
     /// Makes `next` the description under edit, unless no scene can be made of it.
     fn take(&mut self, next: SceneDescription) -> Result<Effect, String> {
         let whole = SceneDescription { sensors: self.sensors.clone(), ..next.clone() };
-        self.scene = Arc::new(Scene::build(&whole).map_err(|cause| cause.to_string())?);
+        let built = self.scene_of(&whole, &self.cancel)?;
         self.history.proceed(next);
         self.refresh();
+        self.renew(built);
         Ok(Effect::Anew)
+    }
+
+    /// The scene of a description; `None` where building it was given up.
+    fn scene_of(&self, description: &SceneDescription, cancel: &Cancel) -> Result<Option<Scene>, String> {
+        let is_quick = description.primitives() < QUICK;
+        let cancel = if is_quick { Cancel::default() } else { cancel.clone() };
+        match Scene::build_with(description, &BuildOptions { cancel, ..BuildOptions::default() }) {
+            Ok(scene) => Ok(Some(scene)),
+            Err(BuildError::Cancelled(_)) => Ok(None),
+            Err(cause) => Err(cause.to_string()),
+        }
+    }
+
+    /// The scene is now that of the history's description, if it was built.
+    fn renew(&mut self, built: Option<Scene>) {
+        self.is_stale = built.is_none();
+        if let Some(scene) = built {
+            self.scene = Arc::new(scene);
+            self.built = Arc::clone(self.history.current());
+        }
+    }
+
+    /// Whether building the scene of an edit was given up: [`Stage::freshen`] does it.
+    pub(super) const fn is_stale(&self) -> bool {
+        self.is_stale
+    }
+
+    /// Builds the scene of an edit, if that was given up before. Whether there is one, or else it was given up again.
+    ///
+    /// # Errors
+    /// When no scene can be made of it: edits since the last one of which one was made are then taken back.
+    pub(super) fn freshen(&mut self) -> Result<bool, String> {
+        let message = match self.build(&self.cancel.clone()) {
+            Ok(()) => return Ok(!self.is_stale),
+            Err(message) => message,
+        };
+        while !Arc::ptr_eq(self.history.current(), &self.built) && self.history.undo().is_some() {}
+        self.rebuild()?;
+        Err(message)
+    }
+
+    /// Builds the scene of the description as it is, unless that is given up.
+    fn build(&mut self, cancel: &Cancel) -> Result<(), String> {
+        let built = self.scene_of(&self.description, cancel)?;
+        self.renew(built);
+        Ok(())
     }
 
     /// The scene of the history's description.
     fn rebuild(&mut self) -> Result<Effect, String> {
         self.refresh();
-        self.scene = Arc::new(Scene::build(&self.description).map_err(|cause| cause.to_string())?);
+        self.build(&self.cancel.clone())?;
         if let Some(chosen) = &mut self.chosen {
             chosen.outline = Outline::new(&self.description, chosen.target);
         }
@@ -377,3 +443,7 @@ impl Stage {
         markers(&self.description, sensor).into_iter().flat_map(|(_, marker)| marker).collect()
     }
 }
+
+#[cfg(test)]
+#[path = "stage_tests.rs"]
+mod tests;

@@ -1,5 +1,7 @@
 //! The engine's own thread: commands, then work, then a frame; for ever.
 
+mod publish;
+
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -11,10 +13,9 @@ use foton_scene::Scene;
 use rayon::ThreadPool;
 
 use super::command::{Change, Command, Configuration, Event, Shown};
-use super::frame::{Activity, Frame, Numbers, Picture};
+use super::frame::{Frame, Picture};
 use super::kept::Kept;
 use super::loader::{Opening, Ready};
-use super::probe;
 use super::render::{Level, LevelRender};
 use super::setup::Setup;
 use super::slot::NewestSender;
@@ -24,8 +25,8 @@ use crate::session::{PassError, Session, StartError};
 use crate::stop::StopRule;
 use crate::threads::{self, Rank};
 
-/// Frames are at least this far apart unless a person is waiting for one.
-const FRAME_GAP: Duration = Duration::from_millis(30);
+/// How long to wait for commands while a scene is opened, before there is something new to see.
+const LOOK_AGAIN: Duration = Duration::from_millis(100);
 
 /// What the thread is connected to.
 pub(super) struct Channels {
@@ -47,7 +48,10 @@ enum Flow {
 pub(super) struct Worker {
     pub(super) setup: Setup,
     channels: Channels,
+    /// Discards the pass, or gives up the build, that is under way.
     cancel: Cancel,
+    /// Gives up whatever is built, once the engine is to end.
+    quit: Cancel,
     pub(super) unwritten: Arc<AtomicUsize>,
     pub(super) stage: Option<Stage>,
     opening: Option<Opening>,
@@ -83,11 +87,17 @@ pub(super) struct Worker {
 }
 
 impl Worker {
-    pub(super) fn new(setup: Setup, channels: Channels, cancel: Cancel, unwritten: Arc<AtomicUsize>) -> Self {
+    pub(super) fn new(
+        setup: Setup,
+        channels: Channels,
+        [cancel, quit]: [Cancel; 2],
+        unwritten: Arc<AtomicUsize>,
+    ) -> Self {
         Self {
             setup,
             channels,
             cancel,
+            quit,
             unwritten,
             stage: None,
             opening: None,
@@ -159,7 +169,13 @@ impl Worker {
             let mut wait = crossbeam_channel::Select::new();
             wait.recv(&self.channels.commands);
             wait.recv(opened);
-            wait.ready();
+            if self.opening.is_some() {
+                // Building goes on, and the window shows how far it is.
+                let _ = wait.ready_timeout(LOOK_AGAIN);
+                self.unseen = true;
+            } else {
+                wait.ready();
+            }
             select! {
                 recv(self.channels.commands) -> command => commands.push(command.ok()?),
                 default => {}
@@ -302,7 +318,7 @@ impl Worker {
         let loaded = &ready.loaded;
         self.event(Event::Opened { name: loaded.identity.name.clone(), warnings: loaded.warnings.clone() });
         self.settings = RenderSettings { layers: self.settings.layers, ..loaded.settings.clone() };
-        self.stage = Some(Stage::new(ready));
+        self.stage = Some(Stage::new(ready, [self.cancel.clone(), self.quit.clone()]));
         self.moving = false;
         self.picture = None;
         self.probed = None;
@@ -336,6 +352,9 @@ impl Worker {
     /// One step: a start or a pass.
     fn work(&mut self) {
         if self.is_idle() {
+            return;
+        }
+        if !self.build_edited() {
             return;
         }
         let Some(stage) = &self.stage else { return };
@@ -379,6 +398,20 @@ impl Worker {
             None => {}
         }
         self.advance(&cancel);
+    }
+
+    /// Builds the scene of an edit, if that was given up before. Whether there is a scene to render now.
+    fn build_edited(&mut self) -> bool {
+        if !self.stage.as_ref().is_some_and(Stage::is_stale) {
+            return true;
+        }
+        self.unseen = true;
+        self.publish(true);
+        let built = self.stage.as_mut().map_or(Ok(true), Stage::freshen);
+        built.unwrap_or_else(|message| {
+            self.event(Event::Failed(message));
+            false
+        })
     }
 
     /// Eye samples of the whole picture.
@@ -426,70 +459,5 @@ impl Worker {
         let estimate = Session::estimate_memory(scene, &self.settings, self.threads);
         let refusal = estimate.refusal(self.setup.memory_limit)?;
         Some(format!("{refusal}. Fewer eye samples or photons a pass need less"))
-    }
-
-    fn activity(&self) -> Activity {
-        let Some(render) = &self.render else {
-            return if self.stage.is_none() { Activity::Empty } else { Activity::Collecting };
-        };
-        match self.flow {
-            _ if self.moving => Activity::Moving,
-            _ if !render.is_whole() => Activity::Collecting,
-            Flow::Steps(0) => Activity::Paused,
-            Flow::Run if self.is_idle() => Activity::Done,
-            _ => Activity::Rendering,
-        }
-    }
-
-    /// Offers a frame if there is something new: at once if `now`, else not too soon after the last.
-    fn publish(&mut self, now: bool) {
-        // While something moves, a picture is there so soon that a frame before it would only keep the window busy.
-        let comes_soon = self.moving && self.render.is_none() && self.picture.is_some();
-        if !self.unseen || (!now && (comes_soon || self.last_frame.elapsed() < FRAME_GAP)) {
-            return;
-        }
-        let activity = self.activity();
-        let mut numbers = Numbers::default();
-        let mut dots = Arc::default();
-        let mut probed = None;
-        if let Some(render) = self.render.as_mut().filter(|r| r.render().passes() > 0) {
-            self.picture = Some(render.picture(self.shown));
-            self.pictured = self.render_number;
-            if render.is_whole() {
-                numbers = render.numbers();
-                if self.show_photons {
-                    dots = Arc::new(probe::dots(render.render()));
-                }
-                probed = self.probed.and_then(|pixel| probe::probe(render.render(), pixel));
-            }
-        }
-        let sensor = self.settings.sensor;
-        let stage = self.stage.as_ref();
-        let facts = stage.map(|s| Arc::clone(s.facts())).unwrap_or_default();
-        let selection = stage.and_then(|s| s.selection(sensor));
-        let lights = stage.map_or_else(Vec::new, |s| s.light_markers(sensor));
-        self.frames += 1;
-        self.channels.frames.send(Frame {
-            number: self.frames,
-            render: self.render_number,
-            pictured: self.pictured,
-            activity,
-            opening: self.opening.as_ref().map(|o| o.name.clone()),
-            size: facts.sensors.get(sensor).map_or([0, 0], |s| s.size),
-            picture: self.picture.clone(),
-            shown: self.shown,
-            numbers,
-            settings: self.settings.clone(),
-            threads: self.threads,
-            stop: self.stop,
-            scene: facts,
-            dots,
-            probe: probed,
-            selection,
-            lights,
-        });
-        self.unseen = false;
-        self.last_frame = Instant::now();
-        (self.setup.wake)();
     }
 }

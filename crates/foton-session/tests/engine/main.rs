@@ -185,6 +185,27 @@ fn opening_can_be_called_off_and_passes_go_on_meanwhile() {
 }
 
 #[test]
+fn a_scene_that_is_opened_is_given_up_for_another_when_called_off_and_at_the_end() {
+    let rig = Rig::new(settings(), None);
+    let patience = Duration::from_secs(120);
+    let given_up = rig.given_up.clone();
+    let opening = |what: &str| rig.until(what, |f| f.opening.as_deref() == Some("endless"));
+    rig.open("endless");
+    opening("the first");
+    rig.send(Command::CancelOpen);
+    given_up.recv_timeout(patience).expect("called off");
+    rig.open("endless");
+    opening("the second");
+    rig.open("room");
+    given_up.recv_timeout(patience).expect("another is opened");
+    rig.until("a pass", |f| f.activity == Activity::Rendering);
+    rig.open("endless");
+    opening("the third");
+    drop(rig);
+    given_up.recv_timeout(patience).expect("the engine ends");
+}
+
+#[test]
 fn renders_that_would_not_fit_are_refused_and_smaller_ones_are_not() {
     let rig = Rig::new(settings(), Some(1e4));
     rig.open("room");

@@ -143,20 +143,28 @@ pub(crate) fn scene_file() -> PathBuf {
     std::env::temp_dir().join(format!("foton-engine-{}-scene.txt", std::process::id()))
 }
 
-/// Opens "room", "vast", which is a room of 32,768² pixels, "heap" and "slow", which waits until it is let go; "faulty" panics, and "sensorless" makes the engine panic.
+/// Opens "room", "vast", which is a room of 32,768² pixels, "heap", "slow", which waits until it is let go, and "endless", which is
+/// read until that is given up; "faulty" panics, and "sensorless" makes the engine panic.
 pub(crate) struct Shelf {
     settings: RenderSettings,
     go: Mutex<Receiver<()>>,
+    given_up: crossbeam_channel::Sender<()>,
 }
 
 impl Loader for Shelf {
-    fn open(&self, source: &Source) -> Result<Loaded, String> {
+    fn open(&self, source: &Source, cancel: &Cancel) -> Result<Loaded, String> {
         let name = source.to_string();
         match name.as_str() {
             "room" | "vast" | "heap" | "sensorless" => {}
             "faulty" => panic!("this loader has a fault"),
             "slow" => {
                 let _ = self.go.lock().expect("whole").recv_timeout(PATIENCE);
+            }
+            "endless" => {
+                while !cancel.is_requested() {
+                    std::thread::sleep(Duration::from_millis(1));
+                }
+                let _ = self.given_up.send(());
             }
             _ => return Err(format!("{name}:3:7: there is no such scene")),
         }
@@ -195,6 +203,8 @@ pub(crate) struct Rig {
     pub(crate) engine: Engine,
     /// Lets "slow" go.
     pub(crate) go: crossbeam_channel::Sender<()>,
+    /// Told when "endless" is given up.
+    pub(crate) given_up: Receiver<()>,
     /// Whose other end the engine's thread holds: when that is gone, so is the thread.
     pub(crate) thread: Receiver<()>,
 }
@@ -203,13 +213,14 @@ impl Rig {
     pub(crate) fn new(settings: RenderSettings, memory_limit: Option<f64>) -> Self {
         let (go, wait) = crossbeam_channel::bounded(1);
         let (held, thread) = crossbeam_channel::bounded::<()>(0);
-        let loader = Arc::new(Shelf { settings, go: Mutex::new(wait) });
+        let (told, given_up) = crossbeam_channel::unbounded();
+        let loader = Arc::new(Shelf { settings, go: Mutex::new(wait), given_up: told });
         // The sender does nothing but die with the thread.
         let wake = Box::new(move || {
             let _ = held.try_send(());
         });
         let engine = Engine::spawn(Setup { loader, wake, memory_limit }).expect("a thread");
-        Self { engine, go, thread }
+        Self { engine, go, given_up, thread }
     }
 
     /// An engine that has rendered the room for some passes and waits.

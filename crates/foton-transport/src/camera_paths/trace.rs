@@ -1,12 +1,11 @@
 //! The eye pass over all samples of all pixels.
 
-use foton_math::{Rgb, Stream};
+use foton_math::{Cancel, Cancelled, Rgb, Stream};
 use rayon::prelude::*;
 
 use super::eye_pass::{EyePass, EyePaths, NO_SHAPE};
 use super::pixel_samples::PixelSamples;
 use super::walk::{SamplePoints, Walk};
-use crate::cancel::{Cancel, Cancelled};
 use crate::not_finite::{self, LeftOut, Quantity};
 
 /// Pixels that one task looks after.
@@ -19,13 +18,15 @@ impl EyePass<'_> {
         let parts: Vec<EyePaths> = (0..pixels.div_ceil(CHUNK))
             .into_par_iter()
             .map(|chunk| {
-                cancel.check()?;
-                Ok(self.follow((chunk * CHUNK..pixels.min((chunk + 1) * CHUNK)).map(|p| p as u32)))
+                let pixels = (chunk * CHUNK..pixels.min((chunk + 1) * CHUNK)).map(|p| p as u32);
+                let part = self.follow(pixels, cancel);
+                cancel.check().map(|()| part)
             })
             .collect::<Result<_, _>>()?;
         let mut all = EyePaths::default();
         all.hit_points.reserve_exact(parts.iter().map(|p| p.hit_points.len()).sum());
         for part in parts {
+            cancel.check()?;
             let before = all.gloss.len() as u32;
             all.hit_points.extend(part.hit_points.into_iter().map(|mut h| {
                 h.gloss = h.gloss.map(|g| g + before);
@@ -42,8 +43,8 @@ impl EyePass<'_> {
         Ok(all)
     }
 
-    /// Follows all samples of some pixels.
-    pub fn follow(&self, pixels: impl Iterator<Item = u32>) -> EyePaths {
+    /// Follows all samples of some pixels; once cancelled no more of them.
+    pub fn follow(&self, pixels: impl Iterator<Item = u32>, cancel: &Cancel) -> EyePaths {
         let mut paths = EyePaths::default();
         let samples = self.samples_per_pixel.get();
         let mut branches = Vec::new();
@@ -56,6 +57,9 @@ impl EyePass<'_> {
             let lamps = PixelSamples::new(&mut scramble);
             paths.shapes.push(NO_SHAPE);
             for sample in 0..samples {
+                if cancel.is_requested() {
+                    return paths;
+                }
                 let index = u64::from(pixel) * u64::from(samples) + u64::from(sample);
                 let points = SamplePoints {
                     place: places.point(sample),

@@ -2,14 +2,13 @@
 
 use std::ops::Range;
 
-use foton_math::{Purpose, Ray, Stream};
+use foton_math::{Cancel, Cancelled, Purpose, Ray, Stream};
 use foton_scene::Hit;
 use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
 use super::draws::{Draw, Draws};
 use super::pass::{Path, PhotonPass, WAVE};
-use crate::cancel::{Cancel, Cancelled};
 use crate::ledger::{Ledger, Loss, energy};
 use crate::light_use::LightUse;
 use crate::not_finite::{LeftOut, Quantity, Surface};

@@ -8,8 +8,8 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use foton_math::Aabb;
 use foton_math::glam::{UVec3, Vec3};
+use foton_math::{Aabb, Cancel, Cancelled};
 use rayon::prelude::*;
 
 use super::packet::{LANES, Packet};
@@ -42,16 +42,17 @@ struct Growth {
 
 impl Growth {
     /// That of these packets, if they reach far.
-    fn of(packets: &[Packet], bounds: &Aabb) -> Option<Self> {
+    fn of(packets: &[Packet], bounds: &Aabb, cancel: &Cancel) -> Result<Option<Self>, Cancelled> {
         let median = |axis: usize| {
+            cancel.check()?;
             let there = |(x, r2): (&f32, &f32)| (*r2 >= 0.0).then_some(*x);
             let mut of_axis: Vec<f32> = packets
                 .iter()
                 .flat_map(|p| p.position[axis].iter().zip(&p.radius2).filter_map(there))
                 .collect();
-            median_of(&mut of_axis)
+            Ok(median_of(&mut of_axis))
         };
-        let centre = Vec3::new(median(0), median(1), median(2));
+        let centre = Vec3::new(median(0)?, median(1)?, median(2)?);
         let mut distances: Vec<f32> = packets
             .iter()
             .flat_map(|p| {
@@ -59,9 +60,10 @@ impl Growth {
                 (0..LANES).filter(|&l| p.radius2[l] >= 0.0).map(move |l| (at(l) - centre).abs().max_element())
             })
             .collect();
+        cancel.check()?;
         let scale = median_of(&mut distances);
         let farthest = (bounds.max - centre).abs().max((bounds.min - centre).abs()).max_element();
-        (farthest > FAR * scale && scale > 0.0).then(|| Self { centre, inverse_scale: 1.0 / scale })
+        Ok((farthest > FAR * scale && scale > 0.0).then(|| Self { centre, inverse_scale: 1.0 / scale }))
     }
 
     /// ± log₂(1 + |x|/scale) axis by axis, about: exact at powers of two and straight between, so that it grows with x whatever is
@@ -90,19 +92,22 @@ pub struct Grid {
 
 impl Grid {
     /// A grid for the packets' first radii.
-    pub fn new(packets: &[Packet]) -> Self {
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub fn new(packets: &[Packet], cancel: &Cancel) -> Result<Self, Cancelled> {
         let bounds = packets.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
         if bounds.is_empty() {
-            return Self {
+            return Ok(Self {
                 growth: None,
                 origin: Vec3::ZERO,
                 inverse_cell: 1.0,
                 cells: UVec3::ZERO,
                 words: Vec::new(),
                 touched: 0,
-            };
+            });
         }
-        let growth = Growth::of(packets, &bounds);
+        let growth = Growth::of(packets, &bounds, cancel)?;
         let place = |p: Vec3| growth.map_or(p, |g| g.place(p));
         let (origin, size) = (place(bounds.min), place(bounds.max) - place(bounds.min));
         let mut cell = CELL_IN_RADII * median_radius(packets) * growth.map_or(1.0, |g| g.inverse_scale);
@@ -122,28 +127,33 @@ impl Grid {
             words: vec![Word::default(); words],
             touched: 0,
         };
-        grid.mark(packets);
-        grid
+        grid.mark_unless(packets, cancel)?;
+        Ok(grid)
     }
 
     /// Marks the cells that discs touch now, and numbers them.
     pub fn mark(&mut self, packets: &[Packet]) {
+        // Never cancelled.
+        let _ = self.mark_unless(packets, &Cancel::default());
+    }
+
+    /// As [`Grid::mark`], unless cancelled: then what was marked before stays.
+    fn mark_unless(&mut self, packets: &[Packet], cancel: &Cancel) -> Result<(), Cancelled> {
         let bits: Vec<AtomicU64> = self.words.iter().map(|_| AtomicU64::new(0)).collect();
-        packets.par_iter().for_each(|packet| {
+        packets.par_iter().try_for_each(|packet| {
+            cancel.check()?;
             for disc in packet.disc_boxes() {
-                self.for_each_row(&disc, |first, last| {
-                    for cell in first..=last {
-                        bits[cell as usize / 64].fetch_or(1 << (cell % 64), Ordering::Relaxed);
-                    }
-                });
+                self.for_each_row(&disc, |first, last| mark_row(&bits, first, last));
             }
-        });
+            Ok(())
+        })?;
         let mut rank = 0;
         for (word, bits) in self.words.iter_mut().zip(bits) {
             *word = Word { touched: bits.into_inner(), rank };
             rank += word.touched.count_ones();
         }
         self.touched = rank;
+        Ok(())
     }
 
     /// How many cells are touched.
@@ -215,6 +225,20 @@ impl Grid {
     }
 }
 
+/// Sets the bits of some cells, 64 at a time: a wide disc among narrow ones touches a million of them.
+fn mark_row(bits: &[AtomicU64], first: u32, last: u32) {
+    let (first_word, last_word) = (first / 64, last / 64);
+    for word in first_word..=last_word {
+        let from = if word == first_word { u64::MAX << (first % 64) } else { u64::MAX };
+        let to = if word == last_word { u64::MAX >> (63 - last % 64) } else { u64::MAX };
+        let (mask, bits) = (from & to, &bits[word as usize]);
+        // Most are set already, and to look is cheaper than to write.
+        if bits.load(Ordering::Relaxed) & mask != mask {
+            bits.fetch_or(mask, Ordering::Relaxed);
+        }
+    }
+}
+
 /// The median of all first radii: half of the hit points have a smaller one.
 fn median_radius(packets: &[Packet]) -> f32 {
     let mut radius2: Vec<f32> =
@@ -266,10 +290,35 @@ mod tests {
                 hit_point(position, radius)
             })
             .collect();
-        super::super::packet::group(&found, |_| true)
+        super::super::packet::group(&found, |_| true, &Cancel::default())
+            .expect("not cancelled")
             .iter()
             .map(|g| Packet::new(g.iter().map(|&i| &found[i as usize])))
             .collect()
+    }
+
+    fn grid_of(packets: &[Packet]) -> Grid {
+        Grid::new(packets, &Cancel::default()).expect("not cancelled")
+    }
+
+    #[test]
+    fn a_grid_that_is_cancelled_is_none_wherever_that_comes() {
+        let packets = packets(true);
+        let needed = (0..).find(|&n| Grid::new(&packets, &Cancel::after(n)).is_ok()).expect("in the end");
+        assert!(needed > 5 + packets.len() as u64 / 2, "{needed}");
+    }
+
+    /// A bit at a time it would take minutes.
+    #[test]
+    fn wide_discs_among_narrow_ones_mark_cells_by_the_word() {
+        let bits: Vec<AtomicU64> = (0..4).map(|_| AtomicU64::new(0)).collect();
+        let all = [(0, 0), (5, 70), (63, 64), (64, 127), (130, 255), (255, 255)];
+        for (first, last) in all {
+            bits.iter().for_each(|b| b.store(0, Ordering::Relaxed));
+            mark_row(&bits, first, last);
+            let set = |cell: u32| bits[cell as usize / 64].load(Ordering::Relaxed) >> (cell % 64) & 1 != 0;
+            assert!((0..256).all(|cell| set(cell) == (first..=last).contains(&cell)), "{first} {last}");
+        }
     }
 
     #[test]
@@ -282,15 +331,15 @@ mod tests {
     #[test]
     fn cells_grow_where_discs_do() {
         let packets = packets(true);
-        let grid = Grid::new(&packets);
-        assert!(grid.growth.is_some() && Grid::new(&self::packets(false)).growth.is_none());
+        let grid = grid_of(&packets);
+        assert!(grid.growth.is_some() && grid_of(&self::packets(false)).growth.is_none());
         // With equal cells those near the middle would be as wide as a 1024th of the whole, 64: hundreds of discs each.
         let near = grid.in_cells(Vec3::new(2.0, -7.0, 0.0)) - grid.in_cells(Vec3::new(1.0, -7.0, 0.0));
         assert!(near.x > 0.5, "{near}");
     }
 
     fn find_all_positions(packets: &[Packet]) {
-        let grid = Grid::new(packets);
+        let grid = grid_of(packets);
         let mut stream = Stream::new(6, Purpose::Test, 0, 0);
         for packet in packets {
             let mut runs = Vec::new();
@@ -314,17 +363,17 @@ mod tests {
             Packet::new([hit(0.0), hit(length)].iter())
         };
         for (radius, length) in [(1e-30, 1e30), (0.0, 1.0), (1e-20, 3e38), (1e18, 1e18)] {
-            assert!(Grid::new(&[of(radius, length)]).touched() > 0, "{radius} {length}");
+            assert!(grid_of(&[of(radius, length)]).touched() > 0, "{radius} {length}");
         }
     }
 
     #[test]
     fn positions_outside_or_far_from_all_discs_have_no_number() {
-        let grid = Grid::new(&packets(false));
+        let grid = grid_of(&packets(false));
         assert_eq!(grid.number(Vec3::ZERO), None);
         assert_eq!(grid.number(Vec3::splat(1e6)), None);
         assert_eq!(grid.number(Vec3::splat(-1e6)), None);
         assert_eq!(grid.number(Vec3::splat(f32::NAN)), None);
-        assert_eq!(Grid::new(&[]).number(Vec3::ZERO), None);
+        assert_eq!(grid_of(&[]).number(Vec3::ZERO), None);
     }
 }

@@ -1,7 +1,7 @@
 //! Sixteen hit points side by side, to be tested together against one photon.
 
-use foton_math::Aabb;
 use foton_math::glam::Vec3;
+use foton_math::{Aabb, Cancel, Cancelled};
 
 use super::photon::patch_mark;
 use crate::camera_paths::HitPoint;
@@ -117,26 +117,34 @@ struct Point {
 
 /// Groups those hit points that `belongs` picks into packets: halved at the median of the longest axis until at most [`LANES`] are close together.
 /// Returns indices into `found`; the same for any number of threads.
-pub fn group(found: &[HitPoint], belongs: impl Fn(&HitPoint) -> bool) -> Vec<Vec<u32>> {
+///
+/// # Errors
+/// When cancelled.
+pub fn group(
+    found: &[HitPoint],
+    belongs: impl Fn(&HitPoint) -> bool,
+    cancel: &Cancel,
+) -> Result<Vec<Vec<u32>>, Cancelled> {
     let mut points: Vec<Point> = found
         .iter()
         .enumerate()
         .filter(|(_, h)| belongs(h))
         .map(|(i, h)| Point { position: h.position, radius: h.radius2.sqrt(), index: i as u32 })
         .collect();
-    halve(&mut points)
+    halve(&mut points, cancel)
 }
 
-fn halve(points: &mut [Point]) -> Vec<Vec<u32>> {
+fn halve(points: &mut [Point], cancel: &Cancel) -> Result<Vec<Vec<u32>>, Cancelled> {
     if points.is_empty() {
-        return Vec::new();
+        return Ok(Vec::new());
     }
+    cancel.check()?;
     let bounds = points.iter().fold(Aabb::EMPTY, |b, p| b.with(p.position));
     let size = bounds.size();
     if points.len() <= LANES {
         let radius = points.iter().fold(0f32, |r, p| r.max(p.radius));
         if points.len() == 1 || size.max_element() <= WIDEST * radius {
-            return vec![points.iter().map(|p| p.index).collect()];
+            return Ok(vec![points.iter().map(|p| p.index).collect()]);
         }
     }
     let axis = size.max_position();
@@ -147,13 +155,14 @@ fn halve(points: &mut [Point]) -> Vec<Vec<u32>> {
         |a: &Point, b: &Point| a.position[axis].total_cmp(&b.position[axis]).then(a.index.cmp(&b.index));
     points.select_nth_unstable_by(middle, by_axis);
     let (left, right) = points.split_at_mut(middle);
-    let (mut groups, rest) = if left.len() > 4096 {
-        rayon::join(|| halve(left), || halve(right))
+    let (groups, rest) = if left.len() > 4096 {
+        rayon::join(|| halve(left, cancel), || halve(right, cancel))
     } else {
-        (halve(left), halve(right))
+        (halve(left, cancel), halve(right, cancel))
     };
-    groups.extend(rest);
-    groups
+    let mut groups = groups?;
+    groups.extend(rest?);
+    Ok(groups)
 }
 
 #[cfg(test)]
@@ -185,7 +194,7 @@ mod tests {
     #[test]
     fn each_hit_point_is_in_one_group_and_groups_are_full_and_narrow() {
         let found = scattered(50_000);
-        let groups = group(&found, |_| true);
+        let groups = group(&found, |_| true, &Cancel::default()).expect("not cancelled");
         let mut seen = vec![false; found.len()];
         for g in &groups {
             assert!(!g.is_empty() && g.len() <= LANES);
@@ -206,6 +215,13 @@ mod tests {
         for h in &mut found {
             h.position = Vec3::ONE;
         }
-        assert_eq!(group(&found, |_| true).iter().map(Vec::len).sum::<usize>(), 100);
+        assert_eq!(
+            group(&found, |_| true, &Cancel::default())
+                .expect("not cancelled")
+                .iter()
+                .map(Vec::len)
+                .sum::<usize>(),
+            100
+        );
     }
 }

@@ -231,3 +231,82 @@ fn a_render_that_is_out_of_processor_time_leaves_its_image() {
     assert!(said.contains("the limit on processor time is reached"), "{said}");
     assert!(folder.exr("x.exr").0.width > 0);
 }
+/// A mesh of a million triangles, which takes some processor seconds to read and build.
+fn write_large_mesh(folder: &Folder) {
+    const SIDE: u32 = 708;
+    let mut bytes = format!(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n\
+         element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        (SIDE + 1).pow(2),
+        SIDE.pow(2)
+    )
+    .into_bytes();
+    for i in 0..(SIDE + 1).pow(2) {
+        let [x, z] = [i % (SIDE + 1), i / (SIDE + 1)].map(|i| i as f32 / SIDE as f32);
+        bytes.extend([x, (i * 7919 % 13) as f32 * 1e-3, z].into_iter().flat_map(f32::to_le_bytes));
+    }
+    for i in 0..SIDE.pow(2) {
+        let first = i % SIDE + i / SIDE * (SIDE + 1);
+        bytes.push(4);
+        let corners = [first, first + SIDE + 1, first + SIDE + 2, first + 1];
+        bytes.extend(corners.into_iter().flat_map(u32::to_le_bytes));
+    }
+    fs::write(folder.file("large.ply"), bytes).expect("room");
+    let shape = "<shape type=\"ply\"><string name=\"filename\" value=\"large.ply\"/></shape></scene>";
+    folder.write("large.xml", &SCENE.replace("</scene>", shape));
+}
+
+/// A line of what the system says of a running program.
+#[cfg(target_os = "linux")]
+fn status(child: &mut Child, name: &str) -> String {
+    assert!(child.try_wait().expect("ours").is_none(), "it ended by itself");
+    let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+    let value = status.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(':'));
+    value.unwrap_or_default().trim().to_owned()
+}
+
+/// Waits until the program handles SIGTERM itself: until then the system ends it at once.
+#[cfg(target_os = "linux")]
+fn wait_for_the_handler(child: &mut Child) {
+    const SIGTERM: u32 = 15;
+    let is_handled =
+        |mask: String| u64::from_str_radix(&mask, 16).is_ok_and(|caught| caught >> (SIGTERM - 1) & 1 != 0);
+    while !is_handled(status(child, "SigCgt")) {
+        sleep(Duration::from_millis(1));
+    }
+}
+
+/// Waits until the program holds so many MiB.
+#[cfg(target_os = "linux")]
+fn wait_for_memory(child: &mut Child, mebibytes: u64) {
+    let held = |text: String| text.trim_end_matches("kB").trim().parse::<u64>().unwrap_or(0) >> 10;
+    while held(status(child, "VmRSS")) < mebibytes {
+        sleep(Duration::from_millis(1));
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_scene_that_is_read_or_built_is_given_up_at_the_first_signal() {
+    // Once it is read it holds less than 100 MiB, and while its tree is built far more.
+    const BUILDING: u64 = 200;
+    let folder = Folder::new("loading");
+    write_large_mesh(&folder);
+    for (signal, mebibytes) in [("-TERM", 0), ("-INT", 0), ("-TERM", BUILDING)] {
+        let mut command =
+            folder.command("render large.xml -o x.exr --passes 1000000 --checkpoint x.ck --json");
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("starts");
+        wait_for_the_handler(&mut child);
+        wait_for_memory(&mut child, mebibytes);
+        let status = Command::new("kill").args([signal, &child.id().to_string()]).status();
+        assert!(status.expect("kill runs").success());
+        let output = child.wait_with_output().expect("ends");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        let at = if mebibytes == BUILDING { "building the scene" } else { "" };
+        assert!(said.contains(&format!("interrupted while {at}")) && !said.contains("error"), "{said}");
+        assert_eq!(events(&output.stdout).last().map(|e| e["event"].clone()), Some(json!("interrupted")));
+        let left: Vec<_> = folder.images().into_iter().filter(|name| !name.starts_with("large")).collect();
+        assert_eq!(left, [""; 0], "nothing is written");
+    }
+}

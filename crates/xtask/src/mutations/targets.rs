@@ -19,3 +19,5 @@ pub(super) const WRITER: &str = "-p foton-format --test writer";
 pub(super) const SAVING: &str = "-p foton-format --test saving";
 pub(super) const ENGINE: &str = "-p foton-session --test engine";
 pub(super) const MEASURE: &str = "-p foton-measure --lib";
+pub(super) const CANCELLING: &str = "-p foton-format --test cancelling";
+pub(super) const SESSION: &str = "-p foton-session --lib";

@@ -142,6 +142,30 @@ fn a_pass_that_is_cancelled_between_its_batches_has_not_happened() {
     assert!(state(&ppm) == state(&straight));
 }
 
+/// The eye pass, laying hit points out and marking cells.
+#[test]
+fn a_start_that_is_cancelled_ends_in_that_wherever_it_comes() {
+    let (mut questions, mut cancelled, mut stages) = (0, 0, Vec::new());
+    loop {
+        let mut last = None;
+        let mut watch = |stage| last = Some(stage);
+        let started = Ppm::start(scene(), settings(), &mut watch, &Cancel::after(questions));
+        stages.extend(last);
+        if started.is_ok() {
+            break;
+        }
+        cancelled += 1;
+        // In steps that the shorter stage is not missed by.
+        questions += if last == Some(Stage::Layout) { 20 } else { 1 + questions / 64 };
+    }
+    assert!(
+        cancelled > 40 && stages.contains(&Stage::EyePass) && stages.contains(&Stage::Layout),
+        "{cancelled}"
+    );
+    let in_layout = stages.iter().filter(|&&stage| stage == Stage::Layout).count();
+    assert!(in_layout > 5, "{in_layout}");
+}
+
 #[test]
 fn a_batch_that_is_shown_stands_for_its_pass() {
     // Photons as dots: those of the last batch come from everywhere, and are as bright in all as those of a pass.

@@ -45,6 +45,7 @@ fn frame() -> Frame {
         pictured: 1,
         activity: Activity::Rendering,
         opening: None,
+        building: None,
         size: SIZE,
         picture: Some(Picture::Colour(Arc::new(image))),
         shown: Shown::Radiance,

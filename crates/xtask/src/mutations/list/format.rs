@@ -1,7 +1,7 @@
 //! Protections of the readers and writers of files.
 
 use crate::mutations::mutation::Mutation;
-use crate::mutations::targets::{BAD_FILES, CLI, FORMAT, MESHES, PICTURES};
+use crate::mutations::targets::{BAD_FILES, CANCELLING, CLI, FORMAT, MESHES, PICTURES};
 
 pub(super) const LIST: &[Mutation] = &[
     Mutation {
@@ -91,5 +91,38 @@ pub(super) const LIST: &[Mutation] = &[
         to: "if major == u32::MAX {",
         target: BAD_FILES,
         test: "versions_that_are_not_known_are_said",
+    },
+    Mutation {
+        what: "reading lines can be cancelled",
+        file: "crates/foton-format/src/words.rs",
+        from: "if self.cancel.is_requested() {",
+        to: "if false {",
+        target: CANCELLING,
+        test: "meshes_of_every_format_are_given_up_wherever_that_is_asked_for",
+    },
+    Mutation {
+        what: "decoders of pictures can be cancelled",
+        file: "crates/foton-format/src/images.rs",
+        from: "CancelReader::new(Cursor::new(bytes), cancel)",
+        to: "Cursor::new(bytes)",
+        target: CANCELLING,
+        test: "pictures_are_given_up_wherever_that_is_asked_for",
+    },
+    Mutation {
+        what: "a cancelled reading says nothing of the file",
+        file: "crates/foton-format/src/lib.rs",
+        from: "reader.scene();
+    options.cancel.check()?;",
+        to: "reader.scene();",
+        target: CANCELLING,
+        test: "meshes_of_every_format_are_given_up_wherever_that_is_asked_for",
+    },
+    Mutation {
+        what: "vertices at one position are hashed",
+        file: "crates/foton-format/src/meshes.rs",
+        from: "const LONGEST_CHAIN: usize = 32;",
+        to: "const LONGEST_CHAIN: usize = usize::MAX;",
+        target: FORMAT,
+        test: "very_many_vertices_at_one_position_are_told_apart_in_time",
     },
 ];

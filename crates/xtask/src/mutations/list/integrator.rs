@@ -220,4 +220,22 @@ pub(super) const LIST: &[Mutation] = &[
         target: ANALYTIC,
         test: "a_ground_of_any_size_is_lit_as_one_of_a_thousand",
     },
+    Mutation {
+        what: "laying hit points out can be cancelled",
+        file: "crates/foton-transport/src/photon_map/packet.rs",
+        from: "    cancel.check()?;
+    let bounds",
+        to: "    let bounds",
+        target: INTEGRATOR,
+        test: "a_start_that_is_cancelled_ends_in_that_wherever_it_comes",
+    },
+    Mutation {
+        what: "marking cells can be cancelled",
+        file: "crates/foton-transport/src/photon_map/grid.rs",
+        from: "            cancel.check()?;
+            for disc",
+        to: "            for disc",
+        target: INTEGRATOR,
+        test: "a_grid_that_is_cancelled_is_none_wherever_that_comes",
+    },
 ];

@@ -1,7 +1,7 @@
 //! Protections of sessions and of the program.
 
 use crate::mutations::mutation::Mutation;
-use crate::mutations::targets::{CHECKPOINTS, CLI};
+use crate::mutations::targets::{CHECKPOINTS, CLI, ENGINE, MEASURE, SESSION};
 
 pub(super) const LIST: &[Mutation] = &[
     Mutation {
@@ -23,8 +23,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "foton info is held to the limit",
         file: "crates/foton/src/info.rs",
-        from: "build(opened, &name, sensor, (None, args.memory), talk)?",
-        to: "build(opened, &name, sensor, (None, None), talk)?",
+        from: "build(opened, &name, sensor, (None, args.memory), talk, &cancel)?",
+        to: "build(opened, &name, sensor, (None, None), talk, &cancel)?",
         target: CLI,
         test: "scenes_that_cannot_be_read_or_built_in_the_memory_given_are_refused",
     },
@@ -115,5 +115,47 @@ pub(super) const LIST: &[Mutation] = &[
         to: "(last.elapsed - first.elapsed).as_secs_f64()",
         target: "-p foton-session --lib",
         test: "clocks_that_go_backwards_give_no_rate_rather_than_a_panic",
+    },
+    Mutation {
+        what: "one signal gives up loading",
+        file: "crates/foton-session/src/interrupt.rs",
+        from: "|| self.loading.load(Ordering::SeqCst)",
+        to: "",
+        target: SESSION,
+        test: "one_request_gives_up_loading_and_finishes_a_pass_two_discard_it",
+    },
+    Mutation {
+        what: "signals are heard while a scene is read",
+        file: "crates/foton/src/job.rs",
+        from: "cancel: cancel.clone() };
+    foton_format::open",
+        to: "cancel: Cancel::default() };
+    foton_format::open",
+        target: CLI,
+        test: "a_scene_that_is_read_or_built_is_given_up_at_the_first_signal",
+    },
+    Mutation {
+        what: "a scene that is opened is given up for the next",
+        file: "crates/foton-session/src/engine/loader.rs",
+        from: "        self.cancel.request();",
+        to: "",
+        target: ENGINE,
+        test: "a_scene_that_is_opened_is_given_up_for_another_when_called_off_and_at_the_end",
+    },
+    Mutation {
+        what: "an edit that is given up is built later",
+        file: "crates/foton-session/src/engine/stage.rs",
+        from: "self.is_stale = built.is_none();",
+        to: "self.is_stale = false;",
+        target: SESSION,
+        test: "an_edit_whose_build_is_given_up_is_built_later",
+    },
+    Mutation {
+        what: "axes of plots end",
+        file: "crates/foton-measure/src/plot/mod.rs",
+        from: "Self { low: low.max(f64::MIN_POSITIVE), high: high.min(f64::MAX), from, to }",
+        to: "Self { low, high, from, to }",
+        target: MEASURE,
+        test: "values_without_a_logarithm_make_no_axis_endless",
     },
 ];
