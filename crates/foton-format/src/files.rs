@@ -1,12 +1,15 @@
-//! The files that a scene names: looked for folder by folder, read through the caller, hashed.
+//! The files that a scene names: looked for folder by folder, read through the caller, hashed, their memory counted.
 
 use std::collections::HashSet;
 use std::io;
 use std::path::PathBuf;
 
-use crate::ReadFile;
+use foton_input::shown_path;
+
 use crate::diagnostic::{Place, Report};
 use crate::hash::Fnv1a;
+use crate::limits::Budget;
+use crate::{BYTES_PER_BYTE, ReadFile};
 
 /// Reads files and remembers which.
 pub(crate) struct Files<'a> {
@@ -14,11 +17,13 @@ pub(crate) struct Files<'a> {
     seen: HashSet<PathBuf>,
     /// The contents of all files, in the order in which they were first read.
     pub(crate) hash: Fnv1a,
+    /// What all of it may take.
+    pub(crate) budget: Budget,
 }
 
 impl<'a> Files<'a> {
-    pub(crate) fn new(read: &'a ReadFile<'a>) -> Self {
-        Self { read, seen: HashSet::new(), hash: Fnv1a::default() }
+    pub(crate) fn new(read: &'a ReadFile<'a>, budget: Budget) -> Self {
+        Self { read, seen: HashSet::new(), hash: Fnv1a::default(), budget }
     }
 
     /// The path where a file named at `place` is looked for first: its identity, whether it is there or not.
@@ -37,6 +42,12 @@ impl<'a> Files<'a> {
         for path in candidates(filename, place, report) {
             match (self.read)(&path) {
                 Ok(bytes) => {
+                    if let Err(message) =
+                        self.budget.take((bytes.len() as u64).saturating_mul(BYTES_PER_BYTE))
+                    {
+                        report.error(place, format!("cannot read {}: {message}", shown_path(&path)));
+                        return None;
+                    }
                     if self.seen.insert(path.clone()) {
                         self.hash.add(&bytes);
                     }
@@ -52,7 +63,7 @@ impl<'a> Files<'a> {
             }
         }
         if let Some((path, error)) = failure {
-            report.error(place, format!("cannot read {}: {error}", path.display()));
+            report.error(place, format!("cannot read {}: {error}", shown_path(&path)));
         }
         None
     }

@@ -28,6 +28,7 @@ mod ids;
 mod images;
 mod include;
 mod integrator;
+mod limits;
 mod materials;
 mod meshes;
 mod metals;
@@ -56,6 +57,7 @@ mod write;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use foton_input::{Limit, Named};
 use foton_scene::description::SceneDescription;
 
 pub use diagnostic::{Diagnostic, OpenError, Place, Severity};
@@ -67,6 +69,7 @@ pub use write::write_scene;
 use diagnostic::Report;
 use files::Files;
 use hash::Fnv1a;
+use limits::Budget;
 use reader::Reader;
 
 /// Reads a file that a scene names.
@@ -82,26 +85,14 @@ pub struct Options {
 }
 
 impl Options {
-    /// Reads a file of the disk, or refuses it by its size alone.
-    fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
-        if let Some(limit) = self.memory
-            && let Ok(bytes) = std::fs::metadata(path).map(|file| file.len())
-            && bytes > SMALL
-            && bytes.saturating_mul(BYTES_PER_BYTE) > limit
-        {
-            let [takes, limit] = [bytes.saturating_mul(BYTES_PER_BYTE), limit].map(|b| b >> 20);
-            let message = format!("reading it takes up to {takes} MiB, {limit} MiB may be used");
-            return Err(io::Error::other(message));
-        }
-        std::fs::read(path)
+    /// Reads a file of the disk, or refuses it by its kind or size.
+    fn read(&self, path: &Path, named: Named) -> io::Result<Vec<u8>> {
+        foton_input::read_file(path, named, Limit::new(self.memory, BYTES_PER_BYTE), &|| false)
     }
 }
 
 /// The most bytes that reading takes for each of a file, its own included; fuzzing holds all readers of meshes to that.
 const BYTES_PER_BYTE: u64 = 4;
-
-/// A file up to this size is never refused by it.
-const SMALL: u64 = 1 << 20;
 
 /// A scene as its file states it.
 #[derive(Clone, Debug)]
@@ -170,12 +161,14 @@ pub struct SceneNodes {
 /// Everything that is wrong with the file, unless it is not well-formed XML: then the first problem.
 pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
     if let Some(kind) = bare::Kind::of(path) {
-        return bare::open(path, kind, &|file| options.read(file), options);
+        // The file itself may be a pipe; what it names may not.
+        let named = |file: &Path| if file == path { Named::ByUser } else { Named::ByFile };
+        return bare::open(path, kind, &|file| options.read(file, named(file)), options);
     }
     let name = path.to_string_lossy();
     let folder = path.parent().unwrap_or(Path::new(""));
     let report = Report::new(&name, folder);
-    let text = match options.read(path).map(String::from_utf8) {
+    let text = match options.read(path, Named::ByUser).map(String::from_utf8) {
         Ok(Ok(text)) => text,
         Ok(Err(error)) => {
             let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
@@ -185,12 +178,12 @@ pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
         }
         Err(error) => return Err(report.fail(Place::default(), format!("cannot be read: {error}"))),
     };
-    let opened = read(report, &text, &|file| options.read(file), options)?;
+    let opened = read(report, &text, &|file| options.read(file, Named::ByFile), options)?;
     Ok(Opened { path: Some(path.to_owned()), ..opened })
 }
 
 /// Reads a scene from memory. `name` stands in messages; `files` is asked for other files by the names in the
-/// scene; EXR images must lie on the disk by the same name.
+/// scene.
 ///
 /// # Errors
 /// As [`open`].
@@ -201,11 +194,12 @@ pub fn read_str(name: &str, xml: &str, files: &ReadFile<'_>, options: &Options) 
 fn read(mut report: Report, xml: &str, files: &ReadFile<'_>, options: &Options) -> Result<Opened, OpenError> {
     let text = xml.strip_prefix('\u{feff}').unwrap_or(xml);
     report.main_text(text);
-    let document = match Document::parse(text) {
+    let mut budget = Budget::new(options.memory);
+    let document = match include::parse(text, &mut budget) {
         Ok(document) => document,
         Err((place, message)) => return Err(report.fail(place, message)),
     };
-    let mut files = Files::new(files);
+    let mut files = Files::new(files, budget);
     let expanded = include::expand(&document, &options.defines, &mut files, &mut report);
     let mut reader = Reader::new(&expanded.document, files, report);
     reader.scene();

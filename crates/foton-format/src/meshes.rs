@@ -10,8 +10,10 @@
 //!
 //! In a file with normals for some corners only, Mitsuba leaves the others undefined; here they are computed.
 
+use std::cell::Cell;
 use std::collections::HashMap;
-use std::path::PathBuf;
+use std::hash::Hash;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -20,6 +22,7 @@ use foton_scene::description::Mesh;
 
 use crate::diagnostic::Report;
 use crate::files::Files;
+use crate::limits::Budget;
 use crate::obj::{Corner, NORMALS_MENDED, Obj, TEXTURES_MENDED};
 use crate::properties::Located;
 use crate::tally::Tally;
@@ -56,14 +59,31 @@ enum Contents {
     Mesh(Mesh),
 }
 
+impl Contents {
+    /// Bytes of a mesh of that, at most.
+    fn mesh_bytes(&self) -> u64 {
+        const VERTEX: usize = size_of::<DVec3>() * 2 + size_of::<DVec2>();
+        let (vertices, triangles) = match self {
+            // Corners share vertices as a rule; there are as many at most.
+            Self::Obj(obj) => {
+                (obj.positions.len().max(obj.normals.len()).max(obj.textures.len()), obj.triangles.len())
+            }
+            Self::Mesh(mesh) => (mesh.positions.len(), mesh.triangles.len()),
+        };
+        (vertices * VERTEX + triangles * size_of::<[u32; 3]>()) as u64
+    }
+}
+
 /// A mesh and what was mended in it, or the first problem of a file.
 pub(crate) type Parsed = Result<(Mesh, Vec<Problem>), Problem>;
 
 /// The mesh files read so far.
 #[derive(Default)]
 pub(crate) struct Meshes {
-    /// What each file holds; `None` if it could not be read, which was reported.
-    read: HashMap<(PathBuf, Format), Option<Rc<Contents>>>,
+    /// What each file holds, and whether a mesh was made of that; `None` if it could not be read, which was reported.
+    read: HashMap<(PathBuf, Format), Option<Rc<(Contents, Cell<bool>)>>>,
+    /// The last file of several meshes: those come one after the other.
+    several: Option<(PathBuf, Rc<(PathBuf, Vec<u8>)>)>,
     /// Meshes that do not depend on a transform.
     built: HashMap<(PathBuf, Wanted), Arc<Mesh>>,
 }
@@ -83,12 +103,23 @@ impl Meshes {
         if let Some(mesh) = self.built.get(&key) {
             return Some(Arc::clone(mesh));
         }
-        let contents = self
-            .read
-            .entry((path, wanted.format))
-            .or_insert_with(|| read(filename, wanted.format, files, report).map(Rc::new))
-            .clone()?;
-        let (mesh, depends_on_transform) = match &*contents {
+        let read = match self.read.get(&(path.clone(), wanted.format)) {
+            Some(known) => known.clone(),
+            None => {
+                let read = self.read_file(filename, &path, wanted.format, files, report);
+                self.read.entry((path, wanted.format)).or_insert(read.map(Rc::new)).clone()
+            }
+        };
+        let read = read?;
+        let (contents, built) = &*read;
+        // The first is part of what reading a file takes; for others a small file may stand many times.
+        if built.replace(true)
+            && let Err(message) = files.budget.take(contents.mesh_bytes())
+        {
+            report.error(filename.place, format!("cannot make one more mesh of this file: {message}"));
+            return None;
+        }
+        let (mesh, depends_on_transform) = match contents {
             Contents::Obj(obj) => {
                 let smooth = !wanted.face_normals && obj.triangles.iter().flatten().any(|c| c.normal == 0);
                 (build(obj, wanted, to_world), smooth)
@@ -104,27 +135,47 @@ impl Meshes {
         }
         Some(mesh)
     }
+
+    fn read_file(
+        &mut self,
+        filename: &Located<String>,
+        key: &Path,
+        format: Format,
+        files: &mut Files<'_>,
+        report: &mut Report,
+    ) -> Option<(Contents, Cell<bool>)> {
+        let last = self.several.as_ref().filter(|(known, _)| known == key);
+        let file = match last {
+            Some((_, file)) => Rc::clone(file),
+            None => Rc::new(files.read(&filename.value, filename.place, report)?),
+        };
+        if matches!(format, Format::Serialized(_)) {
+            self.several = Some((key.to_owned(), Rc::clone(&file)));
+        }
+        let contents = parse(&file.0, &file.1, format, &mut files.budget, report)?;
+        Some((contents, Cell::new(false)))
+    }
 }
 
-fn read(
-    filename: &Located<String>,
+fn parse(
+    path: &Path,
+    bytes: &[u8],
     format: Format,
-    files: &mut Files<'_>,
+    budget: &mut Budget,
     report: &mut Report,
 ) -> Option<Contents> {
-    let (path, bytes) = files.read(&filename.value, filename.place, report)?;
     let one = |parsed: Parsed| match parsed {
         Ok((mesh, warnings)) => Ok((Contents::Mesh(mesh), warnings)),
         Err(problem) => Err(vec![problem]),
     };
     let contents = match format {
-        Format::Obj => Obj::parse(&bytes).map(|mut obj| {
+        Format::Obj => Obj::parse(bytes).map(|mut obj| {
             let warnings = std::mem::take(&mut obj.warnings);
             (Contents::Obj(obj), warnings)
         }),
-        Format::Ply => one(ply::parse(&bytes)),
-        Format::Stl => one(stl::parse(&bytes)),
-        Format::Serialized(number) => one(serialized::parse(&bytes, number)),
+        Format::Ply => one(ply::parse(bytes)),
+        Format::Stl => one(stl::parse(bytes)),
+        Format::Serialized(number) => one(serialized::parse(bytes, number, budget)),
     };
     let file = path.to_string_lossy();
     match contents {
@@ -178,35 +229,51 @@ pub(crate) fn mend(mesh: &mut Mesh) -> Vec<Problem> {
     normals.into_iter().chain(textures).collect()
 }
 
-/// Vertices that corners share, found by chains of those with the same position.
+/// Vertices that corners share, found by short chains of those with the same position, and by their keys where there are more:
+/// one position can have any number of normals and texture coordinates.
 pub(crate) struct Vertices<K> {
     first: Vec<u32>,
     next: Vec<u32>,
+    /// Vertices that stand in no chain.
+    others: HashMap<K, u32>,
     /// What tells each vertex from others.
     pub(crate) keys: Vec<K>,
 }
 
 const NONE: u32 = u32::MAX;
 
-impl<K: Copy + PartialEq> Vertices<K> {
+/// The most vertices of a chain; those of real meshes have fewer.
+const LONGEST_CHAIN: usize = 16;
+
+impl<K: Copy + Eq + Hash> Vertices<K> {
     pub(crate) fn new(positions: usize) -> Self {
-        Self { first: vec![NONE; positions], next: Vec::new(), keys: Vec::with_capacity(positions) }
+        let keys = Vec::with_capacity(positions);
+        Self { first: vec![NONE; positions], next: Vec::new(), others: HashMap::new(), keys }
     }
 
     /// The vertex with that key, which has that position.
     pub(crate) fn index(&mut self, position: u32, key: K) -> u32 {
         let slot = &mut self.first[position as usize];
-        let mut at = *slot;
+        let new = u32::try_from(self.keys.len()).unwrap_or(NONE);
+        let (mut at, mut length) = (*slot, 0);
         while at != NONE {
             if self.keys[at as usize] == key {
                 return at;
             }
             at = self.next[at as usize];
+            length += 1;
         }
-        let new = u32::try_from(self.keys.len()).unwrap_or(NONE);
-        self.next.push(*slot);
+        if length < LONGEST_CHAIN {
+            self.next.push(*slot);
+            *slot = new;
+        } else {
+            let known = *self.others.entry(key).or_insert(new);
+            if known != new {
+                return known;
+            }
+            self.next.push(NONE);
+        }
         self.keys.push(key);
-        *slot = new;
         new
     }
 }
@@ -378,5 +445,16 @@ mod tests {
     fn a_vertex_of_nothing_but_degenerate_faces_has_some_normal() {
         let found = mesh("v 0 0 0\nv 1 0 0\nf 1 1 2\n", false, DAffine3::IDENTITY);
         assert_eq!(found.normals, [DVec3::X; 2]);
+    }
+
+    #[test]
+    fn a_position_with_very_many_normals_is_read_in_linear_time() {
+        let normals = 200_000;
+        let mut text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n".to_owned();
+        (0..normals).for_each(|i| text += &format!("vn 0 {i} 1\n"));
+        (1..=normals).for_each(|i| text += &format!("f 1//{i} 2//1 3//1\nf 1//{i} 3//1 2//1\n"));
+        let found = mesh(&text, false, DAffine3::IDENTITY);
+        assert_eq!((found.positions.len(), found.triangles.len()), (normals + 2, 2 * normals));
+        assert!(found.triangles.chunks_exact(2).all(|pair| pair[0][0] == pair[1][0]));
     }
 }

@@ -44,8 +44,8 @@ pub(crate) fn parse(bytes: &[u8]) -> Parsed {
         warnings.push((Place::default(), message));
         binary(bytes, triangles)?
     } else if bytes.len() < HEADER || stated > room / TRIANGLE {
-        let message = format!("the file is too short for {stated} triangles, or no STL file");
-        return Err((Place::default(), message));
+        let message = "the file is too short for the triangles that it states, or no STL file";
+        return Err((Place::default(), message.to_owned()));
     } else {
         let beyond = room - stated * TRIANGLE;
         if beyond >= TRIANGLE {

@@ -93,7 +93,12 @@ fn too_large(takes: Option<u64>, limit: u64) -> String {
 ///
 /// # Errors
 /// What the system says, or a [`Refusal`] by kind or size.
-pub fn read_file(path: &Path, named: Named, limit: Limit, gives_up: &dyn Fn() -> bool) -> io::Result<Vec<u8>> {
+pub fn read_file(
+    path: &Path,
+    named: Named,
+    limit: Limit,
+    gives_up: &dyn Fn() -> bool,
+) -> io::Result<Vec<u8>> {
     refuse_kind(std::fs::metadata(path)?.file_type(), named)?;
     let file = open(path)?;
     let metadata = file.metadata()?;
@@ -177,7 +182,8 @@ fn is_of_kernel(file: &File) -> bool {
     const KERNEL: [i64; 7] =
         [0x9fa0, 0x6265_6572, 0x6462_6720, 0x7472_6163, 0x7363_6673, 0x0027_e0eb, 0x6367_7270];
     // The width of the number depends on the machine.
-    rustix::fs::fstatfs(file).is_ok_and(|system| KERNEL.iter().any(|&kind| i128::from(system.f_type) == i128::from(kind)))
+    rustix::fs::fstatfs(file)
+        .is_ok_and(|system| KERNEL.iter().any(|&kind| i128::from(system.f_type) == i128::from(kind)))
 }
 
 #[cfg(not(target_os = "linux"))]

@@ -109,7 +109,17 @@ mod tests {
     fn nothing_in_a_quote_moves_the_cursor_or_turns_the_line() {
         assert_eq!(quoted("a\u{1b}[31mb\u{7}"), "\"a\\u{1b}[31mb\\u{7}\"");
         assert_eq!(quoted("a\nerror: b\r\t"), "\"a\\nerror: b\\r\\t\"");
-        for c in ['\u{9b}', '\u{202e}', '\u{2066}', '\u{200f}', '\u{2028}', '\u{feff}', '\0', '\u{7f}', '\u{e0041}'] {
+        for c in [
+            '\u{9b}',
+            '\u{202e}',
+            '\u{2066}',
+            '\u{200f}',
+            '\u{2028}',
+            '\u{feff}',
+            '\0',
+            '\u{7f}',
+            '\u{e0041}',
+        ] {
             assert!(shown(&c.to_string()).starts_with("\\u{"), "{c:?}");
             assert!(printable(&format!("x{c}")).starts_with("x\\u{"), "{c:?}");
             assert!(json(&format!("\"x{c}\"")).starts_with("\"x\\u"), "{c:?}");

@@ -20,7 +20,7 @@ pub(super) struct Faces {
     triangles: Vec<[u32; 3]>,
     polygons: Polygons,
     /// Vertices by their number in the file and the texture coordinate of a corner, if faces state any.
-    split: Option<Vertices<(u32, Option<DVec2>)>>,
+    split: Option<Vertices<(u32, Option<[u64; 2]>)>>,
     short: Tally,
     unfit: Tally,
 }
@@ -105,7 +105,10 @@ impl Faces {
             }
             for (i, corner) in corners.iter_mut().enumerate() {
                 let uv = fits.then(|| DVec2::new(textures[2 * i], textures[2 * i + 1]));
-                *corner = split.index(*corner, (*corner, uv.filter(|uv| uv.is_finite())));
+                // Zero is zero, whatever its sign.
+                let uv =
+                    uv.filter(|uv| uv.is_finite()).map(|uv| (uv + DVec2::ZERO).to_array().map(f64::to_bits));
+                *corner = split.index(*corner, (*corner, uv));
             }
             if let [first, rest @ ..] = &corners[..] {
                 self.polygons.note(self.triangles.len(), corners.len());
@@ -174,7 +177,13 @@ impl Faces {
         }
         if let Some(split) = split {
             let of_vertex = |i: u32| mesh.texture_coordinates.get(i as usize).copied().unwrap_or_default();
-            let textures = split.keys.iter().map(|&(i, uv)| uv.unwrap_or_else(|| of_vertex(i))).collect();
+            let textures = split
+                .keys
+                .iter()
+                .map(|&(i, uv)| {
+                    uv.map_or_else(|| of_vertex(i), |uv| DVec2::from_array(uv.map(f64::from_bits)))
+                })
+                .collect();
             mesh.texture_coordinates = textures;
             mesh.positions = split.keys.iter().map(|&(i, _)| mesh.positions[i as usize]).collect();
             if !mesh.normals.is_empty() {
