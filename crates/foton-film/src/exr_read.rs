@@ -6,7 +6,7 @@ use std::path::Path;
 
 use exr::meta::MetaData;
 use exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, Vec2, read};
-use foton_input::quoted;
+use foton_input::shown;
 use foton_math::Rgb;
 
 use crate::image::area;
@@ -119,7 +119,7 @@ fn check(
         Channels::Grey
     } else {
         let all = meta.headers.first().map(names).unwrap_or_default();
-        let mut channels: Vec<String> = all.iter().take(MOST_NAMES).map(|name| quoted(name)).collect();
+        let mut channels: Vec<String> = all.iter().take(MOST_NAMES).map(|name| shown(name)).collect();
         channels.extend((all.len() > MOST_NAMES).then(|| format!("{} more", all.len() - MOST_NAMES)));
         return Err(ReadError::NoRgb { path: path.into(), channels: channels.join(", ") });
     };

@@ -105,10 +105,15 @@ pub(crate) fn open(
     let mut library = |name: &str| {
         let (path, bytes) = [name.to_owned(), name.replace('\\', "/")].into_iter().find_map(|name| {
             let path = folder.join(name);
-            files(&path).ok().map(|bytes| (path, bytes))
+            match files(&path) {
+                Err(error) if is_absent(&error) => None,
+                Err(error) => Some((path, Err(error.to_string()))),
+                Ok(bytes) => Some((path, budget.take(bytes.len() as u64 * BYTES_PER_BYTE).map(|()| bytes))),
+            }
         })?;
-        budget.take(bytes.len() as u64 * BYTES_PER_BYTE).ok()?;
-        hash.add(&bytes);
+        if let Ok(bytes) = &bytes {
+            hash.add(bytes);
+        }
         Some((path.to_string_lossy().into_owned(), bytes))
     };
     let description = match read(&bytes, kind, &mut library, &mut report) {
@@ -136,8 +141,14 @@ pub(crate) fn open(
     })
 }
 
-/// Finds a file of materials: its path and its contents.
-type Library<'a> = dyn FnMut(&str) -> Option<(String, Vec<u8>)> + 'a;
+/// Finds a file of materials: its path, and its contents or why it cannot be read.
+type Library<'a> = dyn FnMut(&str) -> Option<(String, Result<Vec<u8>, String>)> + 'a;
+
+/// Whether a name stands for nothing: a word that is none, or one too long to be one.
+fn is_absent(error: &std::io::Error) -> bool {
+    use std::io::ErrorKind::{InvalidFilename, InvalidInput, NotADirectory, NotFound};
+    matches!(error.kind(), NotFound | NotADirectory | InvalidFilename | InvalidInput)
+}
 
 fn read(
     bytes: &[u8],

@@ -112,7 +112,9 @@ fn decode(path: &Path, bytes: &[u8], raw: bool, budget: &mut Budget) -> Result<B
     }
     // As it is stored, and as we keep it; for some formats once more, as numbers of another kind.
     let pixels = u64::from(width) * u64::from(height);
-    budget.check(pixels.saturating_mul(BYTES_PER_PIXEL).saturating_add(2 * decoder.total_bytes()))?;
+    let colour = decoder.color_type();
+    let as_rgb = 3 * u64::from(colour.bytes_per_pixel() / colour.channel_count());
+    budget.check(pixels.saturating_mul(BYTES_PER_PIXEL + as_rgb).saturating_add(decoder.total_bytes()))?;
     budget.take(pixels * BYTES_PER_PIXEL)?;
     let image = image::DynamicImage::from_decoder(decoder).map_err(said)?;
     let linear = |encoded: f32| if raw { encoded } else { srgb_to_linear(f64::from(encoded)) as f32 };

@@ -64,8 +64,8 @@ pub(crate) fn parse(bytes: &[u8]) -> Parsed {
 
 /// Whether a file begins as text does.
 fn says_solid(bytes: &[u8]) -> bool {
-    let start = without_mark(bytes).trim_ascii_start().get(..5);
-    start.is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
+    let word = without_mark(bytes).trim_ascii_start().split(u8::is_ascii_whitespace).next();
+    word.is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
 }
 
 fn has_bytes_of_no_text(bytes: &[u8]) -> bool {

@@ -226,11 +226,11 @@ mod tests {
         // Thirty lines of this would be a gigabyte.
         let doubling = (1..30).map(|i| format!("\n<default name='a{i}' value='$a{0}$a{0}'/>", i - 1));
         let xml = format!("<default name='a0' value='x'/>{}<a v='$a29'/>", doubling.collect::<String>());
-        let said = "s:24:27: with the parameters in them, the values of this scene become too long";
+        let said = "s:24:28: with the parameters in them, the values of this scene become too long";
         assert_eq!(last(&xml, &[]).1, [said]);
         // One that is used often is bounded as well.
         let long = "y".repeat(1 << 20);
-        let often = format!("<b v='{}'/>\n<a v='$long'/>", "$long".repeat(7));
+        let often = format!("<b v='{}'/>\n<a v='$long'/>", "$long".repeat(8));
         assert_eq!(
             last(&often, &[("long", &long)]).1,
             ["s:2:7: with the parameters in them, the values of this scene become too long"]

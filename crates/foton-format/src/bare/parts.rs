@@ -43,6 +43,14 @@ pub(super) fn add_obj(
             );
         }
         for (path, bytes) in files {
+            let bytes = match bytes {
+                Ok(bytes) => bytes,
+                Err(message) => {
+                    let path = shown_path(Path::new(&path));
+                    report.warning(*place, format!("cannot read {path}: {message}; its materials are grey"));
+                    continue;
+                }
+            };
             let (entries, problems) = mtl::parse(&bytes);
             if entries.is_empty() {
                 report.warning(*place, format!("{} has no materials", shown_path(Path::new(&path))));
@@ -79,8 +87,8 @@ fn without_comment(text: &str) -> &str {
     text.split_once(" #").map_or(text, |(before, _)| before.trim_end())
 }
 
-/// A file's path and contents.
-type LibraryFile = (String, Vec<u8>);
+/// A file's path and contents, or why it cannot be read.
+type LibraryFile = (String, Result<Vec<u8>, String>);
 
 /// The files that a line `mtllib` names, and the names of which there is no file. The line is one name if there is such a
 /// file; otherwise names end where quotes do or behind `.mtl`, and what is no file by then are words.
