@@ -22,6 +22,7 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 
 use args::{Args, Command};
+use foton_session::threads;
 use talk::{Failure, Talk};
 
 /// The window; where there can be none, a picture within a minute.
@@ -37,6 +38,22 @@ fn live(args: &Args, talk: &mut Talk) -> Result<(), Failure> {
     quick::render(args.scene.as_deref(), talk)
 }
 
+/// Starts the threads that scenes are built on; the exit code where the system gives none.
+fn start_threads() -> Option<ExitCode> {
+    let mut talk = Talk::new(false);
+    match threads::start() {
+        Ok(None) => None,
+        Ok(Some(message)) => {
+            talk.warning(&message);
+            None
+        }
+        Err(cause) => {
+            talk.failure(&Failure::Start(cause.into()));
+            Some(ExitCode::FAILURE)
+        }
+    }
+}
+
 fn main() -> ExitCode {
     let args = Args::parse();
     if let Some(Command::Render(render)) = &args.command
@@ -48,6 +65,9 @@ fn main() -> ExitCode {
             .find_subcommand_mut("render")
             .map(|render| render.error(ErrorKind::ArgumentConflict, &message));
         render.unwrap_or_else(|| command.error(ErrorKind::ArgumentConflict, message)).exit();
+    }
+    if let Some(failure) = start_threads() {
+        return failure;
     }
     let (result, mut talk) = match &args.command {
         Some(Command::Render(render)) => {

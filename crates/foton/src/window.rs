@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use foton_format::{Opened, Options, Saved, Severity, Suggested, save_edited};
+use foton_input::printable;
 use foton_integrator::{Alpha, Settings};
 use foton_preview::WindowError;
 use foton_scene::BuildError;
@@ -37,7 +38,7 @@ impl Loader for Files {
         let (opened, name) = match source {
             Source::File(path) => (
                 foton_format::open(path, &options),
-                path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+                printable(&path.file_name().unwrap_or_default().to_string_lossy()).into_owned(),
             ),
             Source::BuiltIn(name) => {
                 let scene =
