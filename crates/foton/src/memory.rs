@@ -22,9 +22,12 @@ pub(crate) fn limit(asked: Option<u64>) -> Option<f64> {
     let confined = Confined::of_system();
     let asked = asked.map(|bytes| bytes as f64);
     let wanted = asked.or_else(|| free().map(|bytes| bytes * SHARE));
-    // Whoever asks for an amount knows what the program itself takes.
-    let room =
-        confined.map(|confined| if asked.is_some() { confined.limit } else { confined.room() * SHARE });
+    let room = confined.map(|confined| match asked {
+        // Whoever asks for an amount, and keeps the C library from its heaps, knows what there is.
+        Some(_) if confined.kept == 0.0 => confined.limit,
+        Some(_) => confined.room(),
+        None => confined.room() * SHARE,
+    });
     wanted.into_iter().chain(room).reduce(f64::min)
 }
 

@@ -9,6 +9,8 @@ mod resuming;
 mod scene_says;
 #[cfg(unix)]
 mod signals;
+#[cfg(target_os = "linux")]
+mod strangers;
 mod strict;
 #[cfg(target_os = "linux")]
 mod write_faults;
