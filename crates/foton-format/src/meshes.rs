@@ -77,6 +77,9 @@ impl Contents {
 /// A mesh and what was mended in it, or the first problem of a file.
 pub(crate) type Parsed = Result<(Mesh, Vec<Problem>), Problem>;
 
+/// The bits of a transform without its translation, of which computed normals depend; zeros where nothing does.
+type Linear = [u64; 9];
+
 /// The mesh files read so far.
 #[derive(Default)]
 pub(crate) struct Meshes {
@@ -84,8 +87,8 @@ pub(crate) struct Meshes {
     read: HashMap<(PathBuf, Format), Option<Rc<(Contents, Cell<bool>)>>>,
     /// The last file of several meshes: those come one after the other.
     several: Option<(PathBuf, Rc<(PathBuf, Vec<u8>)>)>,
-    /// Meshes that do not depend on a transform.
-    built: HashMap<(PathBuf, Wanted), Arc<Mesh>>,
+    /// Meshes by what they depend on.
+    built: HashMap<(PathBuf, Wanted, Linear), Arc<Mesh>>,
 }
 
 impl Meshes {
@@ -99,8 +102,9 @@ impl Meshes {
         report: &mut Report,
     ) -> Option<Arc<Mesh>> {
         let path = Files::key(&filename.value, filename.place, report);
-        let key = (path.clone(), wanted);
-        if let Some(mesh) = self.built.get(&key) {
+        let linear = to_world.matrix3.to_cols_array().map(f64::to_bits);
+        let keys = [Linear::default(), linear].map(|linear| (path.clone(), wanted, linear));
+        if let Some(mesh) = keys.iter().find_map(|key| self.built.get(key)) {
             return Some(Arc::clone(mesh));
         }
         let read = match self.read.get(&(path.clone(), wanted.format)) {
@@ -130,9 +134,8 @@ impl Meshes {
             }
         };
         let mesh = Arc::new(mesh);
-        if !depends_on_transform {
-            self.built.insert(key, Arc::clone(&mesh));
-        }
+        let [for_all, for_this] = keys;
+        self.built.insert(if depends_on_transform { for_this } else { for_all }, Arc::clone(&mesh));
         Some(mesh)
     }
 

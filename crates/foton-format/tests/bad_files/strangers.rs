@@ -349,14 +349,20 @@ fn small_files_that_stand_for_much_are_refused_by_the_memory_that_they_take() {
         ]
     );
     // A mesh without normals is another for each transform.
-    let shape = "<shape type='obj'><string name='filename' value='mesh.obj'/></shape>\n";
-    let said = messages(&scene(&shape.repeat(1000)), &files, &within(64));
+    let shape = |i: usize| {
+        format!(
+            "<shape type='obj'><transform name='to_world'><scale x='{i}'/></transform><string name='filename' value='mesh.obj'/></shape>\n"
+        )
+    };
+    let shapes = |n: usize| (1..=n).map(shape).collect::<String>();
+    let said = messages(&scene(&shapes(1000)), &files, &within(64));
     assert!(
         said[0].contains("cannot make one more mesh of this file: reading it takes up to 64 MiB with"),
         "{}",
         said[0]
     );
-    assert_eq!(messages(&scene(&shape.repeat(10)), &files, &within(64)), [""; 0]);
+    assert_eq!(messages(&scene(&shapes(10)), &files, &within(64)), [""; 0]);
+    assert_eq!(messages(&scene(&shape(2).repeat(1000)), &files, &within(64)), [""; 0]);
     let said = messages(&scene(&"<include filename='twice.xml'/>\n".repeat(100)), &files, &within(64));
     assert!(said.iter().any(|s| s.contains("with what was read before, 64 MiB may be used")), "{said:?}");
     let said = messages(&scene(&"<shape type='cube'/>".repeat(200_000)), &files, &within(64));
