@@ -1,5 +1,5 @@
 //! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `versus`, `assets`, `pictures`, `bench`, `monkey`, `soak`, `kills`,
-//! `limits`, `mutations`.
+//! `limits`, `mutations`, `miri`.
 //!
 //! Nothing here is part of the program; what a task does is in the module of its name.
 #![allow(clippy::print_stdout, reason = "these tasks talk to the person who started them")]
@@ -7,6 +7,7 @@
 mod assets;
 mod ci;
 mod conformance;
+mod miri;
 mod mutations;
 mod pictures;
 mod program;
@@ -34,7 +35,8 @@ cargo xtask monkey [--minutes N]    random clicks and keys in the window for N (
 cargo xtask soak [MINUTES]          one small render for MINUTES (20): no memory that grows, no drift of the mean, no NaN
 cargo xtask kills [N]               kills N (200) renders at random moments: all checkpoints open, no file is half of one
 cargo xtask limits                  renders in as little memory as --memory accepts, under a hard limit of the system
-cargo xtask mutations [WORD,…]      takes protections out of a copy of the tree, one by one: does their test notice? (many minutes)";
+cargo xtask mutations [WORD,…]      takes protections out of a copy of the tree, one by one: does their test notice? (many minutes)
+cargo xtask miri                    readers of files and pure crates under Miri, where a nightly has it; says what does not run (some minutes)";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -63,6 +65,7 @@ fn main() -> ExitCode {
         ["kills", count] => program::kills(count),
         ["limits"] => program::limits(),
         ["mutations"] => mutations::run(""),
+        ["miri"] => miri::all(),
         ["mutations", word] => mutations::run(word),
         ["soak", minutes @ ..] if minutes.len() <= 1 => tools::run(
             tools::cargo(&["run", "--package", "foton-tests", "--example", "soak", "--"]).args(minutes),

@@ -9,6 +9,7 @@ use super::Mutation;
 
 const GEOMETRY: &str = "-p foton-scene --test geometry";
 const SCENE: &str = "-p foton-scene --lib";
+const INPUT: &str = "-p foton-input";
 const FORMAT: &str = "-p foton-format --lib";
 const MESHES: &str = "-p foton-format --test meshes";
 const PICTURES: &str = "-p foton-format --test pictures";
