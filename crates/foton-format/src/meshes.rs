@@ -59,6 +59,19 @@ enum Contents {
     Mesh(Mesh),
 }
 
+/// What a file holds, once it is read.
+struct Read {
+    contents: Contents,
+    /// Whether a mesh was made of it.
+    has_mesh: Cell<bool>,
+}
+
+/// A file as it lies there.
+struct Source {
+    path: PathBuf,
+    bytes: Vec<u8>,
+}
+
 impl Contents {
     /// Bytes of a mesh of that, at most.
     fn mesh_bytes(&self) -> u64 {
@@ -83,10 +96,10 @@ type Linear = [u64; 9];
 /// The mesh files read so far.
 #[derive(Default)]
 pub(crate) struct Meshes {
-    /// What each file holds, and whether a mesh was made of that; `None` if it could not be read, which was reported.
-    read: HashMap<(PathBuf, Format), Option<Rc<(Contents, Cell<bool>)>>>,
+    /// What each file holds; `None` if it could not be read, which was reported.
+    read: HashMap<(PathBuf, Format), Option<Rc<Read>>>,
     /// The last file of several meshes: those come one after the other.
-    several: Option<(PathBuf, Rc<(PathBuf, Vec<u8>)>)>,
+    several: Option<(PathBuf, Rc<Source>)>,
     /// Meshes by what they depend on.
     built: HashMap<(PathBuf, Wanted, Linear), Arc<Mesh>>,
 }
@@ -115,9 +128,9 @@ impl Meshes {
             }
         };
         let read = read?;
-        let (contents, built) = &*read;
+        let Read { contents, has_mesh } = &*read;
         // The first is part of what reading a file takes; for others a small file may stand many times.
-        if built.replace(true)
+        if has_mesh.replace(true)
             && let Err(message) = files.budget.take(contents.mesh_bytes())
         {
             report.error(filename.place, format!("cannot make one more mesh of this file: {message}"));
@@ -146,17 +159,20 @@ impl Meshes {
         format: Format,
         files: &mut Files<'_>,
         report: &mut Report,
-    ) -> Option<(Contents, Cell<bool>)> {
+    ) -> Option<Read> {
         let last = self.several.as_ref().filter(|(known, _)| known == key);
         let file = match last {
             Some((_, file)) => Rc::clone(file),
-            None => Rc::new(files.read(&filename.value, filename.place, report)?),
+            None => {
+                let (path, bytes) = files.read(&filename.value, filename.place, report)?;
+                Rc::new(Source { path, bytes })
+            }
         };
         if matches!(format, Format::Serialized(_)) {
             self.several = Some((key.to_owned(), Rc::clone(&file)));
         }
-        let contents = parse(&file.0, &file.1, format, &mut files.budget, report)?;
-        Some((contents, Cell::new(false)))
+        let contents = parse(&file.path, &file.bytes, format, &mut files.budget, report)?;
+        Some(Read { contents, has_mesh: Cell::new(false) })
     }
 }
 

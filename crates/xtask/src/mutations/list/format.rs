@@ -134,8 +134,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "meshes that stand often are counted",
         file: "crates/foton-format/src/meshes.rs",
-        from: "if built.replace(true)\n",
-        to: "if built.replace(true) && false\n",
+        from: "if has_mesh.replace(true)\n",
+        to: "if has_mesh.replace(true) && false\n",
         target: BAD_FILES,
         test: "small_files_that_stand_for_much_are_refused_by_the_memory_that_they_take",
     },
