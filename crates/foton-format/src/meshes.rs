@@ -468,12 +468,16 @@ mod tests {
 
     #[test]
     fn a_position_with_very_many_normals_is_read_in_linear_time() {
-        let normals = 200_000;
-        let mut text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n".to_owned();
-        (0..normals).for_each(|i| text += &format!("vn 0 {i} 1\n"));
-        (1..=normals).for_each(|i| text += &format!("f 1//{i} 2//1 3//1\nf 1//{i} 3//1 2//1\n"));
-        let found = mesh(&text, false, DAffine3::IDENTITY);
-        assert_eq!((found.positions.len(), found.triangles.len()), (normals + 2, 2 * normals));
-        assert!(found.triangles.chunks_exact(2).all(|pair| pair[0][0] == pair[1][0]));
+        let mut vertices = Vertices::new(2);
+        let keys = (0..200_000_u32).map(|normal| Corner { position: 1, texture: 0, normal });
+        let numbers: Vec<u32> = keys.clone().map(|key| vertices.index(1, key)).collect();
+        assert!(numbers.iter().copied().eq(0..200_000));
+        assert!(keys.map(|key| vertices.index(1, key)).eq(0..200_000));
+        // No more are looked through one after the other.
+        let mut chain = vec![vertices.first[1]];
+        while let Some(&next) = vertices.next.get(chain[chain.len() - 1] as usize) {
+            chain.push(next);
+        }
+        assert_eq!(chain.len(), LONGEST_CHAIN + 1);
     }
 }

@@ -95,7 +95,7 @@ pub(super) const LIST: &[Mutation] = &[
         what: "values that double are bounded",
         file: "crates/foton-format/src/substitute.rs",
         from: "if replaced.len().saturating_add(parameter.value.len()) > left {",
-        to: "if replaced.len().saturating_add(parameter.value.len()) > (left << 6) {",
+        to: "if replaced.len().saturating_add(parameter.value.len()) > left.max(1 << 28) {",
         target: FORMAT,
         test: "values_that_double_are_refused_where_they_become_too_long",
     },
