@@ -29,6 +29,7 @@ const PARTS: &[Part] = &[
             ("deep_nesting", "200,000 elements within each other: hours"),
             ("any_bytes", "20,000 inputs: hours; `small` has some of them"),
             ("too_many_corners", "polygons of tens of thousands of corners: hours"),
+            ("numbers_read_back_to_the_same_bits", "a hundred thousand numbers: hours"),
             ("values_that_double", "megabytes of text: hours"),
         ],
     },
