@@ -69,11 +69,11 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "files too large to read are refused",
-        file: "crates/foton-format/src/lib.rs",
-        from: "&& bytes > SMALL",
-        to: "&& bytes == u64::MAX",
-        target: CLI,
-        test: "scenes_that_cannot_be_read_or_built_in_the_memory_given_are_refused",
+        file: "crates/foton-input/src/open.rs",
+        from: "if metadata.len() > limit.most() {",
+        to: "if metadata.len() > limit.most() && false {",
+        target: INPUT,
+        test: "no_more_is_read_than_may_be",
     },
     Mutation {
         what: "files are written beside",
