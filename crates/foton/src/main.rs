@@ -54,8 +54,18 @@ fn start_threads() -> Option<ExitCode> {
     }
 }
 
+/// Says what is wrong with the arguments, or what was asked for about them. Arguments can be names of files, and those can hold
+/// anything.
+fn bad_usage(error: &clap::Error) -> ! {
+    if error.use_stderr() {
+        Talk::new(false).line(error.to_string().trim_end());
+        std::process::exit(error.exit_code());
+    }
+    error.exit()
+}
+
 fn main() -> ExitCode {
-    let args = Args::parse();
+    let args = Args::try_parse().unwrap_or_else(|error| bad_usage(&error));
     if let Some(Command::Render(render)) = &args.command
         && let Some(message) = render.contradiction()
     {
@@ -64,7 +74,7 @@ fn main() -> ExitCode {
         let render = command
             .find_subcommand_mut("render")
             .map(|render| render.error(ErrorKind::ArgumentConflict, &message));
-        render.unwrap_or_else(|| command.error(ErrorKind::ArgumentConflict, message)).exit();
+        bad_usage(&render.unwrap_or_else(|| command.error(ErrorKind::ArgumentConflict, message)));
     }
     if let Some(failure) = start_threads() {
         return failure;

@@ -41,7 +41,7 @@ pub enum WindowError {
     #[error("no graphics adapter can draw a window: {0}")]
     NoAdapter(String),
     /// The log cannot be written.
-    #[error("{path}: {cause}", path = path.display())]
+    #[error("{path}: {cause}", path = foton_input::shown_path(path))]
     Log {
         /// Its path.
         path: PathBuf,

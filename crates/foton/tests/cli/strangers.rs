@@ -125,6 +125,9 @@ fn what_is_printed_does_nothing_to_a_terminal() {
     fs::copy(folder.file("x.exr"), folder.file(&format!("{nasty}.exr"))).expect("copied");
     for arguments in [
         format!("compare x.exr {nasty}.exr"),
+        format!("compare x.exr {nasty}.bmp"),
+        format!("render {nasty} --{nasty}"),
+        format!("render scene.xml -o x.exr -D {nasty}"),
         "info nasty.xml".to_owned(),
         "render nasty.xml -o x.exr --passes 1 --json".to_owned(),
         format!("info scene.xml -D x={nasty}"),
