@@ -11,17 +11,19 @@ use toml::{Table, Value};
 /// The allowed edges. Dependencies for tests and builds obey them as well.
 const LAYERS: &[(&str, &[&str])] = &[
     ("foton-math", &[]),
-    ("foton-scene", &["foton-math"]),
-    ("foton-film", &["foton-math"]),
-    ("foton-format", &["foton-math", "foton-scene", "foton-film"]),
-    ("foton-transport", &["foton-math", "foton-scene"]),
-    ("foton-integrator", &["foton-math", "foton-scene", "foton-film", "foton-transport"]),
-    ("foton-session", &["foton-math", "foton-scene", "foton-integrator", "foton-film"]),
-    ("foton-preview", &["foton-math", "foton-film", "foton-session"]),
-    ("foton-measure", &["foton-math", "foton-scene", "foton-film", "foton-integrator"]),
+    ("foton-input", &[]),
+    ("foton-scene", &["foton-input", "foton-math"]),
+    ("foton-film", &["foton-input", "foton-math"]),
+    ("foton-format", &["foton-input", "foton-math", "foton-scene", "foton-film"]),
+    ("foton-transport", &["foton-input", "foton-math", "foton-scene"]),
+    ("foton-integrator", &["foton-input", "foton-math", "foton-scene", "foton-film", "foton-transport"]),
+    ("foton-session", &["foton-input", "foton-math", "foton-scene", "foton-integrator", "foton-film"]),
+    ("foton-preview", &["foton-input", "foton-math", "foton-film", "foton-session"]),
+    ("foton-measure", &["foton-input", "foton-math", "foton-scene", "foton-film", "foton-integrator"]),
     (
         "foton",
         &[
+            "foton-input",
             "foton-math",
             "foton-scene",
             "foton-film",

@@ -18,7 +18,7 @@ const LEFTOVERS: &[&str] = &[
     concat!("FIX", "ME"),
 ];
 
-const DOCUMENTS: &[&str] = &["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "REFERENCES.md"];
+const DOCUMENTS: &[&str] = &["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "REFERENCES.md", "SECURITY.md"];
 
 #[test]
 fn every_file_opens_by_saying_what_it_is() {
@@ -48,6 +48,27 @@ fn every_citation_is_in_the_references() {
     none(every_line().filter(|line| line.text.trim_start().starts_with("//")).flat_map(|line| {
         let unknown = citations(&line.text).into_iter().filter(|key| !references.contains(key.as_str()));
         unknown.map(|key| format!("{}: [{key}] is not in REFERENCES.md", line.place)).collect::<Vec<_>>()
+    }));
+}
+
+/// Everything but `foton-input` reads files through it. Exempt are tasks of developers and the system's own numbers.
+#[test]
+fn files_are_opened_in_one_place() {
+    let opens = [concat!("fs::re", "ad("), concat!("fs::read_to", "_string("), concat!("File::op", "en(")];
+    let exempt = ["crates/foton-input/", "crates/xtask/", "crates/foton/src/memory.rs"];
+    let of_program = |place: &str| {
+        place.starts_with("crates/")
+            && place.contains("/src/")
+            && !place.contains("/tests")
+            && !exempt.iter().any(|e| place.starts_with(e))
+    };
+    let files = code_files().into_iter().filter(|path| of_program(&shown(path)));
+    none(files.flat_map(|path| {
+        let text = read(&path);
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        let lines = code.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with("//"));
+        let faults = lines.filter(|(_, line)| opens.iter().any(|open| line.contains(open)));
+        faults.map(|(i, line)| format!("{}:{}: {}", shown(&path), i + 1, line.trim())).collect::<Vec<_>>()
     }));
 }
 

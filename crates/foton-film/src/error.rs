@@ -3,6 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use foton_input::{printable, shown_path};
 use thiserror::Error;
 
 use crate::MetadataError;
@@ -11,7 +12,7 @@ use crate::MetadataError;
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// The folder to write in is missing.
-    #[error("cannot write {}: the folder {} does not exist", path.display(), folder.display())]
+    #[error("cannot write {}: the folder {} does not exist", shown_path(path), shown_path(folder))]
     NoFolder {
         /// The file asked for.
         path: PathBuf,
@@ -19,7 +20,7 @@ pub enum WriteError {
         folder: PathBuf,
     },
     /// The file is there and marked read-only.
-    #[error("cannot write {}: the file is read-only", path.display())]
+    #[error("cannot write {}: the file is read-only", shown_path(path))]
     ReadOnly {
         /// The file asked for.
         path: PathBuf,
@@ -43,7 +44,7 @@ pub enum WriteError {
         what: &'static str,
     },
     /// The operating system refused.
-    #[error("cannot write {}: {cause}", path.display())]
+    #[error("cannot write {}: {cause}", shown_path(path))]
     Io {
         /// The file asked for.
         path: PathBuf,
@@ -51,7 +52,7 @@ pub enum WriteError {
         cause: io::Error,
     },
     /// The image, a layer or the metadata cannot be stored; nothing on the disk was touched.
-    #[error("cannot write {}: {reason}", path.display())]
+    #[error("cannot write {}: {reason}", shown_path(path))]
     Content {
         /// The file asked for.
         path: PathBuf,
@@ -131,7 +132,7 @@ pub enum ContentError {
 #[derive(Debug, Error)]
 pub enum ReadError {
     /// The operating system refused.
-    #[error("cannot read {}: {cause}", path.display())]
+    #[error("cannot read {}: {cause}", shown_path(path))]
     Io {
         /// The file asked for.
         path: PathBuf,
@@ -139,7 +140,7 @@ pub enum ReadError {
         cause: io::Error,
     },
     /// It is no file of its format, or a broken one.
-    #[error("cannot read {} as {format}: {reason}", path.display())]
+    #[error("cannot read {} as {format}: {reason}", shown_path(path))]
     Malformed {
         /// The file asked for.
         path: PathBuf,
@@ -148,8 +149,24 @@ pub enum ReadError {
         /// What is wrong with it.
         reason: String,
     },
+    /// Its pixels take more memory than may be used.
+    #[error(
+        "cannot read {}: its {width} × {height} pixels take up to {} MiB, {} MiB may be used", shown_path(path), takes >> 20, limit >> 20
+    )]
+    TooLarge {
+        /// The file asked for.
+        path: PathBuf,
+        /// Its width in pixels.
+        width: u64,
+        /// Its height in pixels.
+        height: u64,
+        /// Bytes that reading it takes.
+        takes: u64,
+        /// Bytes that may be used.
+        limit: u64,
+    },
     /// No layer has the channels R, G and B, nor Y alone.
-    #[error("cannot read {}: it has no channels R, G and B, only {channels}", path.display())]
+    #[error("cannot read {}: it has no channels R, G and B, only {channels}", shown_path(path))]
     NoRgb {
         /// The file asked for.
         path: PathBuf,
@@ -157,3 +174,18 @@ pub enum ReadError {
         channels: String,
     },
 }
+
+impl ReadError {
+    /// A file that is no EXR or PNG file as it should be. Libraries quote what they find: their words are cut and escaped.
+    pub(crate) fn malformed(path: &Path, format: &'static str, reason: &str) -> Self {
+        let mut reason = printable(reason).into_owned();
+        if let Some((end, _)) = reason.char_indices().nth(LONGEST_REASON) {
+            reason.truncate(end);
+            reason.push('…');
+        }
+        Self::Malformed { path: path.into(), format, reason }
+    }
+}
+
+/// The most characters of what a library says of a file.
+const LONGEST_REASON: usize = 160;

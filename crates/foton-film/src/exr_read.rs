@@ -1,19 +1,26 @@
 //! Reading an EXR image back: R, G, B of its first layer, or Y alone as grey, and the text attributes. Further channels are
 //! not kept.
 
-use std::fs;
 use std::io::Cursor;
 use std::path::Path;
 
 use exr::meta::MetaData;
 use exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, Vec2, read};
+use foton_input::shown;
 use foton_math::{Cancel, CancelReader, Rgb};
 
 use crate::image::area;
+use crate::input::{self, Room};
 use crate::{Image, Metadata, ReadError, exr_header};
 
 /// More pixels than this per byte of the file no compression reaches; a header that claims more is broken.
 const PIXELS_PER_BYTE: usize = 4096;
+
+/// Channels that a message names.
+const MOST_NAMES: usize = 8;
+
+/// What a pixel takes while it is read: in the image, in the blocks that it is unpacked from, and on the way.
+const BYTES_PER_PIXEL: u64 = 40;
 
 /// Reads the channels `R`, `G`, `B` of the first layer that has them, and the file's text attributes in their order. Where no
 /// layer has them, a luminance `Y` without chroma is all three.
@@ -24,20 +31,36 @@ const PIXELS_PER_BYTE: usize = 4096;
 /// # Errors
 /// [`ReadError`] with the path: it cannot be opened, is no EXR file or a broken one, or has neither R, G, B nor Y alone.
 pub fn read_exr(path: &Path) -> Result<(Image, Metadata), ReadError> {
-    read_exr_unless(&Cancel::default(), path)
+    read_exr_within(path, None)
 }
 
-/// As [`read_exr`]; an error of some kind as well once `cancel` is requested.
+/// [`read_exr`] within that many bytes of memory; `None`: as many as there are.
 ///
 /// # Errors
-/// As [`read_exr`].
-pub fn read_exr_unless(cancel: &Cancel, path: &Path) -> Result<(Image, Metadata), ReadError> {
-    let malformed = |reason: String| ReadError::Malformed { path: path.into(), format: "EXR", reason };
-    let bytes = fs::read(path).map_err(|cause| ReadError::Io { path: path.into(), cause })?;
-    let meta = MetaData::read_from_buffered(Cursor::new(&bytes), false)
-        .map_err(|cause| malformed(cause.to_string()))?;
-    let channels = check(&meta, bytes.len(), path)?;
-    let metadata = exr_header::text_attributes(&bytes).ok_or_else(|| malformed("broken header".into()))?;
+/// As [`read_exr`], and where the file or its pixels would take more.
+pub fn read_exr_within(path: &Path, memory: Option<u64>) -> Result<(Image, Metadata), ReadError> {
+    let bytes = input::read(path, memory)?;
+    decode_exr(&bytes, path, memory, &Cancel::default())
+}
+
+/// [`read_exr_within`] for the contents of a file; `path` stands in messages. An error of some kind as well once `cancel` is requested.
+///
+/// # Errors
+/// As [`read_exr_within`].
+pub fn decode_exr(
+    bytes: &[u8],
+    path: &Path,
+    memory: Option<u64>,
+    cancel: &Cancel,
+) -> Result<(Image, Metadata), ReadError> {
+    let malformed = |reason: &str| ReadError::malformed(path, "EXR", reason);
+    if !bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
+        return Err(malformed("it does not begin as one"));
+    }
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false)
+        .map_err(|cause| malformed(&cause.to_string()))?;
+    let channels = check(&meta, bytes.len(), path, memory)?;
+    let metadata = exr_header::text_attributes(bytes).ok_or_else(|| malformed("broken header"))?;
     let levels = read().no_deep_data().largest_resolution_level();
     let pixels = match channels {
         Channels::Rgb => levels
@@ -47,7 +70,7 @@ pub fn read_exr_unless(cancel: &Cancel, path: &Path) -> Result<(Image, Metadata)
             )
             .first_valid_layer()
             .all_attributes()
-            .from_buffered(CancelReader::new(Cursor::new(&bytes), cancel))
+            .from_buffered(CancelReader::new(Cursor::new(bytes), cancel))
             .map(|image| image.layer_data.channel_data.pixels),
         Channels::Grey => levels
             .specific_channels()
@@ -58,10 +81,10 @@ pub fn read_exr_unless(cancel: &Cancel, path: &Path) -> Result<(Image, Metadata)
             )
             .first_valid_layer()
             .all_attributes()
-            .from_buffered(CancelReader::new(Cursor::new(&bytes), cancel))
+            .from_buffered(CancelReader::new(Cursor::new(bytes), cancel))
             .map(|image| image.layer_data.channel_data.pixels),
     };
-    Ok((pixels.map_err(|cause| malformed(cause.to_string()))?, metadata))
+    Ok((pixels.map_err(|cause| malformed(&cause.to_string()))?, metadata))
 }
 
 fn black(size: Vec2<usize>) -> Image {
@@ -80,7 +103,12 @@ enum Channels {
 }
 
 /// Refuses files without colours that are read, and files whose size cannot be true.
-fn check(meta: &MetaData, file_bytes: usize, path: &Path) -> Result<Channels, ReadError> {
+fn check(
+    meta: &MetaData,
+    file_bytes: usize,
+    path: &Path,
+    memory: Option<u64>,
+) -> Result<Channels, ReadError> {
     let names = |header: &exr::meta::header::Header| -> Vec<String> {
         header.channels.list.iter().map(|channel| channel.name.to_string()).collect()
     };
@@ -95,8 +123,10 @@ fn check(meta: &MetaData, file_bytes: usize, path: &Path) -> Result<Channels, Re
     } else if any_has(&["Y"], &["RY", "BY"]) {
         Channels::Grey
     } else {
-        let channels = meta.headers.first().map(names).unwrap_or_default().join(", ");
-        return Err(ReadError::NoRgb { path: path.into(), channels });
+        let all = meta.headers.first().map(names).unwrap_or_default();
+        let mut channels: Vec<String> = all.iter().take(MOST_NAMES).map(|name| shown(name)).collect();
+        channels.extend((all.len() > MOST_NAMES).then(|| format!("{} more", all.len() - MOST_NAMES)));
+        return Err(ReadError::NoRgb { path: path.into(), channels: channels.join(", ") });
     };
     for header in &meta.headers {
         let Vec2(width, height) = header.layer_size;
@@ -104,8 +134,9 @@ fn check(meta: &MetaData, file_bytes: usize, path: &Path) -> Result<Channels, Re
         let pixels = fits(width).zip(fits(height)).map(|(width, height)| area(width, height));
         if pixels.is_none_or(|pixels| pixels / PIXELS_PER_BYTE > file_bytes) {
             let reason = format!("{width} × {height} pixels cannot be in {file_bytes} bytes");
-            return Err(ReadError::Malformed { path: path.into(), format: "EXR", reason });
+            return Err(ReadError::malformed(path, "EXR", &reason));
         }
+        Room { memory, bytes_per_pixel: BYTES_PER_PIXEL }.check(path, width as u64, height as u64)?;
     }
     Ok(channels)
 }

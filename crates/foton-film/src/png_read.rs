@@ -1,18 +1,24 @@
 //! Reading a PNG picture back as linear colours. What a tone map or clipping took away stays away; metadata is not kept.
 
-use std::fs;
 use std::io::Cursor;
 use std::path::Path;
 
 use foton_math::Rgb;
-use png::{BitDepth, ColorType, Decoder, Transformations};
+use png::{BitDepth, ColorType, Decoder, Limits, Transformations};
 
 use crate::image::area;
+use crate::input::{self, Room};
 use crate::{Image, ReadError, tone_map};
 
 /// More pixels than this per byte of the file deflate cannot reach (1,032 to 1, eight pixels a byte); a header that
 /// claims more is broken.
 const PIXELS_PER_BYTE: usize = 8 * 1032;
+
+/// What a pixel takes while it is read: its samples as they are stored and as numbers, and in the image.
+const BYTES_PER_PIXEL: u64 = 36;
+
+/// What else than pixels a file may unpack, such as a colour profile, of which nothing is read.
+const MOST_BESIDE: usize = 64 << 20;
 
 /// Reads a PNG of any colour type and depth as linear colours in [0, 1]³.
 ///
@@ -22,9 +28,20 @@ const PIXELS_PER_BYTE: usize = 8 * 1032;
 /// # Errors
 /// [`ReadError`] with the path: it cannot be opened, is no PNG file or a broken one.
 pub fn read_png(path: &Path) -> Result<Image, ReadError> {
-    let malformed = |reason: String| ReadError::Malformed { path: path.into(), format: "PNG", reason };
-    let bytes = fs::read(path).map_err(|cause| ReadError::Io { path: path.into(), cause })?;
-    let mut decoder = Decoder::new(Cursor::new(&bytes));
+    read_png_within(path, None)
+}
+
+/// [`read_png`] within that many bytes of memory; `None`: as many as there are.
+///
+/// # Errors
+/// As [`read_png`], and where the file or its pixels would take more.
+pub fn read_png_within(path: &Path, memory: Option<u64>) -> Result<Image, ReadError> {
+    let malformed = |reason: String| ReadError::malformed(path, "PNG", &reason);
+    let bytes = input::read(path, memory)?;
+    if !bytes.starts_with(b"\x89PNG") {
+        return Err(malformed("it does not begin as one".into()));
+    }
+    let mut decoder = Decoder::new_with_limits(Cursor::new(&bytes), Limits { bytes: MOST_BESIDE });
     decoder.set_transformations(Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(|cause| malformed(cause.to_string()))?;
     let (width, height) = (reader.info().width, reader.info().height);
@@ -32,6 +49,7 @@ pub fn read_png(path: &Path) -> Result<Image, ReadError> {
     if area(width, height) / PIXELS_PER_BYTE > bytes.len() {
         return Err(too_large());
     }
+    Room { memory, bytes_per_pixel: BYTES_PER_PIXEL }.check(path, width.into(), height.into())?;
     let mut values = vec![0; reader.output_buffer_size().ok_or_else(too_large)?];
     reader.next_frame(&mut values).map_err(|cause| malformed(cause.to_string()))?;
     let (color, depth) = reader.output_color_type();

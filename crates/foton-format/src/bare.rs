@@ -15,6 +15,7 @@ mod parts;
 use std::path::Path;
 use std::sync::Arc;
 
+use foton_input::shown;
 use foton_math::glam::{DAffine3, DMat3, DVec3};
 use foton_math::{Cancel, Rgb};
 use foton_scene::description::{
@@ -26,10 +27,11 @@ use crate::diagnostic::{Diagnostic, OpenError, Place, Report};
 use crate::document::Document;
 use crate::hash::Fnv1a;
 use crate::integrator::Suggested;
+use crate::limits::Budget;
 use crate::meshes::{self, Format, Wanted};
 use crate::obj::Obj;
 use crate::words::Problem;
-use crate::{Opened, Options, ReadFile, SceneNodes, mtl, ply, stl};
+use crate::{BYTES_PER_BYTE, Opened, Options, ReadFile, SceneNodes, mtl, ply, stl};
 
 /// Field of view along the shorter side of the image.
 const FOV_DEGREES: f64 = 45.0;
@@ -87,7 +89,10 @@ pub(crate) fn open(
     let name = path.to_string_lossy();
     let mut report = Report::new(&name, path.parent().unwrap_or(Path::new("")));
     for (name, value) in &options.defines {
-        report.error(Place::default(), format!("-D {name}={value}: a mesh file has no parameters"));
+        report.error(
+            Place::default(),
+            format!("-D {}: a mesh file has no parameters", shown(&format!("{name}={value}"))),
+        );
     }
     let bytes = match files(path) {
         Ok(bytes) => bytes,
@@ -99,13 +104,20 @@ pub(crate) fn open(
     let mut hash = Fnv1a::default();
     hash.add(&bytes);
     let folder = path.parent().unwrap_or(Path::new(""));
+    let mut budget = Budget::new(options.memory);
     let mut library = |name: &str| {
-        let found = [name.to_owned(), name.replace('\\', "/")].into_iter().find_map(|name| {
+        let (path, bytes) = [name.to_owned(), name.replace('\\', "/")].into_iter().find_map(|name| {
             let path = folder.join(name);
-            files(&path).ok().map(|bytes| (path.to_string_lossy().into_owned(), bytes))
+            match files(&path) {
+                Err(error) if is_absent(&error) => None,
+                Err(error) => Some((path, Err(error.to_string()))),
+                Ok(bytes) => Some((path, budget.take(bytes.len() as u64 * BYTES_PER_BYTE).map(|()| bytes))),
+            }
         })?;
-        hash.add(&found.1);
-        Some(found)
+        if let Ok(bytes) = &bytes {
+            hash.add(bytes);
+        }
+        Some((path.to_string_lossy().into_owned(), bytes))
     };
     let read = read(&bytes, kind, &mut library, &mut report, &options.cancel);
     options.cancel.check()?;
@@ -135,8 +147,14 @@ pub(crate) fn open(
     })
 }
 
-/// Finds a file of materials: its path and its contents.
-type Library<'a> = dyn FnMut(&str) -> Option<(String, Vec<u8>)> + 'a;
+/// Finds a file of materials: its path, and its contents or why it cannot be read.
+type Library<'a> = dyn FnMut(&str) -> Option<(String, Result<Vec<u8>, String>)> + 'a;
+
+/// Whether a name stands for nothing: a word that is none, or one too long to be one.
+fn is_absent(error: &std::io::Error) -> bool {
+    use std::io::ErrorKind::{InvalidFilename, InvalidInput, NotADirectory, NotFound};
+    matches!(error.kind(), NotFound | NotADirectory | InvalidFilename | InvalidInput)
+}
 
 fn read(
     bytes: &[u8],

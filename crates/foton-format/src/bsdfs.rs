@@ -1,5 +1,6 @@
 //! What each scattering plugin says: diffuse, glass, metal and plastic, smooth and rough.
 
+use foton_input::quoted;
 use foton_math::Rgb;
 use foton_scene::description::{Bsdf, MicrofacetDistribution, Microfacets};
 
@@ -102,7 +103,8 @@ impl Reader<'_> {
             let found = REFRACTION.iter().find(|(known, _)| *known == lower);
             if found.is_none() {
                 let hint = did_you_mean(&lower, REFRACTION.iter().map(|(known, _)| *known));
-                let message = format!("no index of refraction is known for \"{}\"{hint}", substance.value);
+                let message =
+                    format!("no index of refraction is known for {}{hint}", quoted(&substance.value));
                 self.report.error(substance.place, message);
             }
             return found.map(|(_, ior)| *ior);
@@ -143,7 +145,7 @@ impl Reader<'_> {
             _ => {
                 let hint = did_you_mean(&value, ["beckmann", "ggx"]);
                 let hint = if hint.is_empty() { ", only \"beckmann\" and \"ggx\"".to_owned() } else { hint };
-                self.report.error(place, format!("no distribution \"{value}\" is known{hint}"));
+                self.report.error(place, format!("no distribution {} is known{hint}", quoted(&value)));
                 None
             }
         }

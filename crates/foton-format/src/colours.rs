@@ -1,9 +1,14 @@
 //! Colours of plugins: one for all, a spectrum, or a texture.
 
+use std::rc::Rc;
+
+use foton_input::shown_path;
 use foton_math::Rgb;
 use foton_scene::description::Colour;
 
+use crate::diagnostic::Place;
 use crate::document::Element;
+use crate::files::Files;
 use crate::properties::{Located, Properties, parse_attribute};
 use crate::reader::Reader;
 use crate::spectrum::Spectrum;
@@ -81,14 +86,33 @@ impl Reader<'_> {
         Some(Located { value, place: attribute.value_place })
     }
 
+    /// The spectrum in a file, which is read once.
+    fn spectrum_file(&mut self, filename: &str, place: Place) -> Option<Rc<Spectrum>> {
+        let key = Files::key(filename, place, &self.report);
+        if let Some(known) = self.spectra.get(&key) {
+            return known.clone();
+        }
+        let read = self.files.read(filename, place, &mut self.report);
+        let spectrum = read.and_then(|(path, bytes)| {
+            let text =
+                String::from_utf8(bytes).map_err(|_| "it is no spectrum: the text is not UTF-8".to_owned());
+            let failed = |message| {
+                self.report.error(place, format!("cannot read {}: {message}", shown_path(&path)));
+            };
+            text.and_then(|text| Spectrum::parse_file(&text)).map_err(failed).ok().map(Rc::new)
+        });
+        self.spectra.insert(key, spectrum.clone());
+        spectrum
+    }
+
     fn spectrum(&mut self, element: &Element, meaning: Meaning) -> Option<Located<Rgb>> {
         /// Linear sRGB of CIE XYZ (1, 1, 1).
         const EQUAL_ENERGY: Rgb = Rgb::new(1.204_794, 0.948_291, 0.908_916);
         let place;
-        let spectrum = match (element.attribute("value"), element.attribute("filename")) {
+        let spectrum: Rc<Spectrum> = match (element.attribute("value"), element.attribute("filename")) {
             (Some(value), None) if value.value.contains(':') => {
                 place = value.value_place;
-                parse_attribute(value, Spectrum::parse, &mut self.report)?
+                parse_attribute(value, Spectrum::parse, &mut self.report).map(Rc::new)?
             }
             (Some(value), None) => {
                 let number = |text: &str| values::number(text).and_then(|_| values::colour(text));
@@ -99,14 +123,7 @@ impl Reader<'_> {
             }
             (None, Some(filename)) if !filename.broken => {
                 place = filename.value_place;
-                let (path, bytes) = self.files.read(&filename.value, place, &mut self.report)?;
-                let parsed = String::from_utf8(bytes)
-                    .map_err(|_| "the text is not UTF-8".to_owned())
-                    .and_then(|text| Spectrum::parse_file(&text));
-                let failed = |message| {
-                    self.report.error(place, format!("cannot read {}: {message}", path.display()));
-                };
-                parsed.map_err(failed).ok()?
+                self.spectrum_file(&filename.value, place)?
             }
             (None, Some(_)) => return None,
             _ => {

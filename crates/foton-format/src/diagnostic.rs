@@ -5,7 +5,19 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use foton_input::{printable, shown_path};
 use foton_math::Cancelled;
+
+use crate::names::did_you_mean;
+
+/// More errors, or warnings, than these are only counted.
+const MOST_FINDINGS: usize = 1000;
+
+/// So many times a nearest name is looked for among those of a file, which may be many and long.
+const MOST_HINTS: u32 = 50;
+
+/// A file looks for others in so many folders, and in those of the files that include it.
+const MOST_FOLDERS: usize = 64;
 
 /// How bad a finding is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +39,8 @@ pub struct Place {
 
 /// One finding about a file.
 ///
-/// Displays as `room.xml:12:8: unknown bsdf "dielectrc", did you mean "dielectric"?`.
+/// Displays as `room.xml:12:8: unknown bsdf "dielectrc", did you mean "dielectric"?`, in one line, everything escaped that is not
+/// printable.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// How bad it is.
@@ -44,7 +57,8 @@ pub struct Diagnostic {
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { file, line, column, message, .. } = self;
+        let Self { line, column, .. } = self;
+        let (file, message) = (shown_path(Path::new(&self.file)), printable(&self.message));
         match (line, column) {
             (0, _) => write!(f, "{file}: {message}"),
             (_, 0) => write!(f, "{file}:{line}: {message}"),
@@ -98,6 +112,10 @@ struct Source {
 pub(crate) struct Report {
     sources: Vec<Source>,
     diagnostics: Vec<Diagnostic>,
+    /// How many errors and warnings there are, listed or not.
+    errors: usize,
+    warnings: usize,
+    hints: u32,
 }
 
 impl Report {
@@ -106,7 +124,7 @@ impl Report {
         let folders = vec![folder.to_owned()];
         let main =
             Source { file: file.to_owned(), folder: folder.to_owned(), folders, lines_before: 0, lines: 0 };
-        Self { sources: vec![main], diagnostics: Vec::new() }
+        Self { sources: vec![main], diagnostics: Vec::new(), errors: 0, warnings: 0, hints: 0 }
     }
 
     /// Says how long the scene's own text is, before anything is included.
@@ -130,8 +148,12 @@ impl Report {
     }
 
     /// Looks in `folder` before all others, for files named in the file of `place`; from that file's own folder, as Mitsuba 3.
+    /// An error where that are too many.
     pub(crate) fn look_in(&mut self, folder: &str, place: Place) {
         let index = self.source_index(place);
+        if self.sources[index].folders.len() >= MOST_FOLDERS {
+            return self.error(place, format!("files are looked for in {MOST_FOLDERS} folders already"));
+        }
         let folder = self.sources[index].folder.join(folder);
         self.sources[index].folders.insert(0, folder);
     }
@@ -151,7 +173,7 @@ impl Report {
         if self.source_index(seen_from) == self.source_index(place) {
             format!("line {line}")
         } else {
-            format!("line {line} of {}", source.file)
+            format!("line {line} of {}", shown_path(Path::new(&source.file)))
         }
     }
 
@@ -179,8 +201,40 @@ impl Report {
         self.push(severity, source.file.clone(), place, message);
     }
 
+    /// Whether there are so many errors that looking for more is of no use.
+    pub(crate) fn is_full(&self) -> bool {
+        self.errors >= MOST_FINDINGS
+    }
+
+    /// [`did_you_mean`] with names of the file; nothing once that was asked for often.
+    pub(crate) fn did_you_mean<'a>(
+        &mut self,
+        name: &str,
+        known: impl IntoIterator<Item = &'a str>,
+    ) -> String {
+        self.hints += 1;
+        if self.hints > MOST_HINTS { String::new() } else { did_you_mean(name, known) }
+    }
+
     fn push(&mut self, severity: Severity, file: String, Place { line, column }: Place, message: String) {
+        let count = match severity {
+            Severity::Error => &mut self.errors,
+            Severity::Warning => &mut self.warnings,
+        };
+        *count += 1;
+        if *count > MOST_FINDINGS {
+            return;
+        }
         self.diagnostics.push(Diagnostic { severity, file, line, column, message });
+    }
+
+    /// How many errors and warnings are not listed.
+    fn unlisted(&self) -> [(Severity, usize, &'static str); 2] {
+        let beyond = |count: usize| count.saturating_sub(MOST_FINDINGS);
+        [
+            (Severity::Error, beyond(self.errors), "errors"),
+            (Severity::Warning, beyond(self.warnings), "warnings"),
+        ]
     }
 
     /// Ends with a problem that leaves nothing to go on with.
@@ -191,16 +245,23 @@ impl Report {
 
     /// The findings by place, those about the scene file first; the error if there is one among them.
     pub(crate) fn finish(mut self) -> Result<Vec<Diagnostic>, OpenError> {
+        let (has_errors, unlisted) = (self.errors > 0, self.unlisted());
         let main = self.sources.swap_remove(0).file;
         self.diagnostics.sort_by(|a, b| {
             let key = |d: &Diagnostic| (d.file != main, d.line, d.column);
             key(a).0.cmp(&key(b).0).then_with(|| a.file.cmp(&b.file)).then_with(|| key(a).cmp(&key(b)))
         });
-        if self.diagnostics.iter().any(|d| d.severity == Severity::Error) {
-            Err(OpenError::Faults(self.diagnostics))
-        } else {
-            Ok(self.diagnostics)
-        }
+        let more = unlisted.map(|(severity, n, what)| {
+            (n > 0).then(|| Diagnostic {
+                severity,
+                file: main.clone(),
+                line: 0,
+                column: 0,
+                message: format!("{n} more {what}"),
+            })
+        });
+        self.diagnostics.extend(more.into_iter().flatten());
+        if has_errors { Err(OpenError::Faults(self.diagnostics)) } else { Ok(self.diagnostics) }
     }
 }
 

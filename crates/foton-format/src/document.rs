@@ -3,6 +3,8 @@
 //! It knows nothing about scenes. It is kept beside the scene so that an edited scene can be written back together
 //! with what was not understood. Entities and document type definitions are refused, so no file can unfold.
 
+use foton_input::{quoted, shown};
+
 use crate::diagnostic::Place;
 
 /// Elements nested deeper than this are refused; Mitsuba's own scenes stay below ten.
@@ -251,7 +253,22 @@ fn syntax_error(text: &str, error: &roxmltree::Error) -> (Place, String) {
         }
         _ => {
             let pos = error.pos();
-            let message = error.to_string();
+            let message = match error {
+                Error::DuplicatedNamespace(name, _) => {
+                    format!("the name space {} is there already", quoted(name))
+                }
+                Error::UnknownNamespace(name, _) => format!("the name space {} is not known", quoted(name)),
+                Error::UnexpectedCloseTag(expected, actual, _) => {
+                    format!("expected '{}' tag, not '{}'", shown(expected), shown(actual))
+                }
+                Error::UnknownEntityReference(name, _) => {
+                    format!("unknown entity reference {}", quoted(name))
+                }
+                Error::DuplicatedAttribute(name, _) => {
+                    format!("the attribute {} is there already", quoted(name))
+                }
+                other => other.to_string(),
+            };
             let message = message.strip_suffix(&format!(" at {pos}")).unwrap_or(&message);
             (Place { line: pos.row, column: pos.col }, format!("not well-formed XML: {message}"))
         }

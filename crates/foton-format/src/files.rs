@@ -1,14 +1,16 @@
-//! The files that a scene names: looked for folder by folder, read through the caller, hashed.
+//! The files that a scene names: looked for folder by folder, read through the caller, hashed, their memory counted.
 
 use std::collections::HashSet;
 use std::io;
 use std::path::PathBuf;
 
+use foton_input::shown_path;
 use foton_math::Cancel;
 
-use crate::ReadFile;
 use crate::diagnostic::{Place, Report};
 use crate::hash::Fnv1a;
+use crate::limits::Budget;
+use crate::{BYTES_PER_BYTE, ReadFile};
 
 /// Reads files and remembers which.
 pub(crate) struct Files<'a> {
@@ -17,11 +19,13 @@ pub(crate) struct Files<'a> {
     seen: HashSet<PathBuf>,
     /// The contents of all files, in the order in which they were first read.
     pub(crate) hash: Fnv1a,
+    /// What all of it may take.
+    pub(crate) budget: Budget,
 }
 
 impl<'a> Files<'a> {
-    pub(crate) fn new(read: &'a ReadFile<'a>, cancel: &'a Cancel) -> Self {
-        Self { read, cancel, seen: HashSet::new(), hash: Fnv1a::default() }
+    pub(crate) fn new(read: &'a ReadFile<'a>, cancel: &'a Cancel, budget: Budget) -> Self {
+        Self { read, cancel, seen: HashSet::new(), hash: Fnv1a::default(), budget }
     }
 
     /// What ends reading: from then on no file is read.
@@ -48,6 +52,12 @@ impl<'a> Files<'a> {
         for path in candidates(filename, place, report) {
             match (self.read)(&path) {
                 Ok(bytes) => {
+                    if let Err(message) =
+                        self.budget.take((bytes.len() as u64).saturating_mul(BYTES_PER_BYTE))
+                    {
+                        report.error(place, format!("cannot read {}: {message}", shown_path(&path)));
+                        return None;
+                    }
                     if self.seen.insert(path.clone()) {
                         self.hash.add(&bytes);
                     }
@@ -63,7 +73,7 @@ impl<'a> Files<'a> {
             }
         }
         if let Some((path, error)) = failure {
-            report.error(place, format!("cannot read {}: {error}", path.display()));
+            report.error(place, format!("cannot read {}: {error}", shown_path(&path)));
         }
         None
     }

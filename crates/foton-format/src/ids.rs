@@ -3,11 +3,12 @@
 //! As in Mitsuba 3, an id may be referred to before its element, from anywhere, and belongs to one element only. An
 //! `<alias>` gives an element a second id.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
+
+use foton_input::quoted;
 
 use crate::diagnostic::Report;
 use crate::document::{Attribute, Document, Element, NodeId};
-use crate::names::did_you_mean;
 use crate::properties::check_attributes;
 
 /// All elements of a document that have an id.
@@ -24,7 +25,7 @@ impl<'a> Ids<'a> {
             let Some(id) = element.attribute("id").filter(|id| !id.broken) else { continue };
             if let Some((_, first)) = elements.get(id.value.as_str()) {
                 let line = report.line(first.place, id.value_place);
-                report.error(id.value_place, format!("the id \"{}\" is taken since {line}", id.value));
+                report.error(id.value_place, format!("the id {} is taken since {line}", quoted(&id.value)));
             } else {
                 elements.insert(&id.value, (node, element));
             }
@@ -43,7 +44,7 @@ impl<'a> Ids<'a> {
         let (Some(id), Some(name)) = (alias.attribute("id"), alias.attribute("as")) else { return };
         if let Some((_, first)) = self.elements.get(name.value.as_str()) {
             let line = report.line(first.place, name.value_place);
-            report.error(name.value_place, format!("the id \"{}\" is taken since {line}", name.value));
+            report.error(name.value_place, format!("the id {} is taken since {line}", quoted(&name.value)));
         } else if let Some(target) = self.find(id, report) {
             self.elements.insert(&name.value, target);
         }
@@ -63,12 +64,11 @@ impl<'a> Ids<'a> {
         }
         let found = self.elements.get(id.value.as_str()).copied();
         if found.is_none() {
-            // A library of materials that is not there at all must not take minutes to report.
+            // In their order, so that of two that are as near always the same is named.
             let known = self.elements.keys().copied().filter(|_| self.elements.len() <= 1000);
-            let mut known: Vec<_> = known.collect();
-            known.sort_unstable();
-            let hint = did_you_mean(&id.value, known);
-            report.error(id.value_place, format!("unknown id \"{}\"{hint}", id.value));
+            let known: BTreeSet<_> = known.collect();
+            let hint = report.did_you_mean(&id.value, known);
+            report.error(id.value_place, format!("unknown id {}{hint}", quoted(&id.value)));
         }
         found
     }

@@ -7,12 +7,14 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use foton_input::{printable, shown_path};
 use foton_math::{Cancel, CancelReader, Rgb};
 use foton_scene::description::Bitmap;
 use image::{ImageDecoder, ImageFormat, ImageReader};
 
 use crate::diagnostic::Report;
 use crate::files::Files;
+use crate::limits::Budget;
 use crate::properties::Located;
 use crate::values::srgb_to_linear;
 
@@ -22,6 +24,12 @@ const MOST_PIXELS: u64 = 1 << 28;
 /// More pixels than this no byte of a file can hold: deflate unpacks 1,032 to 1, to at most eight pixels a byte, and the other
 /// formats less. A header that claims more is broken, and must not make us allocate what it claims.
 const MOST_PIXELS_PER_BYTE: u64 = 8 * 1032;
+
+/// Bytes of a pixel in a scene.
+const BYTES_PER_PIXEL: u64 = size_of::<Rgb>() as u64;
+
+/// The most characters of what a library says of a file.
+const LONGEST_REASON: usize = 160;
 
 /// Images read so far, by file, whether they are raw, and whether they are shares of light.
 #[derive(Default)]
@@ -56,50 +64,66 @@ fn read(
 ) -> Option<Bitmap> {
     let place = filename.place;
     let (path, bytes) = files.read(&filename.value, place, report)?;
-    let mut bitmap = match decode(&path, &bytes, raw, files.cancel()) {
+    let cancel = files.cancel();
+    let mut bitmap = match decode(&path, &bytes, raw, &mut files.budget, cancel) {
         Ok(bitmap) => bitmap,
         Err(message) => {
-            report.error(place, format!("cannot read {}: {message}", path.display()));
+            report.error(place, format!("cannot read {}: {message}", shown_path(&path)));
             return None;
         }
     };
     if bytes.starts_with(&JPEG_START) && is_cut_jpeg(&bytes) {
         let message =
-            format!("{} ends before its picture does: what is missing has no detail", path.display());
+            format!("{} ends before its picture does: what is missing has no detail", shown_path(&path));
         report.warning(place, message);
     }
     let outside = |c: &f32| !(0.0..=1.0).contains(c);
     if bitmap.pixels.iter().any(|p| !p.is_finite()) {
-        report.error(place, format!("{} has pixels that are not finite numbers", path.display()));
+        report.error(place, format!("{} has pixels that are not finite numbers", shown_path(&path)));
         return None;
     }
     if share && bitmap.pixels.iter().any(|p| p.to_array().iter().any(outside)) {
-        report.warning(place, format!("{} has pixels outside 0 to 1, they are cut to that", path.display()));
+        report
+            .warning(place, format!("{} has pixels outside 0 to 1, they are cut to that", shown_path(&path)));
         bitmap.pixels.iter_mut().for_each(|p| *p = p.map(|c| c.clamp(0.0, 1.0)));
     }
     if bitmap.pixels.iter().any(|p| p.to_array().iter().any(|c| *c < 0.0)) {
-        report.warning(place, format!("{} has negative pixels, they are black", path.display()));
+        report.warning(place, format!("{} has negative pixels, they are black", shown_path(&path)));
         bitmap.pixels.iter_mut().for_each(|p| *p = p.map(|c| c.max(0.0)));
     }
     Some(bitmap)
 }
 
-fn decode(path: &Path, bytes: &[u8], raw: bool, cancel: &Cancel) -> Result<Bitmap, String> {
+fn decode(
+    path: &Path,
+    bytes: &[u8],
+    raw: bool,
+    budget: &mut Budget,
+    cancel: &Cancel,
+) -> Result<Bitmap, String> {
     if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
-        return decode_exr(path, bytes, cancel);
+        return decode_exr(path, bytes, budget, cancel);
     }
     let Some(format) = format(path, bytes) else {
         return Err("it is no PNG, JPEG, BMP, TGA, PNM, Radiance HDR or EXR image".to_owned());
     };
     let mut reader = ImageReader::with_format(CancelReader::new(Cursor::new(bytes), cancel), format);
-    reader.no_limits();
-    let decoder = reader.into_decoder().map_err(|e| e.to_string())?;
+    let mut limits = image::Limits::no_limits();
+    limits.max_alloc = Some(budget.left());
+    reader.limits(limits);
+    let decoder = reader.into_decoder().map_err(said)?;
     let (width, height) = decoder.dimensions();
     check_size(width, height)?;
     if u64::from(width) * u64::from(height) / MOST_PIXELS_PER_BYTE > bytes.len() as u64 {
         return Err(format!("{width} × {height} pixels cannot be in {} bytes", bytes.len()));
     }
-    let image = image::DynamicImage::from_decoder(decoder).map_err(|e| e.to_string())?;
+    // As it is stored, and as we keep it; for some formats once more, as numbers of another kind.
+    let pixels = u64::from(width) * u64::from(height);
+    let colour = decoder.color_type();
+    let as_rgb = 3 * u64::from(colour.bytes_per_pixel() / colour.channel_count());
+    budget.check(pixels.saturating_mul(BYTES_PER_PIXEL + as_rgb).saturating_add(decoder.total_bytes()))?;
+    budget.take(pixels * BYTES_PER_PIXEL)?;
+    let image = image::DynamicImage::from_decoder(decoder).map_err(said)?;
     let linear = |encoded: f32| if raw { encoded } else { srgb_to_linear(f64::from(encoded)) as f32 };
     let pixels = match image.color() {
         image::ColorType::Rgb32F | image::ColorType::Rgba32F => {
@@ -153,20 +177,25 @@ fn is_cut_jpeg(bytes: &[u8]) -> bool {
     true
 }
 
-fn decode_exr(path: &Path, bytes: &[u8], cancel: &Cancel) -> Result<Bitmap, String> {
-    // EXR files are read by path; what the caller gave must be what lies there.
-    if std::fs::read(path).ok().as_deref() != Some(bytes) {
-        return Err("an EXR image must lie on the disk".to_owned());
-    }
-    let image = match foton_film::read_exr_unless(cancel, path) {
+/// What a library says of a file: it may quote that.
+fn said(error: impl std::fmt::Display) -> String {
+    printable(&error.to_string()).chars().take(LONGEST_REASON).collect()
+}
+
+fn decode_exr(path: &Path, bytes: &[u8], budget: &mut Budget, cancel: &Cancel) -> Result<Bitmap, String> {
+    let image = match foton_film::decode_exr(bytes, path, Some(budget.left()), cancel) {
         Ok((image, _)) => image,
         Err(foton_film::ReadError::Malformed { reason, .. }) => return Err(reason),
+        Err(foton_film::ReadError::TooLarge { takes, .. }) => {
+            return Err(budget.check(takes).err().unwrap_or_default());
+        }
         Err(foton_film::ReadError::NoRgb { channels, .. }) => {
             return Err(format!("it has no channels R, G and B, nor Y alone, only {channels}"));
         }
         Err(other) => return Err(other.to_string()),
     };
     check_size(image.width, image.height)?;
+    budget.take(image.pixels.len() as u64 * BYTES_PER_PIXEL)?;
     Ok(Bitmap { width: image.width, height: image.height, pixels: image.pixels })
 }
 

@@ -5,9 +5,13 @@
 
 use std::path::{Path, PathBuf};
 
+use foton_input::{shown, shown_path};
+
 use crate::diagnostic::{Place, Report};
 use crate::document::{Document, Element, NodeId};
 use crate::files::Files;
+use crate::limits::{Budget, Census, at_place};
+use crate::names::{OBJECT_TAGS, VALUE_TAGS};
 use crate::properties::{check_attributes, parse_attribute};
 use crate::substitute::Parameters;
 use crate::{upgrade, values};
@@ -43,7 +47,8 @@ pub(crate) fn expand(
     report: &mut Report,
 ) -> Expanded {
     let expanded = Expanded { document: document.clone(), stretches: Vec::new() };
-    let parameters = Parameters::new(defines);
+    let mut parameters = Parameters::new(defines);
+    parameters.allow(document);
     let mut walk = Walk { expanded, parameters, files, report, open: Vec::new(), files_included: 0 };
     let root = document.root();
     let old = document.element(root).is_some_and(|e| is_old(e, &mut Report::new("", Path::new(""))));
@@ -66,7 +71,7 @@ pub(crate) fn major_version(root: &Element, report: &mut Report) -> Option<u32> 
         let message = format!(
             "version {} is newer than {NEWEST}, the newest that foton knows, and the file is read as version {NEWEST}; \
              if it is one, write version=\"{NEWEST}.0.0\"",
-            attribute.value.trim()
+            shown(attribute.value.trim())
         );
         report.warning(attribute.value_place, message);
     }
@@ -152,7 +157,7 @@ impl Walk<'_, '_> {
             return nothing;
         };
         if self.open.iter().any(|(open, _)| *open == path) {
-            self.report.error(place, format!("{} includes itself", path.display()));
+            self.report.error(place, format!("{} includes itself", shown_path(&path)));
             return nothing;
         }
         let Some((root, old)) = self.parse(&path, bytes, place, node) else { return nothing };
@@ -179,20 +184,28 @@ impl Walk<'_, '_> {
         place: Place,
         include: NodeId,
     ) -> Option<(NodeId, bool)> {
-        let file = path.to_string_lossy();
+        let (file, in_words) = (path.to_string_lossy(), shown_path(path));
         let Ok(text) = String::from_utf8(bytes) else {
-            self.report.error(place, format!("cannot read {file}: the text is not UTF-8"));
+            self.report.error(place, format!("cannot read {in_words}: the text is not UTF-8"));
             return None;
         };
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        // Nothing is said of what stands in a file that is none of scenes: its words are nobody's business.
+        if !begins_as_scene(text) {
+            self.report
+                .error(place, format!("cannot read {in_words}: it does not begin as a part of a scene does"));
+            return None;
+        }
         let folder = path.parent().unwrap_or(Path::new(""));
         let lines_before = self.report.include(&file, folder, text, place);
-        let document = Document::parse(text).map_err(|(mut place, message)| {
+        let document = parse(text, &mut self.files.budget).map_err(|(mut place, message)| {
             place.line = place.line.saturating_add(lines_before);
             self.report.error(place, message);
         });
+        let document = document.ok()?;
+        self.parameters.allow(&document);
         let outermost = self.open.first().map_or(include, |(_, include)| *include);
-        let root = self.expanded.document.append(document.ok()?, lines_before);
+        let root = self.expanded.document.append(document, lines_before);
         let Some((first, root)) = root else {
             self.report.error(place, "the scene has more nodes than can be numbered");
             return None;
@@ -200,10 +213,34 @@ impl Walk<'_, '_> {
         self.expanded.stretches.push((first, outermost));
         let element = self.expanded.document.element(root)?;
         if element.attribute("version").is_none() {
-            let message = format!("<{}> needs the attribute \"version\"", element.name);
+            let message = format!("<{}> needs the attribute \"version\"", shown(&element.name));
             self.report.error(element.place, message);
             return None;
         }
         Some((root, is_old(element, self.report)))
     }
+}
+
+/// Parses a text of XML whose size is known to be bearable.
+pub(crate) fn parse(text: &str, budget: &mut Budget) -> Result<Document, (Place, String)> {
+    let census = Census::of(text).map_err(|(offset, message)| (at_place(text, offset), message))?;
+    budget.take(census.memory()).map_err(|message| (Place::default(), message))?;
+    Document::parse(text)
+}
+
+/// Whether the first element of a text is one that a scene has, by its tag alone.
+fn begins_as_scene(text: &str) -> bool {
+    let mut rest = text.trim_start();
+    while let Some((_, close)) =
+        [("<?", "?>"), ("<!--", "-->")].iter().find(|(open, _)| rest.starts_with(open))
+    {
+        let Some(end) = rest.find(close) else { return false };
+        rest = rest[end + close.len()..].trim_start();
+    }
+    // A document type is refused by its own name.
+    let Some(rest) = rest.strip_prefix('<').filter(|rest| !rest.starts_with("!DOCTYPE")) else {
+        return rest.starts_with("<!DOCTYPE");
+    };
+    let tag = &rest[..rest.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(rest.len())];
+    tag == "scene" || OBJECT_TAGS.contains(&tag) || VALUE_TAGS.contains(&tag)
 }

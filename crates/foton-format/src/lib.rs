@@ -28,6 +28,7 @@ mod ids;
 mod images;
 mod include;
 mod integrator;
+mod limits;
 mod materials;
 mod meshes;
 mod metals;
@@ -54,10 +55,10 @@ mod words;
 mod write;
 
 use std::cell::RefCell;
-use std::fs::File;
-use std::io::{self, Read};
+use std::io;
 use std::path::{Path, PathBuf};
 
+use foton_input::{Limit, Named};
 use foton_math::Cancel;
 use foton_scene::description::SceneDescription;
 
@@ -70,6 +71,7 @@ pub use write::write_scene;
 use diagnostic::Report;
 use files::Files;
 use hash::Fnv1a;
+use limits::Budget;
 use reader::Reader;
 
 /// Reads a file that a scene names.
@@ -92,40 +94,16 @@ impl Options {
         Self { cancel: Cancel::default(), ..self.clone() }
     }
 
-    /// Reads a file of the disk, or refuses it by its size alone.
-    fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
-        if let Some(limit) = self.memory
-            && let Ok(bytes) = std::fs::metadata(path).map(|file| file.len())
-            && bytes > SMALL
-            && bytes.saturating_mul(BYTES_PER_BYTE) > limit
-        {
-            let [takes, limit] = [bytes.saturating_mul(BYTES_PER_BYTE), limit].map(|b| b >> 20);
-            let message = format!("reading it takes up to {takes} MiB, {limit} MiB may be used");
-            return Err(io::Error::other(message));
-        }
-        self.read_to_end(&mut File::open(path)?)
-    }
-
-    /// All that a file holds, unless cancelled.
-    fn read_to_end(&self, file: &mut impl Read) -> io::Result<Vec<u8>> {
-        let mut bytes = Vec::new();
-        loop {
-            self.cancel.check().map_err(io::Error::other)?;
-            if file.by_ref().take(BLOCK).read_to_end(&mut bytes)? == 0 {
-                return Ok(bytes);
-            }
-        }
+    /// Reads a file of the disk, or refuses it by its kind or size; an error of some kind once cancelled.
+    fn read(&self, path: &Path, named: Named) -> io::Result<Vec<u8>> {
+        foton_input::read_file(path, named, Limit::new(self.memory, BYTES_PER_BYTE), &|| {
+            self.cancel.is_requested()
+        })
     }
 }
 
-/// Bytes that are read between two questions whether reading goes on.
-const BLOCK: u64 = 1 << 22;
-
 /// The most bytes that reading takes for each of a file, its own included; fuzzing holds all readers of meshes to that.
 const BYTES_PER_BYTE: u64 = 4;
-
-/// A file up to this size is never refused by it.
-const SMALL: u64 = 1 << 20;
 
 /// A scene as its file states it.
 #[derive(Clone, Debug)]
@@ -197,7 +175,9 @@ pub struct SceneNodes {
 pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
     let files = RefCell::new(Vec::new());
     let opened = open_with(path, options, &|file| {
-        let bytes = options.read(file)?;
+        // The file itself may be a pipe; what it names may not.
+        let named = if file == path { Named::ByUser } else { Named::ByFile };
+        let bytes = options.read(file, named)?;
         files.borrow_mut().push(file.to_owned());
         Ok(bytes)
     })?;
@@ -229,7 +209,7 @@ fn open_with(path: &Path, options: &Options, files: &ReadFile<'_>) -> Result<Ope
 }
 
 /// Reads a scene from memory. `name` stands in messages; `files` is asked for other files by the names in the
-/// scene; EXR images must lie on the disk by the same name.
+/// scene.
 ///
 /// # Errors
 /// As [`open`].
@@ -240,11 +220,12 @@ pub fn read_str(name: &str, xml: &str, files: &ReadFile<'_>, options: &Options) 
 fn read(mut report: Report, xml: &str, files: &ReadFile<'_>, options: &Options) -> Result<Opened, OpenError> {
     let text = xml.strip_prefix('\u{feff}').unwrap_or(xml);
     report.main_text(text);
-    let document = match Document::parse(text) {
+    let mut budget = Budget::new(options.memory);
+    let document = match include::parse(text, &mut budget) {
         Ok(document) => document,
         Err((place, message)) => return Err(report.fail(place, message)),
     };
-    let mut files = Files::new(files, &options.cancel);
+    let mut files = Files::new(files, &options.cancel, budget);
     let expanded = include::expand(&document, &options.defines, &mut files, &mut report);
     let mut reader = Reader::new(&expanded.document, files, report);
     reader.scene();

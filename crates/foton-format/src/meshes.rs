@@ -10,8 +10,10 @@
 //!
 //! In a file with normals for some corners only, Mitsuba leaves the others undefined; here they are computed.
 
+use std::cell::Cell;
 use std::collections::HashMap;
-use std::path::PathBuf;
+use std::hash::Hash;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -21,6 +23,7 @@ use foton_scene::description::Mesh;
 
 use crate::diagnostic::Report;
 use crate::files::Files;
+use crate::limits::Budget;
 use crate::obj::{Corner, NORMALS_MENDED, Obj, TEXTURES_MENDED};
 use crate::properties::Located;
 use crate::tally::Tally;
@@ -57,16 +60,49 @@ enum Contents {
     Mesh(Mesh),
 }
 
+/// What a file holds, once it is read.
+struct Read {
+    contents: Contents,
+    /// Whether a mesh was made of it.
+    has_mesh: Cell<bool>,
+}
+
+/// A file as it lies there.
+struct Source {
+    path: PathBuf,
+    bytes: Vec<u8>,
+}
+
+impl Contents {
+    /// Bytes of a mesh of that, at most.
+    fn mesh_bytes(&self) -> u64 {
+        const VERTEX: usize = size_of::<DVec3>() * 2 + size_of::<DVec2>();
+        let (vertices, triangles) = match self {
+            // Corners share vertices as a rule; there are as many at most.
+            Self::Obj(obj) => {
+                (obj.positions.len().max(obj.normals.len()).max(obj.textures.len()), obj.triangles.len())
+            }
+            Self::Mesh(mesh) => (mesh.positions.len(), mesh.triangles.len()),
+        };
+        (vertices * VERTEX + triangles * size_of::<[u32; 3]>()) as u64
+    }
+}
+
 /// A mesh and what was mended in it, or the first problem of a file.
 pub(crate) type Parsed = Result<(Mesh, Vec<Problem>), Problem>;
+
+/// The bits of a transform without its translation, of which computed normals depend; zeros where nothing does.
+type Linear = [u64; 9];
 
 /// The mesh files read so far.
 #[derive(Default)]
 pub(crate) struct Meshes {
     /// What each file holds; `None` if it could not be read, which was reported.
-    read: HashMap<(PathBuf, Format), Option<Rc<Contents>>>,
-    /// Meshes that do not depend on a transform.
-    built: HashMap<(PathBuf, Wanted), Arc<Mesh>>,
+    read: HashMap<(PathBuf, Format), Option<Rc<Read>>>,
+    /// The last file of several meshes: those come one after the other.
+    several: Option<(PathBuf, Rc<Source>)>,
+    /// Meshes by what they depend on.
+    built: HashMap<(PathBuf, Wanted, Linear), Arc<Mesh>>,
 }
 
 impl Meshes {
@@ -80,16 +116,28 @@ impl Meshes {
         report: &mut Report,
     ) -> Option<Arc<Mesh>> {
         let path = Files::key(&filename.value, filename.place, report);
-        let key = (path.clone(), wanted);
-        if let Some(mesh) = self.built.get(&key) {
+        let linear = to_world.matrix3.to_cols_array().map(f64::to_bits);
+        let keys = [Linear::default(), linear].map(|linear| (path.clone(), wanted, linear));
+        if let Some(mesh) = keys.iter().find_map(|key| self.built.get(key)) {
             return Some(Arc::clone(mesh));
         }
-        let contents = self
-            .read
-            .entry((path, wanted.format))
-            .or_insert_with(|| read(filename, wanted.format, files, report).map(Rc::new))
-            .clone()?;
-        let (mesh, depends_on_transform) = match &*contents {
+        let read = match self.read.get(&(path.clone(), wanted.format)) {
+            Some(known) => known.clone(),
+            None => {
+                let read = self.read_file(filename, &path, wanted.format, files, report);
+                self.read.entry((path, wanted.format)).or_insert(read.map(Rc::new)).clone()
+            }
+        };
+        let read = read?;
+        let Read { contents, has_mesh } = &*read;
+        // The first is part of what reading a file takes; for others a small file may stand many times.
+        if has_mesh.replace(true)
+            && let Err(message) = files.budget.take(contents.mesh_bytes())
+        {
+            report.error(filename.place, format!("cannot make one more mesh of this file: {message}"));
+            return None;
+        }
+        let (mesh, depends_on_transform) = match contents {
             Contents::Obj(obj) => {
                 let smooth = !wanted.face_normals && obj.triangles.iter().flatten().any(|c| c.normal == 0);
                 (build(obj, wanted, to_world, files.cancel()), smooth)
@@ -100,33 +148,55 @@ impl Meshes {
             }
         };
         let mesh = Arc::new(mesh);
-        if !depends_on_transform {
-            self.built.insert(key, Arc::clone(&mesh));
-        }
+        let [for_all, for_this] = keys;
+        self.built.insert(if depends_on_transform { for_this } else { for_all }, Arc::clone(&mesh));
         Some(mesh)
+    }
+
+    fn read_file(
+        &mut self,
+        filename: &Located<String>,
+        key: &Path,
+        format: Format,
+        files: &mut Files<'_>,
+        report: &mut Report,
+    ) -> Option<Read> {
+        let last = self.several.as_ref().filter(|(known, _)| known == key);
+        let file = match last {
+            Some((_, file)) => Rc::clone(file),
+            None => {
+                let (path, bytes) = files.read(&filename.value, filename.place, report)?;
+                Rc::new(Source { path, bytes })
+            }
+        };
+        if matches!(format, Format::Serialized(_)) {
+            self.several = Some((key.to_owned(), Rc::clone(&file)));
+        }
+        let cancel = files.cancel();
+        let contents = parse(&file.path, &file.bytes, format, (&mut files.budget, cancel), report)?;
+        Some(Read { contents, has_mesh: Cell::new(false) })
     }
 }
 
-fn read(
-    filename: &Located<String>,
+fn parse(
+    path: &Path,
+    bytes: &[u8],
     format: Format,
-    files: &mut Files<'_>,
+    (budget, cancel): (&mut Budget, &Cancel),
     report: &mut Report,
 ) -> Option<Contents> {
-    let (path, bytes) = files.read(&filename.value, filename.place, report)?;
-    let cancel = files.cancel();
     let one = |parsed: Parsed| match parsed {
         Ok((mesh, warnings)) => Ok((Contents::Mesh(mesh), warnings)),
         Err(problem) => Err(vec![problem]),
     };
     let contents = match format {
-        Format::Obj => Obj::parse(&bytes, cancel).map(|mut obj| {
+        Format::Obj => Obj::parse(bytes, cancel).map(|mut obj| {
             let warnings = std::mem::take(&mut obj.warnings);
             (Contents::Obj(obj), warnings)
         }),
-        Format::Ply => one(ply::parse(&bytes, cancel)),
-        Format::Stl => one(stl::parse(&bytes, cancel)),
-        Format::Serialized(number) => one(serialized::parse(&bytes, number, cancel)),
+        Format::Ply => one(ply::parse(bytes, cancel)),
+        Format::Stl => one(stl::parse(bytes, cancel)),
+        Format::Serialized(number) => one(serialized::parse(bytes, number, budget, cancel)),
     };
     let file = path.to_string_lossy();
     match contents {
@@ -180,42 +250,32 @@ pub(crate) fn mend(mesh: &mut Mesh, cancel: &Cancel) -> Vec<Problem> {
     normals.into_iter().chain(textures).collect()
 }
 
-/// What tells a vertex from others.
-pub(crate) trait VertexKey: Copy + PartialEq {
-    /// All of it but the position; the same for what is equal.
-    fn bits(self) -> [u64; 2];
-}
-
-impl VertexKey for Corner {
-    fn bits(self) -> [u64; 2] {
-        [u64::from(self.texture), u64::from(self.normal)]
-    }
-}
-
-/// Vertices that corners share, found by chains of those with the same position.
+/// Vertices that corners share, found by short chains of those with the same position, and by their keys where there are more:
+/// one position can have any number of normals and texture coordinates.
 pub(crate) struct Vertices<K> {
     first: Vec<u32>,
     next: Vec<u32>,
-    /// Those at positions whose chains are full.
-    crowded: HashMap<(u32, [u64; 2]), u32>,
+    /// Vertices that stand in no chain.
+    others: HashMap<K, u32>,
     /// What tells each vertex from others.
     pub(crate) keys: Vec<K>,
 }
 
 const NONE: u32 = u32::MAX;
 
-/// Vertices of a chain at most: to go through those of one position for each corner there takes the square of their number.
-const LONGEST_CHAIN: usize = 32;
+/// The most vertices of a chain; those of real meshes have fewer.
+const LONGEST_CHAIN: usize = 16;
 
-impl<K: VertexKey> Vertices<K> {
+impl<K: Copy + Eq + Hash> Vertices<K> {
     pub(crate) fn new(positions: usize) -> Self {
-        let (first, keys) = (vec![NONE; positions], Vec::with_capacity(positions));
-        Self { first, next: Vec::new(), crowded: HashMap::new(), keys }
+        let keys = Vec::with_capacity(positions);
+        Self { first: vec![NONE; positions], next: Vec::new(), others: HashMap::new(), keys }
     }
 
     /// The vertex with that key, which has that position.
     pub(crate) fn index(&mut self, position: u32, key: K) -> u32 {
         let slot = &mut self.first[position as usize];
+        let new = u32::try_from(self.keys.len()).unwrap_or(NONE);
         let (mut at, mut length) = (*slot, 0);
         while at != NONE {
             if self.keys[at as usize] == key {
@@ -224,11 +284,11 @@ impl<K: VertexKey> Vertices<K> {
             at = self.next[at as usize];
             length += 1;
         }
-        let new = u32::try_from(self.keys.len()).unwrap_or(NONE);
         if length < LONGEST_CHAIN {
-            self.next.push(std::mem::replace(slot, new));
+            self.next.push(*slot);
+            *slot = new;
         } else {
-            let known = *self.crowded.entry((position, key.bits())).or_insert(new);
+            let known = *self.others.entry(key).or_insert(new);
             if known != new {
                 return known;
             }
@@ -310,41 +370,6 @@ pub(crate) fn smooth_normals(
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    use std::cell::Cell;
-
-    thread_local! {
-        static COMPARED: Cell<u64> = const { Cell::new(0) };
-    }
-
-    /// Counts how often it is compared.
-    #[derive(Clone, Copy)]
-    struct Counted(u64);
-
-    impl PartialEq for Counted {
-        fn eq(&self, other: &Self) -> bool {
-            COMPARED.set(COMPARED.get() + 1);
-            self.0 == other.0
-        }
-    }
-
-    impl VertexKey for Counted {
-        fn bits(self) -> [u64; 2] {
-            [self.0, 0]
-        }
-    }
-
-    #[test]
-    fn very_many_vertices_at_one_position_are_told_apart_in_time() {
-        const COUNT: u64 = 20_000;
-        let mut vertices = Vertices::new(2);
-        for _ in 0..2 {
-            let of_one: Vec<u32> = (0..COUNT).map(|key| vertices.index(1, Counted(key))).collect();
-            assert!(of_one.into_iter().eq(0..COUNT as u32));
-        }
-        assert_eq!(vertices.index(0, Counted(7)), COUNT as u32);
-        assert!(COMPARED.get() < 100 * COUNT, "{}", COMPARED.get());
-    }
 
     const DIAGONAL: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
@@ -449,5 +474,20 @@ mod tests {
     fn a_vertex_of_nothing_but_degenerate_faces_has_some_normal() {
         let found = mesh("v 0 0 0\nv 1 0 0\nf 1 1 2\n", false, DAffine3::IDENTITY);
         assert_eq!(found.normals, [DVec3::X; 2]);
+    }
+
+    #[test]
+    fn a_position_with_very_many_normals_is_read_in_linear_time() {
+        let mut vertices = Vertices::new(2);
+        let keys = (0..200_000_u32).map(|normal| Corner { position: 1, texture: 0, normal });
+        let numbers: Vec<u32> = keys.clone().map(|key| vertices.index(1, key)).collect();
+        assert!(numbers.iter().copied().eq(0..200_000));
+        assert!(keys.map(|key| vertices.index(1, key)).eq(0..200_000));
+        // No more are looked through one after the other.
+        let mut chain = vec![vertices.first[1]];
+        while let Some(&next) = vertices.next.get(chain[chain.len() - 1] as usize) {
+            chain.push(next);
+        }
+        assert_eq!(chain.len(), LONGEST_CHAIN + 1);
     }
 }

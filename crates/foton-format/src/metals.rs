@@ -1,5 +1,6 @@
 //! Conductors by the names that scene files give them.
 
+use foton_input::quoted;
 use foton_math::Rgb;
 use foton_scene::metals::METALS;
 
@@ -13,7 +14,7 @@ pub(crate) fn find(name: &str) -> Result<(Rgb, Rgb), String> {
         Some((_, eta, k)) => Ok((Rgb::from_array(*eta), Rgb::from_array(*k))),
         None => {
             let names = METALS.iter().map(|(known, ..)| *known).chain(["none"]);
-            Err(format!("no conductor called \"{name}\" is known{}", did_you_mean(name, names)))
+            Err(format!("no conductor called {} is known{}", quoted(name), did_you_mean(name, names)))
         }
     }
 }

@@ -19,6 +19,7 @@
 //!   What then would be invisible by `Tr` is opaque all the same.
 //! - `d 0` in all materials of a file.
 
+use foton_input::quoted;
 use foton_math::{Cancel, Rgb};
 use foton_scene::description::{Bsdf, Colour, Material, MicrofacetDistribution, Microfacets};
 
@@ -58,7 +59,7 @@ pub(crate) fn parse(bytes: &[u8], cancel: &Cancel) -> (Vec<Entry>, Vec<Problem>)
     let entries = entries.collect();
     warnings.extend(assumed.into_iter().map(|(what, place, name, more)| {
         let more = if more == 0 { String::new() } else { format!(" and of {more} more") };
-        (place, what.message(&format!("\"{}\"{more}", shown(name.as_bytes()))))
+        (place, what.message(&format!("{}{more}", quoted(&name))))
     }));
     (entries, warnings)
 }
@@ -168,7 +169,7 @@ impl Statements {
             b"Tr" => self.tr = Some(share(words)?),
             b"illum" => self.illum = (keyword.place, number(keyword, words)? as u32),
             map if map.starts_with(b"map_") || matches!(map, b"bump" | b"disp" | b"decal" | b"norm") => {
-                let message = format!("\"{}\" of \"{}\" is not read", shown(map), self.name);
+                let message = format!("\"{}\" of {} is not read", shown(map), quoted(&self.name));
                 return Err((keyword.place, message));
             }
             _ => {}

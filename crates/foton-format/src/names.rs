@@ -166,6 +166,7 @@ pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) 
     let budget = (letters / 3).max(1);
     known
         .into_iter()
+        .filter(|candidate| candidate.chars().count().abs_diff(letters) <= budget)
         .map(|candidate| (edits(name, candidate), candidate))
         .filter(|&(edits, candidate)| edits <= budget && edits < candidate.chars().count())
         .min_by_key(|&(edits, _)| edits)

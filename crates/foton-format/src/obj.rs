@@ -38,7 +38,7 @@ pub(crate) struct Obj {
 }
 
 /// A corner of a face.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Corner {
     /// Index of the position, from 0.
     pub(crate) position: u32,
@@ -92,7 +92,14 @@ impl Obj {
         } else if parser.problems.is_empty() && parser.obj.triangles.is_empty() {
             parser.problems.push((Place::default(), "the file has no faces".to_owned()));
         }
-        if parser.problems.is_empty() { Ok(parser.finish(cancel)) } else { Err(parser.problems) }
+        match parser.problems.is_empty() {
+            true => Ok(parser.finish(cancel)),
+            // Nothing is quoted of a file that is none of these.
+            false if !is_of_kind(bytes, cancel) => {
+                Err(vec![(Place::default(), "this is no OBJ file".to_owned())])
+            }
+            false => Err(parser.problems),
+        }
     }
 
     /// Corners whose normal is zero have none; how many normals those are.
@@ -120,6 +127,65 @@ impl Obj {
         }
     }
 }
+
+/// Whether a file begins as an OBJ file does: its first statements are such that one has. An empty one may have been cut.
+fn is_of_kind(bytes: &[u8], cancel: &Cancel) -> bool {
+    const KNOWN: &[&[u8]] = &[
+        b"v",
+        b"vn",
+        b"vt",
+        b"vp",
+        b"f",
+        b"fo",
+        b"l",
+        b"p",
+        b"g",
+        b"o",
+        b"s",
+        b"mg",
+        b"mtllib",
+        b"usemtl",
+        b"maplib",
+        b"usemap",
+        b"bevel",
+        b"c_interp",
+        b"d_interp",
+        b"lod",
+        b"shadow_obj",
+        b"trace_obj",
+        b"ctech",
+        b"stech",
+        b"cstype",
+        b"deg",
+        b"bmat",
+        b"step",
+        b"curv",
+        b"curv2",
+        b"surf",
+        b"parm",
+        b"trim",
+        b"hole",
+        b"scrv",
+        b"sp",
+        b"end",
+        b"con",
+        b"call",
+        b"csh",
+    ];
+    let (mut words, mut left) = (Words::new(bytes, cancel), FIRST_STATEMENTS);
+    while left > 0 && words.next_line() {
+        if let Some(keyword) = words.next() {
+            if !KNOWN.contains(&keyword.text) {
+                return false;
+            }
+            left -= 1;
+        }
+    }
+    true
+}
+
+/// How many statements say whether a file is of this kind.
+const FIRST_STATEMENTS: usize = 20;
 
 /// How many statements of each kind a file has.
 #[derive(Clone, Copy, Default)]

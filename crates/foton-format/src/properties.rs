@@ -3,12 +3,15 @@
 //! Whoever reads a plugin takes from here what it knows; what nobody took is reported at the end, with the nearest
 //! name that was asked for. References are followed here.
 
+use std::collections::HashSet;
+
+use foton_input::{quoted, shown};
 use foton_math::glam::{DAffine3, DVec3};
 
 use crate::diagnostic::{Place, Report};
 use crate::document::{Attribute, Document, Element, NodeId};
 use crate::ids::Ids;
-use crate::names::{OBJECT_TAGS, VALUE_TAGS, did_you_mean};
+use crate::names::{OBJECT_TAGS, VALUE_TAGS};
 use crate::{transform, values};
 
 /// The contents of one plugin's element.
@@ -19,6 +22,8 @@ pub(crate) struct Properties<'a> {
     /// Where the plugin's element stands.
     pub(crate) place: Place,
     values: Vec<Value<'a>>,
+    /// The names of all values.
+    names: HashSet<&'a str>,
     objects: Vec<Object<'a>>,
     asked: Vec<&'static str>,
 }
@@ -60,8 +65,15 @@ impl<'a> Properties<'a> {
         report: &mut Report,
     ) -> Self {
         let place = document.element(node).map_or_else(Place::default, |e| e.place);
-        let mut properties =
-            Self { document, subject, place, values: Vec::new(), objects: Vec::new(), asked: Vec::new() };
+        let mut properties = Self {
+            document,
+            subject,
+            place,
+            values: Vec::new(),
+            names: HashSet::new(),
+            objects: Vec::new(),
+            asked: Vec::new(),
+        };
         for (child, element) in document.elements_in(node) {
             properties.add(ids, child, element, report);
         }
@@ -97,10 +109,11 @@ impl<'a> Properties<'a> {
             if let Some((_, inner)) = self.document.elements_in(node).next()
                 && tag != "transform"
             {
-                report.error(inner.place, format!("<{}> cannot stand inside <{tag}>", inner.name));
+                report.error(inner.place, format!("<{}> cannot stand inside <{tag}>", shown(&inner.name)));
             }
-            if complete && self.values.iter().any(|v| v.name == name) {
-                report.error(element.place, format!("\"{name}\" of \"{}\" is given twice", self.subject));
+            if complete && !self.names.insert(name) {
+                report
+                    .error(element.place, format!("{} of \"{}\" is given twice", quoted(name), self.subject));
             } else if complete {
                 self.values.push(Value { name, node, element, taken: false });
             }
@@ -235,7 +248,7 @@ impl<'a> Properties<'a> {
     pub(crate) fn refuse(&mut self, names: &[&'static str], report: &mut Report) {
         for value in self.values.iter_mut().filter(|v| names.contains(&v.name)) {
             value.taken = true;
-            let message = format!("\"{}\" of \"{}\" is not supported yet", value.name, self.subject);
+            let message = format!("{} of \"{}\" is not supported yet", quoted(value.name), self.subject);
             report.error(value.element.place, message);
         }
         self.asked.extend(names);
@@ -245,9 +258,9 @@ impl<'a> Properties<'a> {
     pub(crate) fn finish(self, report: &mut Report) {
         let subject = self.subject;
         for value in self.values.iter().filter(|v| !v.taken) {
-            let hint = did_you_mean(value.name, self.asked.iter().copied());
+            let hint = report.did_you_mean(value.name, self.asked.iter().copied());
             let place = value.element.value_place("name");
-            report.warning(place, format!("unknown property \"{}\" of \"{subject}\"{hint}", value.name));
+            report.warning(place, format!("unknown property {} of \"{subject}\"{hint}", quoted(value.name)));
         }
         for object in self.objects.iter().filter(|o| !o.taken) {
             let tag = &object.element.name;
@@ -258,10 +271,11 @@ impl<'a> Properties<'a> {
     /// Reports only those values not taken whose names are close to known ones.
     pub(crate) fn finish_leniently(self, report: &mut Report) {
         for value in self.values.iter().filter(|v| !v.taken) {
-            let hint = did_you_mean(value.name, self.asked.iter().copied());
+            let hint = report.did_you_mean(value.name, self.asked.iter().copied());
             if !hint.is_empty() {
                 let place = value.element.value_place("name");
-                let message = format!("unknown property \"{}\" of \"{}\"{hint}", value.name, self.subject);
+                let message =
+                    format!("unknown property {} of \"{}\"{hint}", quoted(value.name), self.subject);
                 report.warning(place, message);
             }
         }
@@ -283,8 +297,8 @@ fn report_tag(element: &Element, report: &mut Report) {
                 .chain(OBJECT_TAGS)
                 .copied()
                 .chain(["default", "ref", "include", "alias", "path"]);
-            let hint = did_you_mean(tag, known);
-            report.error(element.place, format!("unknown element <{tag}>{hint}"));
+            let hint = report.did_you_mean(tag, known);
+            report.error(element.place, format!("unknown element <{}>{hint}", shown(tag)));
         }
     }
 }
@@ -296,13 +310,16 @@ pub(crate) fn check_attributes(
     optional: &[&'static str],
     report: &mut Report,
 ) -> bool {
-    let tag = &element.name;
+    let tag = shown(&element.name);
     let known = || required.iter().chain(optional).copied();
     let mut complete = true;
     for attribute in element.attributes.iter().filter(|a| !known().any(|k| k == a.name)) {
         complete = false;
-        let hint = did_you_mean(&attribute.name, known());
-        report.error(attribute.place, format!("unknown attribute \"{}\" of <{tag}>{hint}", attribute.name));
+        let hint = report.did_you_mean(&attribute.name, known());
+        report.error(
+            attribute.place,
+            format!("unknown attribute {} of <{tag}>{hint}", quoted(&attribute.name)),
+        );
     }
     // One misspelt attribute is one problem.
     if complete && let Some(missing) = required.iter().find(|r| element.attribute(r).is_none()) {

@@ -1,7 +1,10 @@
 //! Walks a `<scene>` and fills a description; what each plugin means is in the file of its kind.
 
 use std::collections::HashMap;
+use std::path::PathBuf;
+use std::rc::Rc;
 
+use foton_input::{printable, quoted, shown};
 use foton_scene::description::SceneDescription;
 
 use crate::SceneNodes;
@@ -16,6 +19,7 @@ use crate::materials::Materials;
 use crate::meshes::Meshes;
 use crate::names::{Plugins, did_you_mean};
 use crate::properties::{Properties, check_attributes};
+use crate::spectrum::Spectrum;
 use crate::textures::Textures;
 
 /// What is known while a scene is read.
@@ -28,6 +32,8 @@ pub(crate) struct Reader<'a> {
     pub(crate) images: Images,
     pub(crate) textures: Textures,
     pub(crate) materials: Materials,
+    /// Spectra of files; `None` for one that cannot be read, which was reported.
+    pub(crate) spectra: HashMap<PathBuf, Option<Rc<Spectrum>>>,
     pub(crate) description: SceneDescription,
     pub(crate) suggested: Suggested,
     pub(crate) nodes: SceneNodes,
@@ -47,6 +53,7 @@ impl<'a> Reader<'a> {
             images: Images::default(),
             textures: Textures::default(),
             materials: Materials::default(),
+            spectra: HashMap::new(),
             description: SceneDescription::default(),
             suggested: Suggested::default(),
             nodes: SceneNodes::default(),
@@ -90,6 +97,9 @@ impl<'a> Reader<'a> {
             if self.files.cancel().is_requested() {
                 return;
             }
+            if self.report.is_full() {
+                break;
+            }
             self.shape(shape.node);
         }
         for emitter in emitters.iter().filter(|e| self.loose_areas.get(&e.node) == Some(&false)) {
@@ -106,7 +116,7 @@ impl<'a> Reader<'a> {
     fn check_root(&mut self, root: NodeId) -> bool {
         let Some(element) = self.document.element(root) else { return false };
         if element.name != "scene" {
-            let message = format!("the outermost element is <{}>, not <scene>", element.name);
+            let message = format!("the outermost element is <{}>, not <scene>", shown(&element.name));
             self.report.error(element.place, message);
             return false;
         }
@@ -128,18 +138,30 @@ impl<'a> Reader<'a> {
             return Some(known);
         }
         let message = if plugins.elsewhere.contains(&name) {
-            format!("{kind} \"{name}\" is not supported yet")
+            format!("{kind} {} is not supported yet", quoted(name))
         } else {
             let hint = did_you_mean(name, plugins.supported.iter().chain(plugins.elsewhere).copied());
-            format!("unknown {kind} \"{name}\"{hint}")
+            format!("unknown {kind} {}{hint}", quoted(name))
         };
         self.report.error(attribute.value_place, message);
         None
     }
 
-    /// The id of an element, or `kind` and the number in its list.
+    /// The id of an element, or `kind` and the number in its list. What is not printable in an id is escaped, and a very long one
+    /// is cut and ends in the number, so that names can be shown wherever a scene is.
     pub(crate) fn name(&self, element: &Element, kind: &str, number: usize) -> String {
-        let id = element.attribute("id").map(|id| id.value.clone());
-        id.unwrap_or_else(|| format!("{kind}-{number}"))
+        let id = element.attribute("id");
+        id.map_or_else(|| format!("{kind}-{number}"), |id| name_of(&id.value, number))
+    }
+}
+
+/// The most characters of a name in a scene.
+const LONGEST_NAME: usize = 200;
+
+/// A name of a file as it stands in the scene: printable and of bearable length. `number` tells it from others that are cut.
+pub(crate) fn name_of(name: &str, number: usize) -> String {
+    match name.char_indices().nth(LONGEST_NAME) {
+        Some((end, _)) => format!("{}…{number}", printable(&name[..end])),
+        None => printable(name).into_owned(),
     }
 }

@@ -1,5 +1,6 @@
 //! `<sensor>`, `<film>` and `<rfilter>`: a perspective camera, its image size and filter.
 
+use foton_input::quoted;
 use foton_math::glam::{DAffine3, DMat3};
 use foton_scene::description::{Crop, Filter, FovAxis, SensorDescription};
 
@@ -103,7 +104,7 @@ impl Reader<'_> {
         let number = text.strip_suffix("mm").unwrap_or(text).trim().parse::<f64>();
         let length = number.ok().filter(|mm| mm.is_finite() && *mm > 0.0);
         if length.is_none() {
-            let message = format!("\"{}\" is not a focal length such as 50mm", focal.value);
+            let message = format!("{} is not a focal length such as 50mm", quoted(&focal.value));
             self.report.error(focal.place, message);
         }
         length

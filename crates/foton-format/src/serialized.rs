@@ -11,6 +11,7 @@ use foton_math::glam::{DVec2, DVec3};
 use foton_scene::description::Mesh;
 
 use crate::diagnostic::Place;
+use crate::limits::Budget;
 use crate::meshes::{self, Parsed};
 
 const MAGIC: u16 = 0x041c;
@@ -23,17 +24,22 @@ const BLOCK: u64 = 1 << 20;
 /// Deflate packs at most this many bytes into one.
 const DENSEST: u64 = 1032;
 
+/// The longest name of a mesh.
+const LONGEST_NAME: usize = 1 << 16;
+
+const TOO_SHORT: &str = "the file is too short for what it claims to hold";
+
 /// Reads the mesh with that number, from 0.
 ///
 /// # Errors
 /// The first problem of the file, or that it has not as many meshes.
-pub(crate) fn parse(bytes: &[u8], shape_index: u32, cancel: &Cancel) -> Parsed {
-    let mut mesh = mesh(bytes, shape_index, cancel).map_err(|message| (Place::default(), message))?;
+pub(crate) fn parse(bytes: &[u8], shape_index: u32, budget: &mut Budget, cancel: &Cancel) -> Parsed {
+    let mut mesh = mesh(bytes, shape_index, budget, cancel).map_err(|message| (Place::default(), message))?;
     let warnings = meshes::mend(&mut mesh, cancel);
     Ok((mesh, warnings))
 }
 
-fn mesh(bytes: &[u8], shape_index: u32, cancel: &Cancel) -> Result<Mesh, String> {
+fn mesh(bytes: &[u8], shape_index: u32, budget: &mut Budget, cancel: &Cancel) -> Result<Mesh, String> {
     let version = version(bytes)?;
     let start = if shape_index == 0 { 0 } else { offset(bytes, version, shape_index)? };
     let part = usize::try_from(start).ok().and_then(|s| bytes.get(s..)).unwrap_or_default();
@@ -44,7 +50,7 @@ fn mesh(bytes: &[u8], shape_index: u32, cancel: &Cancel) -> Result<Mesh, String>
         is_double: false,
         cancel,
     };
-    stream.mesh(version)
+    stream.mesh(version, budget)
 }
 
 /// The version in the header of a file or of a mesh in it.
@@ -86,14 +92,14 @@ struct Stream<'a> {
 }
 
 impl Stream<'_> {
-    fn mesh(&mut self, version: u16) -> Result<Mesh, String> {
+    fn mesh(&mut self, version: u16, budget: &mut Budget) -> Result<Mesh, String> {
         let flags = u32::from_le_bytes(self.array()?);
         if version == 4 {
-            // The name of the mesh.
-            for read in 0.. {
-                self.cancel.check_at(read).map_err(|cancelled| cancelled.to_string())?;
-                if self.array::<1>()? == [0] {
-                    break;
+            let mut length = 0;
+            while self.array::<1>()? != [0] {
+                length += 1;
+                if length > LONGEST_NAME {
+                    return Err("the name of a mesh does not end".to_owned());
                 }
             }
         }
@@ -105,8 +111,17 @@ impl Stream<'_> {
         if vertices > u64::from(u32::MAX) {
             return Err("the mesh has more vertices than can be numbered".to_owned());
         }
-        let positions: Vec<DVec3> = self.vectors(vertices)?;
         let has = |flag| flags & flag != 0;
+        // What it claims, as far as the file can hold it; each part is there twice while it is unpacked.
+        let [normals, textures, colours] =
+            [HAS_NORMALS, HAS_TEXTURE_COORDINATES, HAS_COLOURS].map(|flag| u64::from(has(flag)));
+        let each = 24 * (1 + normals + 3 * colours) + 16 * textures + 32;
+        let takes = vertices.saturating_mul(each).saturating_add(faces.saturating_mul(24));
+        if takes / 8 > self.most {
+            return Err(TOO_SHORT.to_owned());
+        }
+        budget.take(takes)?;
+        let positions: Vec<DVec3> = self.vectors(vertices)?;
         let normals = if has(HAS_NORMALS) { self.vectors(vertices)? } else { Vec::new() };
         let mut texture_coordinates = Vec::new();
         if has(HAS_TEXTURE_COORDINATES) {
@@ -152,7 +167,7 @@ impl Stream<'_> {
 
     fn bytes(&mut self, count: u64) -> Result<Vec<u8>, String> {
         if count > self.most {
-            return Err("the file is too short for what it claims to hold".to_owned());
+            return Err(TOO_SHORT.to_owned());
         }
         let mut bytes = Vec::new();
         while (bytes.len() as u64) < count {

@@ -3,6 +3,7 @@
 //! As in Mitsuba 3: values are interpolated between the stated wavelengths and zero outside them; shares of light and
 //! indices of refraction are seen under D65, emitted light as it is.
 
+use foton_input::quoted;
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
 
@@ -16,9 +17,9 @@ impl Spectrum {
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         let pairs = text.split(|c: char| c == ',' || c.is_whitespace()).filter(|t| !t.is_empty());
         let pair = |pair: &str| {
-            let (wavelength, value) = pair
-                .split_once(':')
-                .ok_or_else(|| format!("\"{pair}\" is not a wavelength with its value, such as 550:0.5"))?;
+            let (wavelength, value) = pair.split_once(':').ok_or_else(|| {
+                format!("{} is not a wavelength with its value, such as 550:0.5", quoted(pair))
+            })?;
             Ok((values::number(wavelength)?, values::number(value)?))
         };
         Self::new(pairs.map(pair).collect::<Result<_, String>>()?)
@@ -26,10 +27,12 @@ impl Spectrum {
 
     /// A file: a wavelength and a value a line; lines that begin with `#` are comments.
     pub(crate) fn parse_file(text: &str) -> Result<Self, String> {
-        let lines = text.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with('#'));
-        let pair = |line: &str| match values::numbers(line)?[..] {
-            [wavelength, value] => Ok((wavelength, value)),
-            ref other => Err(format!("a line has a wavelength and a value, not {} numbers", other.len())),
+        // Nothing of a file is quoted that may be none of spectra.
+        let lines =
+            (1..).zip(text.lines().map(str::trim)).filter(|(_, l)| !l.is_empty() && !l.starts_with('#'));
+        let pair = |(number, line): (usize, &str)| match values::numbers(line).as_deref() {
+            Ok(&[wavelength, value]) => Ok((wavelength, value)),
+            _ => Err(format!("it is no spectrum: line {number} is not a wavelength and a value")),
         };
         Self::new(lines.map(pair).collect::<Result<_, String>>()?)
     }

@@ -45,8 +45,8 @@ pub(crate) fn parse(bytes: &[u8], cancel: &Cancel) -> Parsed {
         warnings.push((Place::default(), message));
         binary(bytes, triangles, cancel)?
     } else if bytes.len() < HEADER || stated > room / TRIANGLE {
-        let message = format!("the file is too short for {stated} triangles, or no STL file");
-        return Err((Place::default(), message));
+        let message = "the file is too short for the triangles that it states, or no STL file";
+        return Err((Place::default(), message.to_owned()));
     } else {
         let beyond = room - stated * TRIANGLE;
         if beyond >= TRIANGLE {
@@ -65,8 +65,8 @@ pub(crate) fn parse(bytes: &[u8], cancel: &Cancel) -> Parsed {
 
 /// Whether a file begins as text does.
 fn says_solid(bytes: &[u8]) -> bool {
-    let start = without_mark(bytes).trim_ascii_start().get(..5);
-    start.is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
+    let word = without_mark(bytes).trim_ascii_start().split(u8::is_ascii_whitespace).next();
+    word.is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
 }
 
 fn has_bytes_of_no_text(bytes: &[u8]) -> bool {

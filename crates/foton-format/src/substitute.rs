@@ -4,110 +4,167 @@
 //! also overrules the default. Of two defaults the first holds. The longest known name after a `$` is meant, so `$r`
 //! may be followed by other letters. `\$` is a plain dollar sign.
 
-use crate::diagnostic::{Place, Report};
-use crate::document::{Attribute, Element};
-use crate::names::{did_you_mean, nearest};
+use std::collections::BTreeMap;
+use std::ops::Bound;
 
-/// A parameter with its value.
+use foton_input::{quoted, shown};
+
+use crate::diagnostic::{Place, Report};
+use crate::document::{Attribute, Document, Element};
+
+/// How long the values of all attributes may become together: so much for any scene, and so many times as long as they were.
+/// Values that name others twice, and so on, would double at every step.
+const MOST_BYTES: usize = 8 << 20;
+const MOST_TIMES: usize = 4;
+
+/// Among more parameters than these the nearest name is not looked for.
+const MOST_NAMES: usize = 1000;
+
+/// A parameter.
 struct Parameter {
-    name: String,
     value: String,
     from_outside: bool,
     meant_by_file: bool,
 }
 
 /// All parameters known so far.
-pub(crate) struct Parameters(Vec<Parameter>);
+pub(crate) struct Parameters {
+    /// By name, in their order: see [`Self::longest`].
+    known: BTreeMap<String, Parameter>,
+    /// Bytes that values with parameters in them may still fill.
+    left: usize,
+    /// Whether that was too little once, which is said only once.
+    exhausted: bool,
+}
 
 impl Parameters {
     /// Those given from outside.
     pub(crate) fn new(defines: &[(String, String)]) -> Self {
-        let mut parameters: Vec<Parameter> = Vec::new();
-        for (name, value) in defines {
-            parameters.retain(|p| p.name != *name);
-            parameters.push(Parameter {
-                name: name.clone(),
-                value: value.clone(),
-                from_outside: true,
-                meant_by_file: false,
-            });
-        }
-        Self(parameters)
+        let given =
+            |value: &String| Parameter { value: value.clone(), from_outside: true, meant_by_file: false };
+        let known = defines.iter().map(|(name, value)| (name.clone(), given(value))).collect();
+        Self { known, left: MOST_BYTES, exhausted: false }
+    }
+
+    /// Lets values become longer, for those of a document that is read.
+    pub(crate) fn allow(&mut self, document: &Document) {
+        let values = document.elements().flat_map(|(_, element)| &element.attributes);
+        let bytes: usize = values.map(|attribute| attribute.value.len()).sum();
+        self.left = self.left.saturating_add(MOST_TIMES.saturating_mul(bytes));
     }
 
     /// Replaces every `$name` in an element, and learns what a `<default>` says. To be called in the order of the
     /// file. Attributes with an unknown name are marked broken.
     pub(crate) fn apply(&mut self, element: &mut Element, report: &mut Report) {
-        for attribute in &mut element.attributes {
-            replace(attribute, &mut self.0, report);
+        for attribute in element.attributes.iter_mut().filter(|a| a.value.contains('$')) {
+            self.replace(attribute, report);
         }
         if element.name == "default" {
-            add_default(element, &mut self.0, report);
+            self.add_default(element, report);
         }
     }
 
     /// Reports parameters from outside that the file has no use for.
     pub(crate) fn finish(&self, report: &mut Report) {
-        let known = || self.0.iter().filter(|p| p.meant_by_file).map(|p| p.name.as_str());
-        for p in self.0.iter().filter(|p| p.from_outside && !p.meant_by_file) {
-            let hint = did_you_mean(&p.name, known());
+        let few = self.known.len() <= MOST_NAMES;
+        let known =
+            || self.known.iter().filter(|(_, p)| few && p.meant_by_file).map(|(name, _)| name.as_str());
+        for (name, p) in self.known.iter().filter(|(_, p)| p.from_outside && !p.meant_by_file) {
+            let hint = report.did_you_mean(name, known());
+            let define = format!("{name}={}", p.value);
             report.error(
                 Place::default(),
-                format!("-D {}={}: the scene has no such parameter{hint}", p.name, p.value),
+                format!("-D {}: the scene has no such parameter{hint}", shown(&define)),
             );
         }
     }
-}
 
-fn add_default(element: &Element, parameters: &mut Vec<Parameter>, report: &mut Report) {
-    let (Some(name), Some(value)) = (element.attribute("name"), element.attribute("value")) else {
-        report.error(element.place, "<default> needs the attributes \"name\" and \"value\"");
-        return;
-    };
-    if name.value.is_empty() {
-        report.error(name.value_place, "a parameter needs a name");
-    } else if let Some(known) = parameters.iter_mut().find(|p| p.name == name.value) {
-        known.meant_by_file = true;
-    } else if !name.broken && !value.broken {
-        let (name, value) = (name.value.clone(), value.value.clone());
-        parameters.push(Parameter { name, value, from_outside: false, meant_by_file: true });
-    }
-}
-
-fn replace(attribute: &mut Attribute, parameters: &mut [Parameter], report: &mut Report) {
-    if !attribute.value.contains('$') {
-        return;
-    }
-    let mut replaced = String::new();
-    let mut rest = attribute.value.as_str();
-    while let Some(dollar) = rest.find('$') {
-        let (before, after) = (&rest[..dollar], &rest[dollar + 1..]);
-        rest = after;
-        if let Some(before) = before.strip_suffix('\\') {
-            replaced.push_str(before);
-            replaced.push('$');
-            continue;
+    fn add_default(&mut self, element: &Element, report: &mut Report) {
+        let (Some(name), Some(value)) = (element.attribute("name"), element.attribute("value")) else {
+            report.error(element.place, "<default> needs the attributes \"name\" and \"value\"");
+            return;
+        };
+        if name.value.is_empty() {
+            report.error(name.value_place, "a parameter needs a name");
+        } else if let Some(known) = self.known.get_mut(&name.value) {
+            known.meant_by_file = true;
+        } else if !name.broken && !value.broken {
+            let (name, value) = (name.value.clone(), value.value.clone());
+            self.known.insert(name, Parameter { value, from_outside: false, meant_by_file: true });
         }
-        replaced.push_str(before);
-        let meant = parameters
-            .iter_mut()
-            .filter(|p| !p.name.is_empty() && after.starts_with(&p.name))
-            .max_by_key(|p| p.name.len());
-        if let Some(parameter) = meant {
-            parameter.meant_by_file = true;
-            replaced.push_str(&parameter.value);
-            rest = &after[parameter.name.len()..];
-        } else {
+    }
+
+    /// The length of the longest known name that a text begins with, and its parameter.
+    fn longest(&mut self, text: &str) -> Option<(usize, &mut Parameter)> {
+        // Of the names that come before a text or are it, those that it begins with are the last; where the very last is no such
+        // name, no longer one than what it shares with the text is.
+        let mut end = text.len();
+        while end > 0 {
+            let last = self.last_up_to(&text[..end])?;
+            let same = last.char_indices().zip(text[..end].chars()).take_while(|((_, a), b)| a == b);
+            let same = same.last().map_or(0, |((at, c), _)| at + c.len_utf8());
+            if same == last.len() {
+                break;
+            }
+            end = same;
+        }
+        if end == 0 {
+            return None;
+        }
+        let name = self.last_up_to(&text[..end])?.to_owned();
+        self.known.get_mut(&name).map(|p| (name.len(), p)).filter(|(length, _)| *length > 0)
+    }
+
+    /// The last name, in their order, that does not come after a text.
+    fn last_up_to(&self, text: &str) -> Option<&str> {
+        let range = (Bound::Unbounded, Bound::Included(text));
+        self.known.range::<str, _>(range).next_back().map(|(name, _)| name.as_str())
+    }
+
+    fn replace(&mut self, attribute: &mut Attribute, report: &mut Report) {
+        if self.exhausted {
             attribute.broken = true;
-            let end = after.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(after.len());
-            let name = &after[..end];
-            let near = nearest(name, parameters.iter().map(|p| p.name.as_str()));
-            let hint = near.map_or_else(String::new, |near| format!(", did you mean \"${near}\"?"));
-            report.error(attribute.value_place, format!("unknown parameter \"${name}\"{hint}"));
+            return;
         }
+        let (mut replaced, place) = (String::new(), attribute.value_place);
+        let mut rest = attribute.value.as_str();
+        while let Some(dollar) = rest.find('$') {
+            let (before, after) = (&rest[..dollar], &rest[dollar + 1..]);
+            rest = after;
+            if let Some(before) = before.strip_suffix('\\') {
+                replaced.push_str(before);
+                replaced.push('$');
+                continue;
+            }
+            replaced.push_str(before);
+            let left = self.left;
+            if let Some((length, parameter)) = self.longest(after) {
+                parameter.meant_by_file = true;
+                if replaced.len().saturating_add(parameter.value.len()) > left {
+                    self.exhausted = true;
+                    attribute.broken = true;
+                    report.error(
+                        place,
+                        "with the parameters in them, the values of this scene become too long",
+                    );
+                    return;
+                }
+                replaced.push_str(&parameter.value);
+                rest = &after[length..];
+            } else {
+                attribute.broken = true;
+                let end = after.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(after.len());
+                let (name, few) = (&after[..end], self.known.len() <= MOST_NAMES);
+                let names = self.known.keys().filter(|_| few).map(String::as_str);
+                let hint = report.did_you_mean(name, names).replacen('"', "\"$", 1);
+                let name = quoted(&format!("${name}"));
+                report.error(place, format!("unknown parameter {name}{hint}"));
+            }
+        }
+        replaced.push_str(rest);
+        self.left = self.left.saturating_sub(replaced.len());
+        attribute.value = replaced;
     }
-    replaced.push_str(rest);
-    attribute.value = replaced;
 }
 
 #[cfg(test)]
@@ -117,9 +174,9 @@ mod tests {
     use foton_math::Cancel;
 
     use super::*;
-    use crate::document::Document;
     use crate::files::Files;
     use crate::include::expand;
+    use crate::limits::Budget;
 
     /// The `v` attribute of the last element, and the messages.
     fn last(xml: &str, defines: &[(&str, &str)]) -> (String, Vec<String>) {
@@ -127,8 +184,13 @@ mod tests {
         let defines: Vec<_> = defines.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())).collect();
         let document = Document::parse(&format!("<scene>{xml}</scene>")).unwrap();
         let no_files = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
-        let document =
-            expand(&document, &defines, &mut Files::new(&no_files, &Cancel::default()), &mut report).document;
+        let document = expand(
+            &document,
+            &defines,
+            &mut Files::new(&no_files, &Cancel::default(), Budget::new(None)),
+            &mut report,
+        )
+        .document;
         let value = document.elements().last().and_then(|(_, e)| e.attribute("v").map(|a| a.value.clone()));
         let messages = match report.finish() {
             Ok(all) => all,
@@ -164,5 +226,52 @@ mod tests {
             last(xml, &[("widht", "2")]).1,
             ["s: -D widht=2: the scene has no such parameter, did you mean \"width\"?"]
         );
+    }
+
+    #[test]
+    fn values_that_double_are_refused_where_they_become_too_long() {
+        // Thirty lines of this would be a gigabyte.
+        let doubling = (1..30).map(|i| format!("\n<default name='a{i}' value='$a{0}$a{0}'/>", i - 1));
+        let xml = format!("<default name='a0' value='x'/>{}<a v='$a29'/>", doubling.collect::<String>());
+        let said = "s:24:28: with the parameters in them, the values of this scene become too long";
+        assert_eq!(last(&xml, &[]).1, [said]);
+        // One that is used often is bounded as well.
+        let long = "y".repeat(1 << 20);
+        let often = format!("<b v='{}'/>\n<a v='$long'/>", "$long".repeat(8));
+        assert_eq!(
+            last(&often, &[("long", &long)]).1,
+            ["s:2:7: with the parameters in them, the values of this scene become too long"]
+        );
+        assert_eq!(last(&format!("<a v='{}'/>", "$long".repeat(7)), &[("long", &long)]).0.len(), 7 << 20);
+    }
+
+    #[test]
+    fn the_longest_name_is_found_among_many_that_begin_alike() {
+        let names = ["a", "ab", "abcA", "abcd", "b", "ä", "äb"];
+        let defaults: String = names.iter().map(|n| format!("<default name='{n}' value='({n})'/>")).collect();
+        for (text, replaced) in [
+            ("$a", "(a)"),
+            ("$abc", "(ab)c"),
+            ("$abcB", "(ab)cB"),
+            ("$abcd", "(abcd)"),
+            ("$abce", "(ab)ce"),
+            ("$abcdx", "(abcd)x"),
+            ("$bb", "(b)b"),
+            ("$ä", "(ä)"),
+            ("$äbö$äö", "(äb)ö(ä)ö"),
+        ] {
+            assert_eq!(
+                last(&format!("{defaults}<a v='{text}'/>"), &[]),
+                (replaced.to_owned(), vec![]),
+                "{text}"
+            );
+        }
+        assert_eq!(last(&format!("{defaults}<a v='$c'/>"), &[]).1.len(), 1);
+    }
+
+    #[test]
+    fn very_many_parameters_are_read_in_linear_time() {
+        let defaults = (0..200_000).map(|i| format!("<default name='p{i}' value='{i}'/><b v='$p{i}'/>"));
+        assert_eq!(last(&format!("{}<a v='$p199999'/>", defaults.collect::<String>()), &[]).0, "199999");
     }
 }

@@ -5,6 +5,7 @@
 
 use std::collections::HashMap;
 
+use foton_input::quoted;
 use foton_math::glam::{DAffine2, DAffine3, DMat2, DVec2};
 use foton_scene::description::{Texture, TextureKind, Wrap};
 
@@ -82,7 +83,7 @@ impl Reader<'_> {
             "nearest" => return false,
             "bilinear" => {}
             "trilinear" | "ewa" => {
-                let message = format!("filter \"{}\" is not supported, bilinear is taken", filter.value);
+                let message = format!("filter {} is not supported, bilinear is taken", quoted(&filter.value));
                 self.report.warning(filter.place, message);
             }
             _ => self.report.error(filter.place, "\"filter_type\" must be bilinear or nearest"),

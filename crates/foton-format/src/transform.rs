@@ -1,5 +1,6 @@
 //! `<transform>`: steps applied in the order of the file, each multiplied from the left, as in Mitsuba 3.
 
+use foton_input::shown;
 use foton_math::glam::{DAffine3, DMat3, DVec3};
 
 use crate::diagnostic::Report;
@@ -22,7 +23,7 @@ pub(crate) fn read(document: &Document, node: NodeId, report: &mut Report) -> Op
             "lookat" => look_at(element, report),
             tag => {
                 let hint = did_you_mean(tag, STEPS.iter().copied());
-                report.error(element.place, format!("unknown step <{tag}> of a transform{hint}"));
+                report.error(element.place, format!("unknown step <{}> of a transform{hint}", shown(tag)));
                 None
             }
         };
@@ -55,7 +56,10 @@ pub(crate) fn components(element: &Element, default: f64, report: &mut Report) -
     let axes = ["x", "y", "z"].map(|axis| element.attribute(axis));
     if let Some(value) = element.attribute("value") {
         if let Some(axis) = axes.into_iter().flatten().next() {
-            report.error(axis.place, format!("<{}> has both \"value\" and \"{}\"", element.name, axis.name));
+            report.error(
+                axis.place,
+                format!("<{}> has both \"value\" and \"{}\"", shown(&element.name), axis.name),
+            );
             return None;
         }
         return parse_attribute(value, values::one_or_three, report);

@@ -2,18 +2,19 @@
 //!
 //! Messages say what is wrong with the text; the caller knows its place.
 
+use foton_input::quoted;
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
 
 /// A finite number.
 pub(crate) fn number(text: &str) -> Result<f64, String> {
-    let value: f64 = text.trim().parse().map_err(|_| format!("\"{text}\" is not a number"))?;
-    if value.is_finite() { Ok(value) } else { Err(format!("\"{text}\" is not a finite number")) }
+    let value: f64 = text.trim().parse().map_err(|_| format!("{} is not a number", quoted(text)))?;
+    if value.is_finite() { Ok(value) } else { Err(format!("{} is not a finite number", quoted(text))) }
 }
 
 /// A whole number.
 pub(crate) fn integer(text: &str) -> Result<i64, String> {
-    text.trim().parse().map_err(|_| format!("\"{text}\" is not a whole number"))
+    text.trim().parse().map_err(|_| format!("{} is not a whole number", quoted(text)))
 }
 
 /// `true` or `false`, in any case.
@@ -21,7 +22,7 @@ pub(crate) fn boolean(text: &str) -> Result<bool, String> {
     match text {
         _ if text.eq_ignore_ascii_case("true") => Ok(true),
         _ if text.eq_ignore_ascii_case("false") => Ok(false),
-        _ => Err(format!("\"{text}\" is neither \"true\" nor \"false\"")),
+        _ => Err(format!("{} is neither \"true\" nor \"false\"", quoted(text))),
     }
 }
 
@@ -50,14 +51,14 @@ pub(crate) fn one_or_three(text: &str) -> Result<DVec3, String> {
 /// Three linear RGB components, one for all three, or `#rrggbb` with linear components, as Mitsuba reads that.
 pub(crate) fn colour(text: &str) -> Result<Rgb, String> {
     let colour = rgb(hexadecimal(text).unwrap_or_else(|| one_or_three(text))?);
-    if colour.is_finite() { Ok(colour) } else { Err(format!("\"{text}\" is too large")) }
+    if colour.is_finite() { Ok(colour) } else { Err(format!("{} is too large", quoted(text))) }
 }
 
 /// Three components of sRGB, or `#rrggbb`, made linear.
 pub(crate) fn srgb(text: &str) -> Result<Rgb, String> {
     let encoded = hexadecimal(text).unwrap_or_else(|| one_or_three(text))?;
     let colour = rgb(DVec3::from_array(encoded.to_array().map(srgb_to_linear)));
-    if colour.is_finite() { Ok(colour) } else { Err(format!("\"{text}\" is too large")) }
+    if colour.is_finite() { Ok(colour) } else { Err(format!("{} is too large", quoted(text))) }
 }
 
 /// `#rrggbb` to three components in [0, 1]; `None` if there is no `#`.
@@ -65,7 +66,7 @@ fn hexadecimal(text: &str) -> Option<Result<DVec3, String>> {
     let digits = text.trim().strip_prefix('#')?;
     let all_digits = digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_hexdigit());
     let number = u32::from_str_radix(digits, 16).ok().filter(|_| all_digits);
-    Some(number.ok_or_else(|| format!("\"{text}\" is not a colour such as #ff8000")).map(|n| {
+    Some(number.ok_or_else(|| format!("{} is not a colour such as #ff8000", quoted(text))).map(|n| {
         let [_, r, g, b] = n.to_be_bytes().map(|byte| f64::from(byte) / 255.0);
         DVec3::new(r, g, b)
     }))
@@ -83,7 +84,7 @@ pub(crate) fn major_version(version: &str) -> Result<u32, String> {
     let parts: Option<Vec<u32>> = version.trim().split('.').map(part).collect();
     match parts {
         Some(parts) if parts.len() <= 3 => Ok(parts[0]),
-        _ => Err(format!("\"{version}\" is not a version such as 3.0.0")),
+        _ => Err(format!("{} is not a version such as 3.0.0", quoted(version))),
     }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! Lines end in `\n`, with a `\r` before it or not; in a file without any `\n` they end in `\r`.
 
+pub(crate) use foton_input::shown_bytes as shown;
 use foton_math::glam::{DVec2, DVec3};
 use foton_math::{Cancel, Cancelled};
 
@@ -69,11 +70,6 @@ pub(crate) fn parsed(text: &[u8]) -> Option<f64> {
 /// The bytes of a text without the mark of its encoding that may stand before it.
 pub(crate) fn without_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes)
-}
-
-/// The beginning of a word as it may stand in a message.
-pub(crate) fn shown(text: &[u8]) -> String {
-    text[..text.len().min(40)].escape_ascii().to_string()
 }
 
 /// A word and its place.

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use foton_input::{Limit, Named, read_file};
 use serde_json::{Value, json};
 
 /// What is remembered.
@@ -39,7 +40,9 @@ impl Preferences {
 
     /// What was remembered; what cannot be read is as at the first time.
     pub(crate) fn load() -> Self {
-        let text = Self::path().and_then(|path| std::fs::read_to_string(path).ok());
+        let read =
+            |path: PathBuf| read_file(&path, Named::ByFile, Limit::new(Some(1 << 20), 1), &|| false).ok();
+        let text = Self::path().and_then(read).and_then(|bytes| String::from_utf8(bytes).ok());
         text.map_or_else(Self::default, |text| Self::parse(&text))
     }
 

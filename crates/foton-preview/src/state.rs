@@ -217,7 +217,7 @@ impl State {
             }
             Event::Saved(paths) => {
                 for path in paths {
-                    self.notice(format!("Saved {}", path.display()));
+                    self.notice(format!("Saved {}", foton_input::shown_path(&path)));
                 }
             }
             Event::Notice(text) => self.notice(text),

@@ -5,6 +5,7 @@
 
 use std::fmt;
 
+use foton_input::quoted;
 use foton_math::Rgb;
 use foton_math::glam::Vec3;
 
@@ -126,7 +127,7 @@ impl Scene {
 impl fmt::Display for Far {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, kind, times } = self;
-        write!(f, "\"{name}\"")?;
+        write!(f, "{}", quoted(name))?;
         match kind {
             FarKind::Surfaces(others) => {
                 if *others > 0 {

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use foton_film::{WriteError, atomic_write};
+use foton_input::{Limit, Named, shown_path};
 use foton_integrator::{Render, StateError};
 use thiserror::Error;
 
@@ -25,11 +26,14 @@ const TRAILER: usize = 8;
 /// zstd's own middle: states hardly shrink any further above it.
 const COMPRESSION: i32 = 3;
 
+/// Bytes of a checkpoint beside its state, at most: its text, and what packing adds where nothing can be packed.
+const BESIDE: u64 = 1 << 20;
+
 /// Why a checkpoint cannot be taken up.
 #[derive(Debug, Error)]
 pub enum ResumeError {
     /// The file cannot be read.
-    #[error("{path}: {cause}", path = path.display())]
+    #[error("{path}: {cause}", path = shown_path(path))]
     Read {
         /// Its path.
         path: PathBuf,
@@ -37,13 +41,13 @@ pub enum ResumeError {
         cause: std::io::Error,
     },
     /// It is none.
-    #[error("{path}: this is no checkpoint of foton", path = path.display())]
+    #[error("{path}: this is no checkpoint of foton", path = shown_path(path))]
     NoCheckpoint {
         /// Its path.
         path: PathBuf,
     },
     /// It is of another version.
-    #[error("{path}: a checkpoint of version {found}; this foton reads version {VERSION}", path = path.display())]
+    #[error("{path}: a checkpoint of version {found}; this foton reads version {VERSION}", path = shown_path(path))]
     Version {
         /// Its path.
         path: PathBuf,
@@ -51,13 +55,13 @@ pub enum ResumeError {
         found: u32,
     },
     /// Its hash is not that of its bytes.
-    #[error("{path}: the checkpoint is damaged", path = path.display())]
+    #[error("{path}: the checkpoint is damaged", path = shown_path(path))]
     Damaged {
         /// Its path.
         path: PathBuf,
     },
     /// The scene or a setting is another.
-    #[error("{path}: the checkpoint {difference}", path = path.display())]
+    #[error("{path}: the checkpoint {difference}", path = shown_path(path))]
     OtherRender {
         /// Its path.
         path: PathBuf,
@@ -65,7 +69,7 @@ pub enum ResumeError {
         difference: String,
     },
     /// Its state makes no sense, although its hash is right.
-    #[error("{path}: {cause}", path = path.display())]
+    #[error("{path}: {cause}", path = shown_path(path))]
     State {
         /// Its path.
         path: PathBuf,
@@ -110,7 +114,11 @@ pub fn write(
 /// When the file is no checkpoint of this render; see [`ResumeError`]. The session is then not to be used.
 pub fn resume(path: &Path, session: &mut Session, scene: &SceneIdentity) -> Result<(), ResumeError> {
     let owned = || path.to_owned();
-    let bytes = std::fs::read(path).map_err(|cause| ResumeError::Read { path: owned(), cause })?;
+    let expected = session.render().save().len() as u64;
+    // Each change of a setting takes 24 bytes; no render has so many that the state grows eightfold.
+    let most = 8 * expected.max(1 << 20);
+    let bytes = foton_input::read_file(path, Named::ByFile, Limit::new(Some(most + BESIDE), 1), &|| false)
+        .map_err(|cause| ResumeError::Read { path: owned(), cause })?;
     let damaged = || ResumeError::Damaged { path: owned() };
     if !bytes.starts_with(&MAGIC) {
         return Err(ResumeError::NoCheckpoint { path: owned() });
@@ -138,10 +146,8 @@ pub fn resume(path: &Path, session: &mut Session, scene: &SceneIdentity) -> Resu
     {
         return Err(ResumeError::OtherRender { path: owned(), difference });
     }
-    let expected = session.render().save().len() as u64;
     let length = number(36);
-    // Each change of a setting takes 24 bytes; no render has so many that the state grows eightfold.
-    if length > 8 * expected.max(1 << 20) || number(28) > 1 << 60 {
+    if length > most || number(28) > 1 << 60 {
         return Err(damaged());
     }
     let state = zstd::bulk::decompress(packed, length as usize).map_err(|_| damaged())?;

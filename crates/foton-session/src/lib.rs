@@ -29,7 +29,7 @@ mod preset;
 mod session;
 pub mod snapshot;
 mod stop;
-mod threads;
+pub mod threads;
 
 pub use clock::StageTimes;
 pub use engine::Engine;

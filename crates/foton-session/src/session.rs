@@ -1,7 +1,6 @@
 //! A render on a pool of threads of its own, pass after pass until a rule or a person stops it.
 
 use std::sync::Arc;
-use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 
 use foton_integrator::{
@@ -100,8 +99,7 @@ impl Session {
         settings: &RenderSettings,
         threads: Option<usize>,
     ) -> MemoryEstimate {
-        let threads = threads.or_else(|| available_parallelism().ok().map(usize::from)).unwrap_or(1);
-        MemoryEstimate::pilot(scene, settings, threads)
+        MemoryEstimate::pilot(scene, settings, threads::count(threads))
     }
 
     /// Collects hit points on `threads` threads, by default as many as the machine has.

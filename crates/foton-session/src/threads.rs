@@ -1,8 +1,47 @@
-//! The threads that a render runs on.
+//! The threads that a render runs on, and those that a scene is built on.
 
 use std::sync::Arc;
+use std::thread::available_parallelism;
 
+use foton_input::quoted;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+
+/// The most threads that can be asked for.
+pub const MOST: usize = 1024;
+
+/// The variable of the environment that says how many threads there are by default, as for other programs that use Rayon.
+const VARIABLE: &str = "RAYON_NUM_THREADS";
+
+/// How many threads a render has: as many as are asked for, else as `RAYON_NUM_THREADS` says, else as the machine has.
+#[must_use]
+pub fn count(asked: Option<usize>) -> usize {
+    let stated = || std::env::var(VARIABLE).ok().and_then(|text| stated(&text).ok().flatten());
+    let machine = || available_parallelism().map_or(1, usize::from);
+    asked.or_else(stated).unwrap_or_else(machine).clamp(1, MOST)
+}
+
+/// The number that a text states, `None` where it leaves that to the machine, or what is wrong with it.
+fn stated(text: &str) -> Result<Option<usize>, String> {
+    match text.parse::<usize>() {
+        Ok(0) => Ok(None),
+        Ok(number) if number <= MOST => Ok(Some(number)),
+        _ if text.is_empty() => Ok(None),
+        _ => Err(format!(
+            "{VARIABLE} is {}, which is no number of threads from 1 to {MOST}: there are as many as the machine has",
+            quoted(text)
+        )),
+    }
+}
+
+/// Starts the threads that scenes are built on, once, before any work for them; what is wrong with `RAYON_NUM_THREADS`, if anything.
+///
+/// # Errors
+/// Where the system gives no threads.
+pub fn start() -> Result<Option<String>, ThreadPoolBuildError> {
+    let text = std::env::var_os(VARIABLE).unwrap_or_default();
+    ThreadPoolBuilder::new().num_threads(count(None)).build_global()?;
+    Ok(stated(&text.to_string_lossy()).err())
+}
 
 /// How the render's threads stand to the rest of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +61,7 @@ const STEPS_BEHIND: i32 = 10;
 /// Threads to render on, by default as many as the machine has; one pool serves any number of renders, one at a time.
 pub(crate) fn pool(threads: Option<usize>, rank: Rank) -> Result<Arc<ThreadPool>, ThreadPoolBuildError> {
     ThreadPoolBuilder::new()
-        .num_threads(threads.unwrap_or(0))
+        .num_threads(count(threads))
         .start_handler(move |_| step_back(rank))
         .build()
         .map(Arc::new)
@@ -46,6 +85,18 @@ mod tests {
 
     fn niceness() -> i32 {
         rustix::process::nice(0).expect("may be asked")
+    }
+
+    #[test]
+    fn no_variable_asks_for_more_threads_than_a_machine_bears() {
+        assert_eq!(
+            ["", "0", "1", "1024"].map(|text| stated(text).ok().flatten()),
+            [None, None, Some(1), Some(1024)]
+        );
+        for text in ["1025", "1000000000", "99999999999999999999999", "-1", "two", "2 "] {
+            assert!(stated(text).is_err_and(|said| said.contains(text)), "{text}");
+        }
+        assert_eq!(count(Some(usize::MAX)), MOST);
     }
 
     #[test]

@@ -6,6 +6,7 @@
 
 use std::fmt;
 
+use foton_input::quoted;
 use foton_math::Ray;
 use foton_math::glam::{DVec3, Vec3};
 use foton_scene::Scene;
@@ -161,10 +162,10 @@ impl fmt::Display for NotFinite {
         }
         write!(f, "{} is not finite (NaN or infinite)", self.quantity.words())?;
         if let Some(light) = &self.light {
-            write!(f, ", from the light \"{light}\"")?;
+            write!(f, ", from the light {}", quoted(light))?;
         }
         if let Some([shape, material]) = &self.surface {
-            write!(f, ", at \"{shape}\" of the material \"{material}\"")?;
+            write!(f, ", at {} of the material {}", quoted(shape), quoted(material))?;
         }
         let DVec3 { x, y, z } = self.position;
         write!(f, ", at the point {x:.6}, {y:.6}, {z:.6}")

@@ -3,15 +3,19 @@
 use std::path::{Path, PathBuf};
 
 use foton_film::{
-    Image, Layer, LayerData, Metadata, ReadError, ToneMap, WriteError, check_writable, read_exr, read_png,
-    write_exr, write_png,
+    Image, Layer, LayerData, Metadata, ReadError, ToneMap, WriteError, check_writable, read_exr_within,
+    read_png_within, write_exr, write_png,
 };
 use foton_measure::{Channels, Flip, Pair, heat, scale_top};
 use foton_session::snapshot::Format;
 use serde_json::{Value, json};
 
 use crate::args::Compare;
+use crate::memory;
 use crate::talk::{Failure, Talk};
+
+/// Of the memory that may be used, what reading one of the images may take: comparing them takes more.
+const SHARE: f64 = 0.25;
 
 /// Runs `foton compare`.
 pub(crate) fn run(args: &Compare, talk: &Talk) -> Result<(), Failure> {
@@ -45,9 +49,10 @@ pub(crate) fn run(args: &Compare, talk: &Talk) -> Result<(), Failure> {
 type Output<'a> = Option<&'a (PathBuf, Format)>;
 
 fn read((path, format): &(PathBuf, Format)) -> Result<Image, ReadError> {
+    let memory = memory::limit(None).map(|bytes| (bytes * SHARE) as u64);
     match format {
-        Format::Exr => read_exr(path).map(|(image, _)| image),
-        Format::Png => read_png(path),
+        Format::Exr => read_exr_within(path, memory).map(|(image, _)| image),
+        Format::Png => read_png_within(path, memory),
     }
 }
 

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use foton_film::{check_writable, write_spare};
 use foton_format::{Opened, Options, Severity, Suggested};
+use foton_input::quoted;
 use foton_integrator::{Alpha, Cancel, LayerKind, PpmSettings, Render, RenderSettings, SettingChange};
 use foton_scene::{BuildOptions, Scene};
 use foton_session::snapshot::{self, Format};
@@ -248,17 +249,18 @@ pub(crate) fn build(
     }
     for shape in scene.shapes().iter().filter(|s| s.steps_across < FEW_STEPS) {
         talk.warning(&format!(
-            "\"{}\" is only {:.0} steps of single precision across, so small is it where it stands: its shape is rounded to those",
-            shape.name, shape.steps_across
+            "{} is only {:.0} steps of single precision across, so small is it where it stands: its shape is rounded to those",
+            quoted(&shape.name),
+            shape.steps_across
         ));
     }
     for far in scene.far_things(sensor) {
         talk.finding(&opened.finding(Severity::Warning, name, Some(&far.name), far.to_string()));
     }
     for [over, under] in scene.hidden_shapes() {
-        let [over, under] = [over, under].map(|shape| &scene.shapes()[shape as usize].name);
+        let [over, under] = [over, under].map(|shape| quoted(&scene.shapes()[shape as usize].name));
         talk.warning(&format!(
-            "\"{under}\" lies exactly in \"{over}\", which hides it there: what is opaque counts before masks, then the first in the file"
+            "{under} lies exactly in {over}, which hides it there: what is opaque counts before masks, then the first in the file"
         ));
     }
     if census.narrow_gloss {

@@ -25,6 +25,7 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 
 use args::{Args, Command};
+use foton_session::threads;
 use talk::{Failure, Talk};
 
 /// The window; where there can be none, a picture within a minute.
@@ -40,16 +41,45 @@ fn live(args: &Args, talk: &mut Talk) -> Result<(), Failure> {
     quick::render(args.scene.as_deref(), talk)
 }
 
+/// Starts the threads that scenes are built on; the exit code where the system gives none.
+fn start_threads() -> Option<ExitCode> {
+    let mut talk = Talk::new(false);
+    match threads::start() {
+        Ok(None) => None,
+        Ok(Some(message)) => {
+            talk.warning(&message);
+            None
+        }
+        Err(cause) => {
+            talk.failure(&Failure::Start(cause.into()));
+            Some(ExitCode::FAILURE)
+        }
+    }
+}
+
+/// Says what is wrong with the arguments, or what was asked for about them. Arguments can be names of files, and those can hold
+/// anything.
+fn bad_usage(error: &clap::Error) -> ! {
+    if error.use_stderr() {
+        Talk::new(false).line(error.to_string().trim_end());
+        std::process::exit(error.exit_code());
+    }
+    error.exit()
+}
+
 fn main() -> ExitCode {
     signals::outlive_file_limit();
-    let args = Args::parse();
+    let args = Args::try_parse().unwrap_or_else(|error| bad_usage(&error));
     if let Some((name, message)) = args.contradiction() {
         let mut command = Args::command();
         command.build();
         let error = name
             .and_then(|name| command.find_subcommand_mut(name))
             .map(|command| command.error(ErrorKind::ArgumentConflict, &message));
-        error.unwrap_or_else(|| command.error(ErrorKind::ArgumentConflict, message)).exit();
+        bad_usage(&error.unwrap_or_else(|| command.error(ErrorKind::ArgumentConflict, message)));
+    }
+    if let Some(failure) = start_threads() {
+        return failure;
     }
     let (result, mut talk) = match &args.command {
         Some(Command::Render(render)) => {

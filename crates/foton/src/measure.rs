@@ -2,7 +2,7 @@
 
 use std::num::NonZeroU32;
 
-use foton_film::read_exr;
+use foton_film::read_exr_within;
 use foton_integrator::{Alpha, PpmSettings, RenderSettings};
 use foton_measure::sweep::{Event, Outcome, Sweep};
 use foton_session::{Session, StartError, StopCause};
@@ -15,7 +15,8 @@ use crate::talk::{Failure, Talk};
 
 /// Runs `foton measure`.
 pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
-    let given = args.reference.as_deref().map(read_exr).transpose()?;
+    let memory = memory::limit(None).map(|bytes| bytes as u64);
+    let given = args.reference.as_deref().map(|path| read_exr_within(path, memory)).transpose()?;
     let interrupt = interrupt_on_signals(talk);
     talk.begin();
     let opened = open(&args.scene, &args.defines, None, interrupt.cancel())?;

@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use foton_film::{ReadError, WriteError};
 use foton_format::{Diagnostic, OpenError, Opened, Severity};
+use foton_input::{printable, quoted, shown_path};
 use foton_integrator::{DirectLight, Ledger, NotFinite, Render};
 use foton_measure::CompareError;
 use foton_measure::sweep::SweepError;
@@ -18,10 +19,14 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 
 use crate::figure::{self, add_error, classes_text, error_text, upper_end_text};
+use crate::memory::Confined;
 use crate::roles::Clash;
 
 /// Power that is cut off beyond this share of what is emitted is worth a warning.
 const WORTH_A_WARNING: f64 = 1e-3;
+
+/// Names that a message lists at most.
+const MOST_NAMES: usize = 20;
 
 /// Why nothing was rendered.
 #[derive(Debug)]
@@ -81,16 +86,20 @@ impl fmt::Display for Failure {
             Self::Interrupted(at) => write!(f, "interrupted while {at}: nothing was written"),
             Self::Build(cause) => cause.fmt(f),
             Self::Memory(why) => {
-                write!(f, "{why}. A smaller --size, --spp or --photons needs less; --memory sets the limit")
+                write!(
+                    f,
+                    "{why}. A smaller --size, --spp or --photons needs less; --memory sets the limit{Hint}"
+                )
             }
             Self::BuildMemory { takes, limit } => write!(
                 f,
-                "building this scene takes about {:.0} MiB; {:.0} MiB may be used. --memory sets the limit",
+                "building this scene takes about {:.0} MiB; {:.0} MiB may be used. --memory sets the limit{Hint}",
                 takes / f64::from(1 << 20),
                 limit / f64::from(1 << 20)
             ),
             Self::Sensor { asked, known } => {
-                write!(f, "the scene has no sensor \"{asked}\"; it has \"{}\"", known.join("\", \""))
+                let known: Vec<_> = known.iter().take(MOST_NAMES).map(|name| quoted(name)).collect();
+                write!(f, "the scene has no sensor {}; it has {}", quoted(asked), known.join(", "))
             }
             Self::Start(cause) => cause.fmt(f),
             Self::Panicked { panic, passes: Some(passes) } => {
@@ -110,7 +119,7 @@ impl fmt::Display for Failure {
                 f,
                 "{}: the passes of this checkpoint have left out {values} values that were not finite, and it does not say where: \
                  --strict finds the first in a render from its beginning",
-                path.display()
+                shown_path(path)
             ),
             Self::Resume(cause) => cause.fmt(f),
             Self::Sweep(cause) => cause.fmt(f),
@@ -123,6 +132,20 @@ impl fmt::Display for Failure {
             Self::Compare { a, b, cause } => write!(f, "A is {a}, B is {b}: {cause}"),
         }
     }
+}
+
+/// What the system's own limit has to do with a refusal for memory, if there is one.
+struct Hint;
+
+impl fmt::Display for Hint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        Confined::of_system().map_or(Ok(()), |confined| write!(f, ". Beside it, {confined}"))
+    }
+}
+
+/// A text for a terminal, in which lines are our own and nothing else does more than show itself.
+fn harmless(text: &str) -> String {
+    text.lines().map(printable).collect::<Vec<_>>().join("\n")
 }
 
 impl Failure {
@@ -198,7 +221,7 @@ impl Talk {
     /// A line on stdout: what was asked for.
     pub(crate) fn out(&self, text: &str) {
         let mut stdout = io::stdout().lock();
-        let written = writeln!(stdout, "{text}").and_then(|()| stdout.flush());
+        let written = writeln!(stdout, "{}", text).and_then(|()| stdout.flush());
         drop(stdout);
         match written {
             Ok(()) => {}
@@ -220,14 +243,14 @@ impl Talk {
     /// A line of JSON, if any was asked for.
     pub(crate) fn event(&self, event: &Value) {
         if self.json {
-            self.out(&event.to_string());
+            self.out(&foton_input::json(&event.to_string()));
         }
     }
 
     /// A line on stderr, above the bar.
     pub(crate) fn line(&self, text: &str) {
         self.bar.suspend(|| {
-            let _ = writeln!(io::stderr().lock(), "{text}");
+            let _ = writeln!(io::stderr().lock(), "{}", harmless(text));
         });
     }
 
@@ -265,6 +288,11 @@ impl Talk {
                 };
                 self.event(&located(severity, d));
                 self.line(&format!("{severity}: {d}"));
+            }
+            if found.iter().any(|d| d.message.ends_with("MiB may be used"))
+                && let Some(confined) = Confined::of_system()
+            {
+                self.line(&confined.to_string());
             }
             return;
         }
@@ -423,9 +451,9 @@ impl Talk {
         for (emitter, light) in render.scene().emitters().iter().zip(render.light_use()) {
             if light.is_starved(photons) {
                 self.warning(&format!(
-                    "\"{}\" takes {:.0} % of the photons, and {:.2} % of those come near anything that is seen: what it lights \
+                    "{} takes {:.0} % of the photons, and {:.2} % of those come near anything that is seen: what it lights \
                      converges slowly",
-                    emitter.name,
+                    quoted(&emitter.name),
                     100.0 * light.emitted as f64 / photons as f64,
                     100.0 * light.hit_rate()
                 ));
@@ -442,7 +470,7 @@ impl Talk {
         if share > WORTH_A_WARNING {
             let most = materials().max_by(|a, b| a.1.truncated.total_cmp(&b.1.truncated));
             let place = most.map_or_else(String::new, |(name, loss)| {
-                format!(", {:.0} % of that at \"{name}\"", 100.0 * loss.truncated / ledger.truncated)
+                format!(", {:.0} % of that at {}", 100.0 * loss.truncated / ledger.truncated, quoted(name))
             });
             self.warning(&format!(
                 "{:.1} % of the emitted power was cut off at the longest path{place}; --max-depth sets it",
@@ -458,9 +486,10 @@ impl Talk {
             let lights = lights.map(|(emitter, light)| (emitter.name.as_str(), light.dropped));
             let all: Vec<_> = lights.chain(materials().map(|(name, loss)| (name, loss.dropped))).collect();
             let gathered = ledger.dropped - all.iter().map(|(_, n)| n).sum::<u64>().min(ledger.dropped);
-            let named = all.iter().filter(|(_, n)| *n > 0).map(|(name, n)| format!("{n} at \"{name}\""));
+            let named =
+                all.iter().filter(|(_, n)| *n > 0).map(|(name, n)| format!("{n} at {}", quoted(name)));
             let gathered = (gathered > 0).then(|| format!("{gathered} where light was gathered"));
-            let places: Vec<String> = named.chain(gathered).collect();
+            let places: Vec<String> = named.take(MOST_NAMES).chain(gathered).collect();
             self.warning(&format!(
                 "{} photons or sums of them were dropped because they were not finite: {}",
                 ledger.dropped,

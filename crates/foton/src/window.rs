@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use foton_format::{Opened, Options, Saved, Severity, Suggested, save_edited};
+use foton_input::printable;
 use foton_integrator::{Alpha, Cancel, PpmSettings, RenderSettings};
 use foton_preview::{Close, WindowError};
 use foton_scene::BuildError;
@@ -64,7 +65,7 @@ impl Loader for Files {
         let (opened, name) = match source {
             Source::File(path) => (
                 foton_format::open(path, &options),
-                path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+                printable(&path.file_name().unwrap_or_default().to_string_lossy()).into_owned(),
             ),
             Source::BuiltIn(name) => {
                 let scene =

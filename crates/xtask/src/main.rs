@@ -1,5 +1,5 @@
 //! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `versus`, `assets`, `pictures`, `bench`, `monkey`, `soak`, `kills`,
-//! `limits`, `loaded`, `mutations`.
+//! `limits`, `loaded`, `mutations`, `miri`.
 //!
 //! Nothing here is part of the program; what a task does is in the module of its name.
 #![allow(clippy::print_stdout, reason = "these tasks talk to the person who started them")]
@@ -8,6 +8,7 @@ mod assets;
 mod ci;
 mod conformance;
 mod loaded;
+mod miri;
 mod mutations;
 mod pictures;
 mod program;
@@ -36,7 +37,8 @@ cargo xtask soak [MINUTES]          one small render for MINUTES (20): no memory
 cargo xtask kills [N]               kills N (200) renders at random moments: all checkpoints open, no file is half of one
 cargo xtask limits                  renders in as little memory as --memory accepts, under a hard limit of the system
 cargo xtask loaded                  tests of threads and windows ten times, then all tests, beside eight busy loops (an hour and more)
-cargo xtask mutations [WORD,…]      takes protections out of a copy of the tree, one by one: does their test notice? (many minutes)";
+cargo xtask mutations [WORD,…]      takes protections out of a copy of the tree, one by one: does their test notice? (many minutes)
+cargo xtask miri                    readers of files and pure crates under Miri, where a nightly has it; says what does not run (some minutes)";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -67,6 +69,7 @@ fn main() -> ExitCode {
         ["loaded"] => loaded::all(),
         ["busy"] => loaded::busy(),
         ["mutations"] => mutations::run(""),
+        ["miri"] => miri::all(),
         ["mutations", word] => mutations::run(word),
         ["soak", minutes @ ..] if minutes.len() <= 1 => tools::run(
             tools::cargo(&["run", "--package", "foton-tests", "--example", "soak", "--"]).args(minutes),

@@ -161,7 +161,7 @@ pub(crate) fn in_ci() -> bool {
 }
 
 /// Whether a command can be run and ends well; its output is dropped.
-fn succeeds(words: &[&str]) -> bool {
+pub(crate) fn succeeds(words: &[&str]) -> bool {
     let mut command = Command::new(words[0]);
     command.args(&words[1..]).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     command.status().is_ok_and(|status| status.success())

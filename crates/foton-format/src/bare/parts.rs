@@ -1,7 +1,9 @@
 //! An OBJ file as shapes: one for each material that its faces use, with what the files of materials say of it.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::path::Path;
 
+use foton_input::{quoted, shown_path};
 use foton_math::Cancel;
 use foton_math::glam::DAffine3;
 use foton_scene::description::{Mesh, SceneDescription};
@@ -11,6 +13,12 @@ use crate::diagnostic::{Place, Report};
 use crate::meshes::{self, Format, Wanted};
 use crate::mtl;
 use crate::obj::Obj;
+use crate::reader::name_of;
+
+/// So many different lines that name files of materials are heeded.
+const MOST_LIBRARIES: usize = 100;
+/// The longest of those lines: each word of it may be a name.
+const LONGEST_LINE: usize = 4096;
 
 /// Adds a shape for each material of an OBJ file, in the order in which they are first used.
 pub(super) fn add_obj(
@@ -21,13 +29,34 @@ pub(super) fn add_obj(
     cancel: &Cancel,
 ) {
     let mut known: HashMap<String, mtl::Entry> = HashMap::new();
-    for (place, line) in &obj.libraries {
+    let mut read: HashSet<&str> = HashSet::new();
+    // Exporters name a file for each part; files of other kinds may name very many.
+    let lines = obj.libraries.iter().filter(|(_, line)| read.insert(line)).take(MOST_LIBRARIES);
+    for (place, line) in lines {
+        if line.len() > LONGEST_LINE {
+            report.warning(*place, "the names of files of materials are too long: their materials are grey");
+            continue;
+        }
         let (files, lost) = libraries(line, library);
         for filename in lost {
-            report.warning(*place, format!("{filename} is not there: its materials are grey"));
+            report.warning(
+                *place,
+                format!("{} is not there: its materials are grey", shown_path(Path::new(&filename))),
+            );
         }
         for (path, bytes) in files {
+            let bytes = match bytes {
+                Ok(bytes) => bytes,
+                Err(message) => {
+                    let path = shown_path(Path::new(&path));
+                    report.warning(*place, format!("cannot read {path}: {message}; its materials are grey"));
+                    continue;
+                }
+            };
             let (entries, problems) = mtl::parse(&bytes, cancel);
+            if entries.is_empty() {
+                report.warning(*place, format!("{} has no materials", shown_path(Path::new(&path))));
+            }
             for (place, message) in problems {
                 report.warning_in(&path, place, message);
             }
@@ -42,10 +71,11 @@ pub(super) fn add_obj(
     for (name, triangles) in by_material(obj, &mesh) {
         let entry = find(name, &known);
         if entry.is_none() && !name.is_empty() && !obj.libraries.is_empty() {
-            report.warning(Place::default(), format!("there is no material \"{name}\": it is grey"));
+            report.warning(Place::default(), format!("there is no material {}: it is grey", quoted(name)));
         }
-        let name = if name.is_empty() { "mesh" } else { name };
-        add_shape(name, part(&mesh, &triangles, &mut remap), entry, scene);
+        let number = scene.shapes.len() + 1;
+        let name = if name.is_empty() { "mesh".to_owned() } else { name_of(name, number) };
+        add_shape(&name, part(&mesh, &triangles, &mut remap), entry, scene);
     }
 }
 
@@ -59,8 +89,8 @@ fn without_comment(text: &str) -> &str {
     text.split_once(" #").map_or(text, |(before, _)| before.trim_end())
 }
 
-/// A file's path and contents.
-type LibraryFile = (String, Vec<u8>);
+/// A file's path and contents, or why it cannot be read.
+type LibraryFile = (String, Result<Vec<u8>, String>);
 
 /// The files that a line `mtllib` names, and the names of which there is no file. The line is one name if there is such a
 /// file; otherwise names end where quotes do or behind `.mtl`, and what is no file by then are words.

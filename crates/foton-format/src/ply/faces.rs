@@ -8,7 +8,7 @@ use super::header::{Element, Header, Kind, Property};
 use super::numbers::Numbers;
 use super::{length, skip_value, whole};
 use crate::diagnostic::Place;
-use crate::meshes::{VertexKey, Vertices};
+use crate::meshes::Vertices;
 use crate::obj::LEFT_OUT;
 use crate::polygons::Polygons;
 use crate::tally::Tally;
@@ -21,16 +21,9 @@ pub(super) struct Faces {
     triangles: Vec<[u32; 3]>,
     polygons: Polygons,
     /// Vertices by their number in the file and the texture coordinate of a corner, if faces state any.
-    split: Option<Vertices<(u32, Option<DVec2>)>>,
+    split: Option<Vertices<(u32, Option<[u64; 2]>)>>,
     short: Tally,
     unfit: Tally,
-}
-
-impl VertexKey for (u32, Option<DVec2>) {
-    fn bits(self) -> [u64; 2] {
-        // Adding zero makes one zero of both; no file states a number of bits that none has.
-        self.1.map_or([u64::MAX; 2], |uv| [uv.x + 0.0, uv.y + 0.0].map(f64::to_bits))
-    }
 }
 
 impl Faces {
@@ -113,7 +106,10 @@ impl Faces {
             }
             for (i, corner) in corners.iter_mut().enumerate() {
                 let uv = fits.then(|| DVec2::new(textures[2 * i], textures[2 * i + 1]));
-                *corner = split.index(*corner, (*corner, uv.filter(|uv| uv.is_finite())));
+                // Zero is zero, whatever its sign.
+                let uv =
+                    uv.filter(|uv| uv.is_finite()).map(|uv| (uv + DVec2::ZERO).to_array().map(f64::to_bits));
+                *corner = split.index(*corner, (*corner, uv));
             }
             if let [first, rest @ ..] = &corners[..] {
                 self.polygons.note(self.triangles.len(), corners.len());
@@ -182,7 +178,13 @@ impl Faces {
         }
         if let Some(split) = split {
             let of_vertex = |i: u32| mesh.texture_coordinates.get(i as usize).copied().unwrap_or_default();
-            let textures = split.keys.iter().map(|&(i, uv)| uv.unwrap_or_else(|| of_vertex(i))).collect();
+            let textures = split
+                .keys
+                .iter()
+                .map(|&(i, uv)| {
+                    uv.map_or_else(|| of_vertex(i), |uv| DVec2::from_array(uv.map(f64::from_bits)))
+                })
+                .collect();
             mesh.texture_coordinates = textures;
             mesh.positions = split.keys.iter().map(|&(i, _)| mesh.positions[i as usize]).collect();
             if !mesh.normals.is_empty() {

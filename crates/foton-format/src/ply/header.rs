@@ -1,5 +1,7 @@
 //! The header of a PLY file: what stands in which order after it.
 
+use foton_input::quoted;
+
 use crate::diagnostic::Place;
 use crate::tally::Tally;
 use crate::words::{Problem, shown};
@@ -172,9 +174,8 @@ impl Header {
 
     /// One statement; an error with no message is one that is not understood.
     fn statement(&mut self, words: &[&str], encoding: &mut Option<Encoding>) -> Result<(), Option<String>> {
-        let number = |name: &str| {
-            Number::named(name).ok_or_else(|| Some(format!("unknown type \"{}\"", shown(name.as_bytes()))))
-        };
+        let number =
+            |name: &str| Number::named(name).ok_or_else(|| Some(format!("unknown type {}", quoted(name))));
         match *words {
             [] | ["ply" | "comment" | "obj_info", ..] => {}
             ["format", name, _version] => {
@@ -187,8 +188,11 @@ impl Header {
             }
             ["element", name, count] => {
                 let count = count.parse().map_err(|_| None)?;
+                if self.elements.len() >= MOST_ELEMENTS {
+                    return Err(Some(format!("more than {MOST_ELEMENTS} elements are declared")));
+                }
                 if self.elements.iter().any(|e| e.name == name) {
-                    return Err(Some(format!("element \"{}\" is declared twice", shown(name.as_bytes()))));
+                    return Err(Some(format!("element {} is declared twice", quoted(name))));
                 }
                 self.elements.push(Element { name: name.to_owned(), count, properties: Vec::new() });
             }
@@ -240,6 +244,9 @@ const NO_PLY: &str = "the file does not begin with \"ply\"";
 
 /// What lines of a header begin with.
 const KEYWORDS: [&str; 7] = ["ply", "format", "comment", "obj_info", "element", "property", "end_header"];
+
+/// Kinds of things that a file lists at most; those of programs have three.
+const MOST_ELEMENTS: usize = 1000;
 
 /// A statement goes on for at most so many lines more.
 const MOST_WRAPS: u32 = 4;

@@ -10,6 +10,7 @@ mod faces;
 mod header;
 mod numbers;
 
+use foton_input::shown;
 use foton_math::Cancel;
 use foton_math::glam::{DVec2, DVec3};
 use foton_scene::description::Mesh;
@@ -47,7 +48,7 @@ fn read(header: &Header, numbers: impl Numbers, cancel: &Cancel) -> Parsed {
         let least = element.properties.iter().map(|p| Numbers::least_bytes(numbers, p.kind)).sum::<u64>();
         // The last line of a text file may lack its end.
         if element.count.saturating_mul(least) > Numbers::bytes_left(numbers) as u64 + 1 {
-            let message = format!("the file is too short for {} × {}", element.count, element.name);
+            let message = format!("the file is too short for {} × {}", element.count, shown(&element.name));
             return Err(Numbers::problem(numbers, message));
         }
         Ok(())

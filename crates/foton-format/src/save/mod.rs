@@ -14,6 +14,7 @@ use std::io::Write;
 use std::path::{Component, Path, PathBuf};
 
 use foton_film::{WriteError, atomic_write, is_same_file};
+use foton_input::{Named, shown_path};
 use foton_scene::description::SceneDescription;
 
 use crate::diagnostic::Report;
@@ -80,7 +81,9 @@ fn changed_text(opened: &Opened, edited: &SceneDescription, path: &Path) -> Resu
     let text = document.text();
     let mut report = Report::new(&path.to_string_lossy(), path.parent().unwrap_or(Path::new("")));
     report.main_text(&text);
-    let again = crate::read(report, &text, &|file| std::fs::read(file), &Options::default());
+    // Defaults say what parameters did; the memory is that of opening it.
+    let options = Options { defines: Vec::new(), ..opened.options.clone() };
+    let again = crate::read(report, &text, &|file| options.read(file, Named::ByFile), &options);
     let again = again.map_err(|error| format!("what was changed does not read back: {error}"))?;
     match same::difference(edited, &again.description) {
         None => Ok(text),
@@ -96,7 +99,7 @@ fn is_old(document: &Document) -> bool {
 /// The folder that a file is in, with nothing to resolve any more.
 fn folder(file: &Path) -> Result<PathBuf, Obstacle> {
     let folder = file.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    folder.canonicalize().map_err(|error| format!("{}: {error}", folder.display()))
+    folder.canonicalize().map_err(|error| format!("{}: {error}", shown_path(folder)))
 }
 
 /// The way from one folder to another, both absolute; absolute where they have only the root in common.

@@ -1,6 +1,7 @@
 //! What a person reads when a file is wrong: the exact message and place of each problem.
 
 mod parts;
+mod strangers;
 
 use std::io;
 use std::path::Path;

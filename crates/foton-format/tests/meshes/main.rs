@@ -304,13 +304,16 @@ fn what_is_wrong_with_an_stl_file_is_said() {
         bytes
     };
     for (i, (bytes, wanted)) in [
-        (b"".to_vec(), "the file is too short for 0 triangles, or no STL file"),
+        (b"".to_vec(), "the file is too short for the triangles that it states, or no STL file"),
         (b"solid nothing\nendsolid\n".to_vec(), "the file has no triangles"),
         (with("vertex 1e0 0 0", "vertex 1 0"), ":5:4: \"vertex\" needs three numbers, not 2"),
         (with("vertex 1e0", "vertex nan"), ":5:11: \"nan\" is not a finite number"),
         (with("   vertex 1e0 0 0\n", ""), ":6:3: a facet has three corners, not 2"),
         (with("ENDLOOP", "ENDLOP"), ":14:1: \"endlop\" is not understood"),
-        (binary_stl(b"", 0)[..183].to_vec(), "the file is too short for 2 triangles, or no STL file"),
+        (
+            binary_stl(b"", 0)[..183].to_vec(),
+            "the file is too short for the triangles that it states, or no STL file",
+        ),
         (nan, "byte 134: a triangle's corner is not finite"),
     ]
     .into_iter()

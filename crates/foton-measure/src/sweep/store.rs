@@ -8,6 +8,7 @@ use foton_film::{
     Image, Metadata, ToneMap, WriteError, atomic_write, check_writable, read_exr, write_exr, write_png,
     write_spare,
 };
+use foton_input::{Limit, Named, read_file};
 use foton_integrator::Render;
 use foton_math::Rgb;
 
@@ -242,12 +243,16 @@ impl Store {
         let Some(list) = read(&self.path("images/list.txt"))? else { return Ok(Vec::new()) };
         let bytes = |name: &str| {
             let path = self.path(&format!("images/{name}.png"));
-            fs::read(&path).map_err(io_error(&path))
+            read_file(&path, Named::ByFile, Limit::NONE, &|| false).map_err(io_error(&path))
         };
         let mut shown = Vec::new();
         for line in list.lines() {
             let mut fields = line.split('\t');
             let [name, title, detail] = std::array::from_fn(|_| fields.next().unwrap_or_default());
+            // Pictures stand in the page: only those of this folder.
+            if !name.bytes().all(|b| b.is_ascii_alphanumeric()) {
+                continue;
+            }
             let error = if name == "reference" { None } else { Some(bytes(&format!("{name}-error"))?) };
             shown.push(Shown { title: title.into(), detail: detail.into(), image: bytes(name)?, error });
         }
@@ -257,7 +262,9 @@ impl Store {
 
 /// The text of a file; `None` where there is none.
 fn read(path: &Path) -> Result<Option<String>, SweepError> {
-    match fs::read_to_string(path) {
+    let text = read_file(path, Named::ByFile, Limit::NONE, &|| false)
+        .and_then(|bytes| String::from_utf8(bytes).map_err(|_| ErrorKind::InvalidData.into()));
+    match text {
         Ok(text) => Ok(Some(text)),
         Err(cause) if cause.kind() == ErrorKind::NotFound => Ok(None),
         Err(cause) => Err(io_error(path)(cause)),

@@ -11,6 +11,7 @@ mod tests;
 
 use std::path::{Path, PathBuf};
 
+use foton_input::shown_path;
 use listing::Entry;
 
 /// What scenes and meshes end in.
@@ -106,7 +107,7 @@ impl FileDialog {
         let wanted = if self.every_file { None } else { Some(self.extensions) };
         (self.entries, self.trouble) = match listing::read(&self.folder, wanted) {
             Ok(entries) => (entries, None),
-            Err(cause) => (Vec::new(), Some(format!("{} cannot be read: {cause}", self.folder.display()))),
+            Err(cause) => (Vec::new(), Some(format!("{} cannot be read: {cause}", shown_path(&self.folder)))),
         };
     }
 
@@ -166,16 +167,16 @@ impl FileDialog {
         }
         match self.purpose {
             Purpose::Open if path.is_file() => return Some(path),
-            Purpose::Open => self.trouble = Some(format!("There is no file {}.", path.display())),
+            Purpose::Open => self.trouble = Some(format!("There is no file {}.", shown_path(&path))),
             Purpose::Save => {
                 if path.extension().is_none() {
                     path.set_extension(self.extensions.first().copied().unwrap_or_default());
                 }
                 let folder = path.parent().unwrap_or(Path::new("/"));
                 if !folder.is_dir() {
-                    self.trouble = Some(format!("There is no folder {}.", folder.display()));
+                    self.trouble = Some(format!("There is no folder {}.", shown_path(folder)));
                 } else if path.exists() && self.replaces.as_deref() != Some(&path) {
-                    self.trouble = Some(format!("{} is there already. Replace it?", path.display()));
+                    self.trouble = Some(format!("{} is there already. Replace it?", shown_path(&path)));
                     self.replaces = Some(path);
                 } else {
                     return Some(path);

@@ -1,12 +1,16 @@
 //! What must be the same in a render that goes on from a checkpoint. It stands in the file by name, so that whoever has changed
 //! something is told what.
 
+use foton_input::shown;
 use foton_integrator::{DirectLight, Render};
 
 use crate::metadata::SceneIdentity;
 
 /// The name of the scene's hash, which no option sets.
 const SCENE: &str = "scene";
+
+/// Differences that are said at most.
+const MOST: usize = 20;
 
 /// A line for each: its name, which is that of its option, and its value.
 pub(super) fn of(render: &Render, scene: &SceneIdentity) -> String {
@@ -54,8 +58,12 @@ pub(super) fn difference(kept: &str, here: &str) -> Option<String> {
         }
         // Hit points differ along with anything that makes others of them.
         Some(_) => {
-            let all: Vec<String> =
-                differing.map(|((name, kept), (_, here))| format!("{name} {kept}, not {here}")).collect();
+            let all: Vec<String> = differing
+                .take(MOST)
+                .map(|((name, kept), (_, here))| {
+                    format!("{} {}, not {}", shown(name), shown(kept), shown(here))
+                })
+                .collect();
             let caused = if all.len() > 1 {
                 all.iter().filter(|d| !d.starts_with("hit points ")).cloned().collect()
             } else {

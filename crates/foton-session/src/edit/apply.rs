@@ -1,5 +1,6 @@
 //! Edits: from one description to the next.
 
+use foton_input::quoted;
 use foton_math::glam::DVec3;
 use foton_scene::description::{Colour, EmitterKind, SceneDescription};
 use thiserror::Error;
@@ -50,13 +51,13 @@ pub enum EditError {
     #[error("there is no such thing in the scene")]
     NoTarget,
     /// It has no such field.
-    #[error("\"{0}\" has no such field")]
+    #[error("{} has no such field", quoted(.0))]
     NoField(String),
     /// The value is of another kind, or out of range.
     #[error("{0} cannot be {1:?}")]
     BadValue(&'static str, Value),
     /// Light from infinity has no place.
-    #[error("\"{0}\" has no place to move from")]
+    #[error("{} has no place to move from", quoted(.0))]
     CannotMove(String),
     /// A move by NaN, or to infinity.
     #[error("that is not a place")]

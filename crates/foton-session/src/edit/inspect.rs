@@ -1,5 +1,6 @@
 //! What an inspector shows of a shape or light: its title, its fields, and whom an edit would touch besides.
 
+use foton_input::quoted;
 use foton_scene::description::{Geometry, SceneDescription};
 
 use super::camera::UpAxis;
@@ -87,7 +88,7 @@ fn shape(description: &SceneDescription, index: usize, mut fields: Fields) -> Op
     let shapes = description.shapes.iter().filter(|s| s.material == shape.material).count();
     let mut notes = Vec::new();
     if shapes > 1 {
-        notes.push(format!("The material \"{}\" is shared by {shapes} shapes.", used.name));
+        notes.push(format!("The material {} is shared by {shapes} shapes.", quoted(&used.name)));
     }
     if textured {
         notes.push("Colours that come from textures cannot be edited here.".to_owned());

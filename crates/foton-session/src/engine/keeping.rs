@@ -38,7 +38,7 @@ impl Worker {
     /// Ends the keeping, for the render ends, and another has no business in the file.
     pub(super) fn let_go(&mut self) {
         if let Some(kept) = &self.kept {
-            let name = kept.path.display();
+            let name = foton_input::shown_path(&kept.path);
             self.event(Event::Notice(format!("{name} keeps the render before; this one is not kept")));
         }
         self.keep_the_last();

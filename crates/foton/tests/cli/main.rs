@@ -13,6 +13,7 @@ mod scene_says;
 #[cfg(unix)]
 mod signals;
 #[cfg(target_os = "linux")]
+mod strangers;
 mod streams;
 mod strict;
 #[cfg(target_os = "linux")]

@@ -21,3 +21,4 @@ pub(super) const ENGINE: &str = "-p foton-session --test engine";
 pub(super) const MEASURE: &str = "-p foton-measure --lib";
 pub(super) const CANCELLING: &str = "-p foton-format --test cancelling";
 pub(super) const SESSION: &str = "-p foton-session --lib";
+pub(super) const INPUT: &str = "-p foton-input";
