@@ -176,8 +176,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "nothing is quoted of a file that is no OBJ file",
         file: "crates/foton-format/src/obj.rs",
-        from: "false if !is_of_kind(bytes) =>",
-        to: "false if !is_of_kind(bytes) && bytes.is_empty() =>",
+        from: "false if !is_of_kind(bytes, cancel) =>",
+        to: "false if !is_of_kind(bytes, cancel) && bytes.is_empty() =>",
         target: BAD_FILES,
         test: "no_message_tells_what_stands_in_a_file_of_another_kind",
     },
