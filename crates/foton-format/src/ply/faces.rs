@@ -19,6 +19,8 @@ pub(super) struct Faces {
     /// How many vertices the file says it has.
     vertices: u64,
     triangles: Vec<[u32; 3]>,
+    /// Triangles of strips, by the vertices of the file.
+    strips: Vec<[u32; 3]>,
     polygons: Polygons,
     /// Vertices by their number in the file and the texture coordinate of a corner, if faces state any.
     split: Option<Vertices<(u32, Option<[u64; 2]>)>>,
@@ -31,6 +33,7 @@ impl Faces {
         Self {
             vertices: header.vertices,
             triangles: Vec::new(),
+            strips: Vec::new(),
             polygons: Polygons::default(),
             split: None,
             short: Tally::default(),
@@ -143,7 +146,7 @@ impl Faces {
                             let [a, b] = last;
                             // Strips are joined by triangles that name a corner twice.
                             if strip >= 2 && a != b && b != corner && corner != a {
-                                self.triangles.push(if strip % 2 == 0 {
+                                self.strips.push(if strip % 2 == 0 {
                                     [a, b, corner]
                                 } else {
                                     [b, a, corner]
@@ -172,11 +175,13 @@ impl Faces {
 
     /// Gives the mesh its triangles, and vertices for them; what is to be warned of.
     pub(super) fn finish(self, mesh: &mut Mesh, cancel: &Cancel) -> Result<Vec<Problem>, Problem> {
-        let Self { mut triangles, polygons, split, short, unfit, .. } = self;
-        if triangles.is_empty() {
+        let Self { mut triangles, mut strips, polygons, split, short, unfit, .. } = self;
+        if triangles.is_empty() && strips.is_empty() {
             return Err((Place::default(), "the file has no faces".to_owned()));
         }
-        if let Some(split) = split {
+        if let Some(mut split) = split {
+            // Strips state no texture coordinates for their corners.
+            strips.iter_mut().flatten().for_each(|corner| *corner = split.index(*corner, (*corner, None)));
             let of_vertex = |i: u32| mesh.texture_coordinates.get(i as usize).copied().unwrap_or_default();
             let textures = split
                 .keys
@@ -191,6 +196,7 @@ impl Faces {
                 mesh.normals = split.keys.iter().map(|&(i, _)| mesh.normals[i as usize]).collect();
             }
         }
+        triangles.append(&mut strips);
         let mended = polygons.mend(&mut triangles, |i| mesh.positions[i as usize], cancel);
         mesh.triangles = triangles;
         let warnings = [

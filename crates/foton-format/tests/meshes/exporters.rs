@@ -229,6 +229,26 @@ fn strips_of_triangles_keep_their_sides() {
 }
 
 #[test]
+fn strips_may_stand_beside_faces_with_texture_coordinates_for_their_corners() {
+    for (faces, body) in [(0, ""), (1, "3 0 1 2 6 0.5 0 1 0 0 1\n")] {
+        let text = format!(
+            "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+             element face {faces}\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n\
+             element tristrips 1\nproperty list int int vertex_indices\nend_header\n\
+             0 0 0\n1 0 0\n0 1 0\n1 1 0\n{body}4 0 1 2 3\n"
+        );
+        let (mesh, said) = mended("ply", text.as_bytes());
+        assert_eq!((mesh.triangles.len(), said), (faces + 2, Vec::new()));
+        let corners = |t: &[u32; 3]| t.map(|i| mesh.positions[i as usize]);
+        let strip: Vec<_> = mesh.triangles[faces..].iter().map(corners).collect();
+        assert_eq!(
+            strip,
+            [[DVec3::ZERO, DVec3::X, DVec3::Y], [DVec3::Y, DVec3::X, DVec3::new(1.0, 1.0, 0.0)]]
+        );
+    }
+}
+
+#[test]
 fn what_exporters_get_wrong_in_a_ply_file_is_mended_and_counted() {
     let text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
                 property float nx\nproperty float ny\nproperty float nz\nproperty float s\nproperty float t\n\
