@@ -107,7 +107,7 @@ impl Side {
 }
 
 /// An edge of a triangle, by what is equal for the triangles on both of its sides.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 struct Edge {
     hash: u64,
     primitive: u32,
@@ -125,6 +125,49 @@ fn hash_of_edge(a: Vec3, b: Vec3) -> u64 {
     })
 }
 
+/// Edges that are sorted at once, without a question whether building goes on.
+const SORTED_AT_ONCE: usize = 1 << 18;
+
+/// Sorts edges: first into parts by the highest bits of their hashes, which lie evenly.
+fn sorted(mut edges: Vec<Edge>, gauge: &Gauge<'_>) -> Result<Vec<Edge>, Cancelled> {
+    gauge.check()?;
+    let bits = (edges.len() / SORTED_AT_ONCE).next_power_of_two().trailing_zeros();
+    if bits == 0 {
+        edges.par_sort_unstable();
+        return Ok(edges);
+    }
+    let part_of = |edge: &Edge| (edge.hash >> (u64::BITS - bits)) as usize;
+    let mut ends = vec![0usize; 1 << bits];
+    for (i, edge) in edges.iter().enumerate() {
+        gauge.check_at(i)?;
+        ends[part_of(edge)] += 1;
+    }
+    let mut sum = 0;
+    for end in &mut ends {
+        // Where the part begins; it moves on to its end.
+        sum += std::mem::replace(end, sum);
+    }
+    let mut in_parts = vec![Edge::default(); edges.len()];
+    for (i, edge) in edges.iter().enumerate() {
+        gauge.check_at(i)?;
+        let place = &mut ends[part_of(edge)];
+        in_parts[*place] = *edge;
+        *place += 1;
+    }
+    drop(edges);
+    let (mut parts, mut rest, mut before) = (Vec::new(), &mut in_parts[..], 0);
+    for end in ends {
+        let (part, after) = rest.split_at_mut(end - before);
+        parts.push(part);
+        (rest, before) = (after, end);
+    }
+    parts.into_par_iter().try_for_each(|part| {
+        part.sort_unstable();
+        gauge.check()
+    })?;
+    Ok(in_parts)
+}
+
 /// Joins triangles that have both vertices of an edge in common, and clears the bits of their sides in `free`.
 fn join_equal_edges(
     primitives: &[Primitive],
@@ -134,10 +177,10 @@ fn join_equal_edges(
     gauge: &Gauge<'_>,
 ) -> Result<(), Cancelled> {
     let sides_of = |i: usize| match primitives[i] {
-        Primitive::Triangle(corners) if keeps(i) => Some(corners),
+        Primitive::Triangle(corners) if gauge.check_at(i).is_ok() && keeps(i) => Some(corners),
         _ => None,
     };
-    let mut edges: Vec<Edge> = (0..primitives.len())
+    let edges: Vec<Edge> = (0..primitives.len())
         .into_par_iter()
         .flat_map_iter(|i| {
             sides_of(i).into_iter().flat_map(move |corners| {
@@ -149,9 +192,7 @@ fn join_equal_edges(
             })
         })
         .collect();
-    gauge.check()?;
-    edges.par_sort_unstable();
-    gauge.check()?;
+    let edges = sorted(edges, gauge)?;
     let side = |e: &Edge| match primitives[e.primitive as usize] {
         Primitive::Triangle(corners) => Side::new(corners, usize::from(e.side)),
         _ => None,
@@ -348,4 +389,26 @@ fn along_curve(of: &Aabb, all: &Aabb) -> u64 {
         let at = |c: u64, place: u64| (c >> bit & 1) << (3 * bit + place);
         code | at(x, 0) | at(y, 1) | at(z, 2)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edges_in_parts_are_sorted_as_all_at_once() {
+        let options = BuildOptions::default();
+        let gauge = options.step(BuildStep::Patches, 1);
+        for count in [3, 5 * SORTED_AT_ONCE as u32] {
+            let edge = |i: u32| {
+                // Every hash twice.
+                let hash = u64::from(i / 2).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+                Edge { hash, primitive: count - i, side: (i % 3) as u8 }
+            };
+            let edges: Vec<Edge> = (0..count).map(edge).collect();
+            let mut wanted = edges.clone();
+            wanted.sort_unstable();
+            assert!(sorted(edges, &gauge) == Ok(wanted), "{count}");
+        }
+    }
 }
