@@ -110,8 +110,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "a cancelled reading says nothing of the file",
         file: "crates/foton-format/src/lib.rs",
-        from: "reader.scene();
-    options.cancel.check()?;",
+        from: "reader.scene();\n    options.cancel.check()?;",
         to: "reader.scene();",
         target: CANCELLING,
         test: "meshes_of_every_format_are_given_up_wherever_that_is_asked_for",

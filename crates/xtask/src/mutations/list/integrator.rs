@@ -222,8 +222,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "laying hit points out can be cancelled",
         file: "crates/foton-integrator/src/packet.rs",
-        from: "    cancel.check()?;
-    let bounds",
+        from: "    cancel.check()?;\n    let bounds",
         to: "    let bounds",
         target: INTEGRATOR,
         test: "a_start_that_is_cancelled_ends_in_that_wherever_it_comes",
@@ -231,8 +230,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "marking cells can be cancelled",
         file: "crates/foton-integrator/src/grid.rs",
-        from: "            cancel.check()?;
-            for disc",
+        from: "            cancel.check()?;\n            for disc",
         to: "            for disc",
         target: INTEGRATOR,
         test: "a_grid_that_is_cancelled_is_none_wherever_that_comes",

@@ -116,12 +116,10 @@ pub(super) const LIST: &[Mutation] = &[
         test: "one_request_gives_up_loading_and_finishes_a_pass_two_discard_it",
     },
     Mutation {
-        what: "signals are heard while a scene is read",
+        what: "signals are heard while a scene is built",
         file: "crates/foton/src/job.rs",
-        from: "cancel: cancel.clone() };
-    foton_format::open",
-        to: "cancel: Cancel::default() };
-    foton_format::open",
+        from: "BuildOptions { cancel: cancel.clone(), tell: Some(&tell), ..BuildOptions::default() }",
+        to: "BuildOptions { tell: Some(&tell), ..BuildOptions::default() }",
         target: CLI,
         test: "a_scene_that_is_read_or_built_is_given_up_at_the_first_signal",
     },
