@@ -11,14 +11,14 @@ use foton_session::snapshot::Format;
 use serde_json::{Value, json};
 
 use crate::args::Compare;
+use crate::console::{Console, Failure};
 use crate::memory;
-use crate::talk::{Failure, Talk};
 
 /// Of the memory that may be used, what reading one of the images may take: comparing them takes more.
 const SHARE: f64 = 0.25;
 
 /// Runs `foton compare`.
-pub(crate) fn run(args: &Compare, talk: &Talk) -> Result<(), Failure> {
+pub(crate) fn run(args: &Compare, console: &Console) -> Result<(), Failure> {
     args.output.as_ref().map_or(Ok(()), |(path, _)| check_writable(path))?;
     let (a, b) = (read(&args.a)?, read(&args.b)?);
     let pair = Pair::new(&a, &b).map_err(|cause| Failure::Compare {
@@ -27,7 +27,7 @@ pub(crate) fn run(args: &Compare, talk: &Talk) -> Result<(), Failure> {
         cause,
     })?;
     for message in cautions(args.a.1, args.b.1, &pair) {
-        talk.warning(&message);
+        console.warning(&message);
     }
     let figures = Figures::of(&pair);
     let top = scale_top(&pair.relative_error());
@@ -36,10 +36,10 @@ pub(crate) fn run(args: &Compare, talk: &Talk) -> Result<(), Failure> {
     let written = written.transpose();
     let output = args.output.as_ref().filter(|_| written.is_ok());
     if args.json {
-        talk.event(&as_json(args, output, &a, &pair, &figures, top));
+        console.event(&as_json(args, output, &a, &pair, &figures, top));
     } else {
         for line in as_text(args, output, &a, &figures, top) {
-            talk.out(&line);
+            console.out(&line);
         }
     }
     Ok(written.map(drop)?)

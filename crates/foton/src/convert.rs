@@ -5,24 +5,24 @@ use foton_integrator::Cancel;
 use foton_scene::Scene;
 
 use crate::args::Convert;
+use crate::console::{Console, Failure};
 use crate::job::{open, refuse_two_roles};
 use crate::memory;
-use crate::talk::{Failure, Talk};
 
 /// Runs `foton convert`.
-pub(crate) fn run(args: &Convert, talk: &Talk) -> Result<(), Failure> {
+pub(crate) fn run(args: &Convert, console: &Console) -> Result<(), Failure> {
     check_writable(&args.output)?;
     // A signal ends the program at once: there is nothing to keep.
     let opened = open(&args.scene, &args.defines, None, &Cancel::default())?;
     refuse_two_roles(args.roles(), &opened)?;
     for finding in &opened.warnings {
-        talk.finding(finding);
+        console.finding(finding);
     }
     // What cannot be rendered is not worth writing; building also checks every index.
     memory::refuse_to_build(&opened.description, None)?;
     let scene = args.scene.display().to_string();
     Scene::build(&opened.description).map_err(|cause| Failure::of_build(&opened, &scene, &cause))?;
     foton_format::write_scene(&opened.description, &args.output, &opened.files)?;
-    talk.line(&format!("wrote {}", args.output.display()));
+    console.line(&format!("wrote {}", args.output.display()));
     Ok(())
 }

@@ -10,15 +10,15 @@ use foton_session::Session;
 use serde_json::{Value, json};
 
 use crate::args::Info;
+use crate::console::{Console, Failure};
 use crate::job::{build, choose_sensor, open, refuse_two_roles};
-use crate::talk::{Failure, Talk};
 
 /// Longest side, in pixels, of the picture that tells what each emitter's photons are good for.
 const PROBE_SIZE: u32 = 64;
 const PROBE_PHOTONS: NonZeroU32 = NonZeroU32::new(1 << 14).expect("above 0");
 
 /// Runs `foton info`.
-pub(crate) fn print(args: &Info, talk: &Talk) -> Result<(), Failure> {
+pub(crate) fn print(args: &Info, console: &Console) -> Result<(), Failure> {
     // A signal ends the program at once: there is nothing to keep.
     let cancel = Cancel::default();
     let opened = open(&args.scene, &args.defines, args.memory, &cancel)?;
@@ -26,19 +26,19 @@ pub(crate) fn print(args: &Info, talk: &Talk) -> Result<(), Failure> {
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let probed = opened.description.clone();
-    let (scene, identity) = build(opened, &name, sensor, (None, args.memory), talk, &cancel)?;
+    let (scene, identity) = build(opened, &name, sensor, (None, args.memory), console, &cancel)?;
     let settings = RenderSettings { sensor, ..RenderSettings::default() };
     if args.json {
-        talk.event(&as_json(&scene, &settings, &name, identity.hash));
+        console.event(&as_json(&scene, &settings, &name, identity.hash));
     } else {
         for line in as_text(&scene, &settings, &name, identity.hash) {
-            talk.out(&line);
+            console.out(&line);
         }
     }
     // The probe builds its own: both at once would take twice the memory that was asked for.
     drop(scene);
     if let Some(probe) = probe(probed, &settings) {
-        talk.check_lights(&probe);
+        console.check_lights(&probe);
     }
     Ok(())
 }

@@ -14,10 +14,10 @@ use foton_session::snapshot::{self, Format};
 use foton_session::{Interrupt, Preset, SceneIdentity, Session, StopCause, StopRule, checkpoint};
 
 use crate::args::{ErrorWish, Radius, RenderArgs, Size};
+use crate::console::{Console, Failure};
 use crate::memory;
 use crate::roles::Roles;
 use crate::signals;
-use crate::talk::{Failure, Talk};
 
 /// How long a render without a stop rule takes.
 const DEFAULT_TIME: Duration = Duration::from_secs(60);
@@ -26,22 +26,22 @@ const DEFAULT_TIME: Duration = Duration::from_secs(60);
 const FEW_STEPS: f32 = 100.0;
 
 /// Runs `foton render`.
-pub(crate) fn render(args: &RenderArgs, talk: &mut Talk) -> Result<(), Failure> {
+pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Failure> {
     let (path, format) = &args.output;
     check_writable(path)?;
     args.checkpoint.as_deref().map_or(Ok(()), check_writable)?;
     if let Some(every) = args.every {
         check_writable(&snapshot::numbered(path, every.first()))?;
     }
-    let interrupt = interrupt_on_signals(talk);
-    talk.begin();
+    let interrupt = interrupt_on_signals(console);
+    console.begin();
     let opened = open(&args.scene, &args.defines, args.memory, interrupt.cancel())?;
     refuse_two_roles(args.roles(), &opened)?;
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let suggested = opened.suggested;
     let bounds = (args.size, args.memory);
-    let (scene, identity) = build(opened, &name, sensor, bounds, talk, interrupt.cancel())?;
+    let (scene, identity) = build(opened, &name, sensor, bounds, console, interrupt.cancel())?;
     let (defaults, suggested) = match args.preset {
         Some(preset) => (
             Preset::from(preset).apply(RenderSettings::default()),
@@ -79,19 +79,19 @@ pub(crate) fn render(args: &RenderArgs, talk: &mut Talk) -> Result<(), Failure> 
     if rule == StopRule::default() {
         if let Some(passes) = suggested.passes {
             rule.passes = Some(passes.into());
-            talk.line(&format!("no --passes, --time or --error: {passes} passes, as the scene file says"));
+            console.line(&format!("no --passes, --time or --error: {passes} passes, as the scene file says"));
         } else {
             rule.time = Some(DEFAULT_TIME);
-            talk.line("no --passes, --time or --error: rendering for 60 s");
+            console.line("no --passes, --time or --error: rendering for 60 s");
         }
     }
     let largest = scene.normalisation().world_length(2.0 * f64::from(scene.bounds().radius()));
     if settings.ppm.radius.is_some_and(|r| r > largest) {
-        talk.warning(&format!("--radius is larger than the whole scene and is cut to that, {largest:.4}"));
+        console.warning(&format!("--radius is larger than the whole scene and is cut to that, {largest:.4}"));
     }
     let threads = args.threads.map(usize::from);
     refuse_beyond_memory(&scene, &settings, threads, args.memory)?;
-    talk.stage("collecting hit points");
+    console.stage("collecting hit points");
     let mut session = Session::start(scene, settings, threads, interrupt.cancel())?;
     interrupt.begin_passes();
     if args.strict {
@@ -102,7 +102,7 @@ pub(crate) fn render(args: &RenderArgs, talk: &mut Talk) -> Result<(), Failure> 
         if args.strict && session.render().ledger().dropped > 0 {
             return Err(Failure::LeftOut { path: path.clone(), values: session.render().ledger().dropped });
         }
-        go_on(args, path, &mut session, &rule, talk);
+        go_on(args, path, &mut session, &rule, console);
         // Passes may be larger than a render from the beginning would have had them.
         refuse_beyond_memory(session.render().scene(), session.render().settings(), threads, args.memory)?;
     }
@@ -110,32 +110,32 @@ pub(crate) fn render(args: &RenderArgs, talk: &mut Talk) -> Result<(), Failure> 
     let layers = if *format == Format::Exr { &args.layers[..] } else { &[] };
     let mut outputs = Vec::new();
     let cause = session.run(&rule, &interrupt, &mut |progress| {
-        talk.pass(progress, &rule);
+        console.pass(progress, &rule);
         if args.every.is_some_and(|e| e.is_due(progress.report.pass)) {
             let path = snapshot::numbered(path, progress.report.pass);
             match snapshot::write(&path, *format, progress.render, layers, &identity) {
                 Ok(()) => outputs.push(path.display().to_string()),
                 // The passes are still there for the next image.
-                Err(error) => talk.warning(&format!("an image on the way is missing: {error}")),
+                Err(error) => console.warning(&format!("an image on the way is missing: {error}")),
             }
         }
         if keeper.is_due(progress.elapsed) {
-            keeper.keep(progress.render, progress.elapsed, progress.rays, &identity, talk);
+            keeper.keep(progress.render, progress.elapsed, progress.rays, &identity, console);
         }
     });
-    say_limit(cause, talk);
+    say_limit(cause, console);
     // After a fault hit points may be half-way between two passes: the last checkpoint is the one to go on from.
     if session.panic().is_none() && session.not_finite().is_none() {
-        keeper.keep_last(&session, &identity, talk);
+        keeper.keep_last(&session, &identity, console);
     }
-    finish(&session, &[(path.clone(), *format)], layers, &identity, outputs, talk)
+    finish(&session, &[(path.clone(), *format)], layers, &identity, outputs, console)
 }
 
 /// Says where a render goes on from. Of what is asked for by name, that which may change between passes changes with the next one;
 /// all else is as in the checkpoint, or it would not have been taken up.
-fn go_on(args: &RenderArgs, path: &Path, session: &mut Session, rule: &StopRule, talk: &Talk) {
+fn go_on(args: &RenderArgs, path: &Path, session: &mut Session, rule: &StopRule, console: &Console) {
     let passes = session.render().passes();
-    talk.line(&format!("going on from {} after {passes} passes", path.display()));
+    console.line(&format!("going on from {} after {passes} passes", path.display()));
     let preset = args.preset.map(|preset| Preset::from(preset).apply(RenderSettings::default()));
     let alpha = args.alpha.or(preset.as_ref().map(|p| p.ppm.alpha));
     let photons = args.photons.or(preset.as_ref().map(|p| p.ppm.photons_per_pass));
@@ -146,10 +146,10 @@ fn go_on(args: &RenderArgs, path: &Path, session: &mut Session, rule: &StopRule,
     ];
     for change in changes.into_iter().flatten() {
         session.render_mut().change(change);
-        talk.line(&format!("{change} from pass {} on", passes + 1));
+        console.line(&format!("{change} from pass {} on", passes + 1));
     }
     if rule.is_reached(passes, session.elapsed(), Duration::ZERO, session.render().error().as_ref()) {
-        talk.warning(&format!(
+        console.warning(&format!(
             "the checkpoint has {passes} passes in {:.1} s and is past --passes, --time or --error already, which count from its \
              beginning: nothing is added",
             session.elapsed().as_secs_f64()
@@ -174,23 +174,30 @@ impl<'a> Keeper<'a> {
     }
 
     /// Writes one, if they were asked for. One that cannot be written is a warning: the render goes on.
-    fn keep(&mut self, render: &Render, elapsed: Duration, rays: u64, scene: &SceneIdentity, talk: &Talk) {
+    fn keep(
+        &mut self,
+        render: &Render,
+        elapsed: Duration,
+        rays: u64,
+        scene: &SceneIdentity,
+        console: &Console,
+    ) {
         let Some(path) = self.path.filter(|_| render.passes() > 0) else { return };
         self.last = elapsed;
         if let Err(error) = checkpoint::write(path, render, elapsed, rays, scene) {
-            talk.warning(&format!("no checkpoint: {error}"));
+            console.warning(&format!("no checkpoint: {error}"));
         }
     }
 
     /// Writes the last one, in another place if need be: there is no next one that could make up for it.
-    fn keep_last(&self, session: &Session, scene: &SceneIdentity, talk: &Talk) {
+    fn keep_last(&self, session: &Session, scene: &SceneIdentity, console: &Console) {
         let Some(path) = self.path.filter(|_| session.render().passes() > 0) else { return };
         let write =
             |path: &Path| checkpoint::write(path, session.render(), session.elapsed(), session.rays(), scene);
         if let Err(error) = write(path) {
             let instead = write_spare(path, write)
                 .map_or_else(String::new, |spare| format!("; the state is in {} instead", spare.display()));
-            talk.warning(&format!("no checkpoint: {error}{instead}"));
+            console.warning(&format!("no checkpoint: {error}{instead}"));
         }
     }
 }
@@ -201,9 +208,9 @@ pub(crate) fn refuse_two_roles(roles: Roles, opened: &Opened) -> Result<(), Fail
 }
 
 /// Says that a limit of the system ended a render, if one did.
-pub(crate) fn say_limit(cause: StopCause, talk: &Talk) {
+pub(crate) fn say_limit(cause: StopCause, console: &Console) {
     if let Some(why) = signals::limit().filter(|_| cause == StopCause::Interrupted) {
-        talk.warning(&format!("the render ends early: {why}"));
+        console.warning(&format!("the render ends early: {why}"));
     }
 }
 
@@ -226,11 +233,11 @@ pub(crate) fn build(
     name: &str,
     sensor: usize,
     (size, memory): (Option<Size>, Option<u64>),
-    talk: &Talk,
+    console: &Console,
     cancel: &Cancel,
 ) -> Result<(Arc<Scene>, SceneIdentity), Failure> {
     for finding in &opened.warnings {
-        talk.finding(finding);
+        console.finding(finding);
     }
     let identity = SceneIdentity { name: name.to_owned(), hash: opened.source_hash };
     if let Some(Size { width, height }) = size {
@@ -239,40 +246,40 @@ pub(crate) fn build(
         }
     }
     memory::refuse_to_build(&opened.description, memory)?;
-    let tell = talk.building();
+    let tell = console.building();
     let options = BuildOptions { cancel: cancel.clone(), tell: Some(&tell), ..BuildOptions::default() };
     let scene = Scene::build_with(&opened.description, &options)
         .map_err(|cause| Failure::of_build(&opened, name, &cause))?;
     let census = scene.census();
     if census.degenerate_triangles > 0 {
-        talk.warning(&format!("left out {} triangles without area", census.degenerate_triangles));
+        console.warning(&format!("left out {} triangles without area", census.degenerate_triangles));
     }
     for shape in scene.shapes().iter().filter(|s| s.steps_across < FEW_STEPS) {
-        talk.warning(&format!(
+        console.warning(&format!(
             "{} is only {:.0} steps of single precision across, so small is it where it stands: its shape is rounded to those",
             quoted(&shape.name),
             shape.steps_across
         ));
     }
     for far in scene.far_things(sensor) {
-        talk.finding(&opened.finding(Severity::Warning, name, Some(&far.name), far.to_string()));
+        console.finding(&opened.finding(Severity::Warning, name, Some(&far.name), far.to_string()));
     }
     for [over, under] in scene.hidden_shapes() {
         let [over, under] = [over, under].map(|shape| quoted(&scene.shapes()[shape as usize].name));
-        talk.warning(&format!(
+        console.warning(&format!(
             "{under} lies exactly in {over}, which hides it there: what is opaque counts before masks, then the first in the file"
         ));
     }
     if census.narrow_gloss {
-        talk.note("gloss of roughness up to 0.1 is followed in directions chosen once: its noise stays; --spp lowers it");
+        console.note("gloss of roughness up to 0.1 is followed in directions chosen once: its noise stays; --spp lowers it");
     }
     if census.has_narrow_caustics() {
-        talk.note(
+        console.note(
             "light of points, spots and suns that mirrors or glass throw on such gloss comes as photons: the narrower, the noisier",
         );
     }
     if census.emitters == 0 {
-        talk.warning("nothing in the scene emits light: the image will be black");
+        console.warning("nothing in the scene emits light: the image will be black");
     }
     Ok((Arc::new(scene), identity))
 }
@@ -300,11 +307,11 @@ pub(crate) fn refuse_beyond_memory(
 
 /// Ctrl-C, SIGTERM and the limits of the system end the render after its pass; a second one discards the pass. Before there are passes
 /// one is enough.
-pub(crate) fn interrupt_on_signals(talk: &Talk) -> Interrupt {
+pub(crate) fn interrupt_on_signals(console: &Console) -> Interrupt {
     let interrupt = Interrupt::while_loading();
     let handler = interrupt.clone();
     if let Err(error) = signals::on_end(move || handler.request()) {
-        talk.warning(&format!("Ctrl-C will not be handled: {error}"));
+        console.warning(&format!("Ctrl-C will not be handled: {error}"));
     }
     interrupt
 }
@@ -316,7 +323,7 @@ pub(crate) fn finish(
     layers: &[LayerKind],
     identity: &SceneIdentity,
     mut outputs: Vec<String>,
-    talk: &Talk,
+    console: &Console,
 ) -> Result<(), Failure> {
     let fault = |passes: Option<u64>| {
         let panic = session.panic().cloned().map(|panic| Failure::Panicked { panic, passes });
@@ -339,20 +346,20 @@ pub(crate) fn finish(
             Err(error) => {
                 match rescue(path, *format, session, layers, identity) {
                     Some((what, spare)) => {
-                        talk.warning(&format!("{error}; the {what} is {} instead", spare.display()));
+                        console.warning(&format!("{error}; the {what} is {} instead", spare.display()));
                         outputs.push(spare.display().to_string());
                     }
-                    None => talk.warning(&format!("{error}; nor can it be written anywhere else")),
+                    None => console.warning(&format!("{error}; nor can it be written anywhere else")),
                 }
                 if let Some(earlier) = unwritten.replace(error) {
-                    talk.warning(&earlier.to_string());
+                    console.warning(&earlier.to_string());
                 }
             }
         }
     }
-    talk.check_ledger(session.render());
-    talk.check_lights(session.render());
-    talk.done(session, &outputs);
+    console.check_ledger(session.render());
+    console.check_lights(session.render());
+    console.done(session, &outputs);
     if let Some(error) = unwritten {
         return Err(error.into());
     }

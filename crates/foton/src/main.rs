@@ -5,6 +5,7 @@
 
 mod args;
 mod compare;
+mod console;
 mod convert;
 mod embedded;
 mod figure;
@@ -15,7 +16,6 @@ mod memory;
 mod quick;
 mod roles;
 mod signals;
-mod talk;
 #[cfg(feature = "window")]
 mod window;
 
@@ -25,33 +25,33 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 
 use args::{Args, Command};
+use console::{Console, Failure};
 use foton_session::threads;
-use talk::{Failure, Talk};
 
 /// The window; where there can be none, a picture within a minute.
-fn live(args: &Args, talk: &mut Talk) -> Result<(), Failure> {
+fn live(args: &Args, console: &mut Console) -> Result<(), Failure> {
     #[cfg(feature = "window")]
     match window::show(args.scene.as_deref(), args.frame_log.as_deref()) {
         Ok(()) => return Ok(()),
         Err(error @ foton_preview::WindowError::Log(_)) => {
             return Err(Failure::Window(error.to_string()));
         }
-        Err(error) => talk.line(&error.to_string()),
+        Err(error) => console.line(&error.to_string()),
     }
-    quick::render(args.scene.as_deref(), talk)
+    quick::render(args.scene.as_deref(), console)
 }
 
 /// Starts the threads that scenes are built on; the exit code where the system gives none.
 fn start_threads() -> Option<ExitCode> {
-    let mut talk = Talk::new(false);
+    let mut console = Console::new(false);
     match threads::start() {
         Ok(None) => None,
         Ok(Some(message)) => {
-            talk.warning(&message);
+            console.warning(&message);
             None
         }
         Err(cause) => {
-            talk.failure(&Failure::Start(cause.into()));
+            console.failure(&Failure::Start(cause.into()));
             Some(ExitCode::FAILURE)
         }
     }
@@ -61,7 +61,7 @@ fn start_threads() -> Option<ExitCode> {
 /// anything.
 fn bad_usage(error: &clap::Error) -> ! {
     if error.use_stderr() {
-        Talk::new(false).line(error.to_string().trim_end());
+        Console::new(false).line(error.to_string().trim_end());
         std::process::exit(error.exit_code());
     }
     error.exit()
@@ -81,39 +81,39 @@ fn main() -> ExitCode {
     if let Some(failure) = start_threads() {
         return failure;
     }
-    let (result, mut talk) = match &args.command {
+    let (result, mut console) = match &args.command {
         Some(Command::Render(render)) => {
-            let mut talk = Talk::new(render.json);
-            (job::render(render, &mut talk), talk)
+            let mut console = Console::new(render.json);
+            (job::render(render, &mut console), console)
         }
         Some(Command::Convert(args)) => {
-            let talk = Talk::new(false);
-            (convert::run(args, &talk), talk)
+            let console = Console::new(false);
+            (convert::run(args, &console), console)
         }
         Some(Command::Info(args)) => {
-            let talk = Talk::new(args.json);
-            (info::print(args, &talk), talk)
+            let console = Console::new(args.json);
+            (info::print(args, &console), console)
         }
         Some(Command::Compare(args)) => {
-            let talk = Talk::new(args.json);
-            (compare::run(args, &talk), talk)
+            let console = Console::new(args.json);
+            (compare::run(args, &console), console)
         }
         Some(Command::Measure(args)) => {
-            let mut talk = Talk::new(args.json);
-            (measure::run(args, &mut talk), talk)
+            let mut console = Console::new(args.json);
+            (measure::run(args, &mut console), console)
         }
         None => {
-            let mut talk = Talk::new(false);
-            (live(&args, &mut talk), talk)
+            let mut console = Console::new(false);
+            (live(&args, &mut console), console)
         }
     };
     // What was asked for on standard output and is not there was not done.
-    let lost = talk.lost().map(|cause| Failure::StandardOutput(cause.to_owned()));
+    let lost = console.lost().map(|cause| Failure::StandardOutput(cause.to_owned()));
     let result = result.and_then(|()| lost.map_or(Ok(()), Err));
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            talk.failure(&failure);
+            console.failure(&failure);
             ExitCode::FAILURE
         }
     }

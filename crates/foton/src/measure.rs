@@ -9,22 +9,22 @@ use foton_session::{Session, StartError, StopCause};
 use serde_json::json;
 
 use crate::args::{Measure, Radius};
+use crate::console::{Console, Failure};
 use crate::job::{build, choose_sensor, interrupt_on_signals, open, refuse_two_roles, say_limit};
 use crate::memory;
-use crate::talk::{Failure, Talk};
 
 /// Runs `foton measure`.
-pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
+pub(crate) fn run(args: &Measure, console: &mut Console) -> Result<(), Failure> {
     let memory = memory::limit(None).map(|bytes| bytes as u64);
     let given = args.reference.as_deref().map(|path| read_exr_within(path, memory)).transpose()?;
-    let interrupt = interrupt_on_signals(talk);
-    talk.begin();
+    let interrupt = interrupt_on_signals(console);
+    console.begin();
     let opened = open(&args.scene, &args.defines, None, interrupt.cancel())?;
     refuse_two_roles(args.roles(), &opened)?;
     let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let suggested = opened.suggested;
-    let (scene, identity) = build(opened, &name, sensor, (args.size, None), talk, interrupt.cancel())?;
+    let (scene, identity) = build(opened, &name, sensor, (args.size, None), console, interrupt.cancel())?;
     let defaults = RenderSettings::default();
     let suggested_alpha = suggested.alpha.and_then(Alpha::new);
     let suggested_photons = suggested.photons_per_pass.and_then(NonZeroU32::new);
@@ -66,17 +66,17 @@ pub(crate) fn run(args: &Measure, talk: &mut Talk) -> Result<(), Failure> {
     if let Some(why) = refusal {
         return Err(Failure::Memory(why));
     }
-    talk.stage("collecting hit points");
+    console.stage("collecting hit points");
     // What a part found is kept when it is done: one that is interrupted may as well end at once.
     let outcome = {
-        let mut tell = |event: &Event| say(event, talk);
+        let mut tell = |event: &Event| say(event, console);
         pool.install(|| sweep.run(&|| interrupt.is_requested(), interrupt.cancel(), &mut tell))
     };
-    talk.end();
+    console.end();
     if interrupt.is_requested() {
-        say_limit(StopCause::Interrupted, talk);
+        say_limit(StopCause::Interrupted, console);
     }
-    conclude(&outcome?, interrupt.is_requested(), talk);
+    conclude(&outcome?, interrupt.is_requested(), console);
     Ok(())
 }
 
@@ -87,44 +87,45 @@ fn scene_name(args: &Measure) -> String {
     folder.filter(|_| stem == "scene").map_or(stem, |folder| folder.to_string_lossy().into_owned())
 }
 
-fn say(event: &Event, talk: &Talk) {
+fn say(event: &Event, console: &Console) {
     match event {
-        Event::Progress { what, fraction } => talk.progress(*fraction, what.clone()),
+        Event::Progress { what, fraction } => console.progress(*fraction, what.clone()),
         Event::Reference { origin, noise, smooth_share } => {
-            talk.event(&json!({
+            console.event(&json!({
                 "event": "reference", "origin": origin, "noise": noise, "smooth_share": smooth_share,
             }));
-            talk.line(&format!("reference: {origin}; noise {:.2} %", 100.0 * noise));
+            console.line(&format!("reference: {origin}; noise {:.2} %", 100.0 * noise));
         }
         Event::Job { photons, configurations, passes, least_error, is_old } => {
-            talk.event(&json!({
+            console.event(&json!({
                 "event": "job", "photons_per_pass": photons, "configurations": configurations, "passes": passes,
                 "least_error": least_error, "was_finished": is_old,
             }));
             let old = if *is_old { " (finished before)" } else { "" };
-            talk.line(&format!(
+            console.line(&format!(
                 "{photons} photons a pass: {configurations} configurations, {passes} passes, least error {:.2} %{old}",
                 100.0 * least_error
             ));
         }
-        Event::Note(message) => talk.note(message),
+        Event::Note(message) => console.note(message),
     }
 }
 
-fn conclude(outcome: &Outcome, interrupted: bool, talk: &Talk) {
+fn conclude(outcome: &Outcome, interrupted: bool, console: &Console) {
     let outputs: Vec<String> = outcome.outputs.iter().map(|path| path.display().to_string()).collect();
     let (done, all) = outcome.jobs;
-    talk.event(&json!({
+    console.event(&json!({
         "event": "done", "outputs": outputs, "recommendation": outcome.recommendation,
         "jobs_done": done, "jobs": all, "interrupted": interrupted,
     }));
     if interrupted {
-        talk.line(&format!("interrupted after {done} of {all} parts; the same command goes on from there"));
+        console
+            .line(&format!("interrupted after {done} of {all} parts; the same command goes on from there"));
     }
     for path in &outputs {
-        talk.line(&format!("wrote {path}"));
+        console.line(&format!("wrote {path}"));
     }
     if let Some(sentence) = &outcome.recommendation {
-        talk.line(sentence);
+        console.line(sentence);
     }
 }

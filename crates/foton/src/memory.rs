@@ -8,7 +8,7 @@ use std::path::Path;
 use foton_integrator::MemoryEstimate;
 use foton_scene::description::SceneDescription;
 
-use crate::talk::Failure;
+use crate::console::Failure;
 
 /// Share of the free memory that is used unless `--memory` says otherwise.
 const SHARE: f64 = 0.8;

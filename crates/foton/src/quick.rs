@@ -9,10 +9,10 @@ use foton_integrator::RenderSettings;
 use foton_session::snapshot::{self, Format};
 use foton_session::{Session, StopRule};
 
+use crate::console::{Console, Failure};
 use crate::embedded::ALL;
 use crate::job::{build, finish, interrupt_on_signals, refuse_beyond_memory, say_limit};
 use crate::memory::limit;
-use crate::talk::{Failure, Talk};
 
 /// When to stop, writing included.
 const TIME: Duration = Duration::from_secs(55);
@@ -21,10 +21,10 @@ const TIME: Duration = Duration::from_secs(55);
 const FIRST_PICTURE: Duration = Duration::from_secs(8);
 
 /// Renders `scene`, or the embedded one, to the next free `foton-001.png` and `.exr` in the working folder.
-pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failure> {
-    let interrupt = interrupt_on_signals(talk);
+pub(crate) fn render(scene: Option<&Path>, console: &mut Console) -> Result<(), Failure> {
+    let interrupt = interrupt_on_signals(console);
     let cancel = interrupt.cancel();
-    talk.begin();
+    console.begin();
     let options =
         Options { memory: limit(None).map(|b| b as u64), cancel: cancel.clone(), ..Options::default() };
     let (opened, name) = match scene {
@@ -34,7 +34,7 @@ pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failur
         None => (ALL[0].open(&options), ALL[0].name.into()),
     };
     let opened = opened.map_err(Failure::of_open)?;
-    let (scene, identity) = build(opened, &name, 0, (None, None), talk, cancel)?;
+    let (scene, identity) = build(opened, &name, 0, (None, None), console, cancel)?;
     let settings = RenderSettings { error: true, ..RenderSettings::default() };
     refuse_beyond_memory(&scene, &settings, None, None)?;
     let stem = snapshot::next_free(Path::new(""));
@@ -42,21 +42,21 @@ pub(crate) fn render(scene: Option<&Path>, talk: &mut Talk) -> Result<(), Failur
     for path in [&png, &exr] {
         check_writable(path)?;
     }
-    talk.stage("collecting hit points");
+    console.stage("collecting hit points");
     let mut session = Session::start(scene, settings, None, cancel)?;
     interrupt.begin_passes();
-    talk.line(&format!("rendering {name} for a minute to {}; Ctrl-C stops earlier", png.display()));
+    console.line(&format!("rendering {name} for a minute to {}; Ctrl-C stops earlier", png.display()));
     let rule = StopRule::time(TIME);
     let mut first_picture = false;
     let cause = session.run(&rule, &interrupt, &mut |progress| {
-        talk.pass(progress, &rule);
+        console.pass(progress, &rule);
         if !first_picture && progress.elapsed >= FIRST_PICTURE {
             first_picture = true;
             if let Err(error) = snapshot::write(&png, Format::Png, progress.render, &[], &identity) {
-                talk.warning(&format!("the first picture is missing: {error}"));
+                console.warning(&format!("the first picture is missing: {error}"));
             }
         }
     });
-    say_limit(cause, talk);
-    finish(&session, &[(png, Format::Png), (exr, Format::Exr)], &[], &identity, Vec::new(), talk)
+    say_limit(cause, console);
+    finish(&session, &[(png, Format::Png), (exr, Format::Exr)], &[], &identity, Vec::new(), console)
 }

@@ -48,8 +48,11 @@ pub struct BuildOptions<'a> {
 }
 
 impl BuildOptions<'_> {
-    /// A step of so many items.
-    pub(crate) const fn step(&self, step: BuildStep, items: usize) -> Gauge<'_> {
+    /// Begins a step of so many items.
+    pub(crate) fn step(&self, step: BuildStep, items: usize) -> Gauge<'_> {
+        if let Some(tell) = self.tell {
+            tell(step, 0.0);
+        }
         Gauge { options: self, step, done: AtomicUsize::new(0), items }
     }
 }

@@ -70,9 +70,7 @@ pub(super) fn find(
         gauge.check_at(i)?;
         sets.join(a, b, turned);
     }
-    let patches = number(primitives, &keeps, &mut sets);
-    gauge.check()?;
-    Ok(patches)
+    number(primitives, &keeps, &mut sets, &gauge)
 }
 
 /// One side of a triangle.
@@ -177,7 +175,7 @@ fn join_equal_edges(
     gauge: &Gauge<'_>,
 ) -> Result<(), Cancelled> {
     let sides_of = |i: usize| match primitives[i] {
-        Primitive::Triangle(corners) if gauge.check_at(i).is_ok() && keeps(i) => Some(corners),
+        Primitive::Triangle(corners) if gauge.check().is_ok() && keeps(i) => Some(corners),
         _ => None,
     };
     let edges: Vec<Edge> = (0..primitives.len())
@@ -344,8 +342,14 @@ impl Sets {
 }
 
 /// Numbers patches so that neighbours differ.
-fn number(primitives: &[Primitive], keeps: &impl Fn(usize) -> bool, sets: &mut Sets) -> Vec<Patch> {
-    let roots: Vec<(u32, bool)> = (0..primitives.len() as u32).map(|i| sets.root(i)).collect();
+fn number(
+    primitives: &[Primitive],
+    keeps: &impl Fn(usize) -> bool,
+    sets: &mut Sets,
+    gauge: &Gauge<'_>,
+) -> Result<Vec<Patch>, Cancelled> {
+    let root = |i: usize| gauge.check_at(i).map(|()| sets.root(i as u32));
+    let roots: Vec<(u32, bool)> = (0..primitives.len()).map(root).collect::<Result<_, _>>()?;
     let mut boxes = vec![Aabb::EMPTY; primitives.len()];
     let mut curved = vec![false; primitives.len()];
     let normal = |i: usize| match primitives[i] {
@@ -355,6 +359,7 @@ fn number(primitives: &[Primitive], keeps: &impl Fn(usize) -> bool, sets: &mut S
     };
     let mut patches: Vec<u32> = Vec::new();
     for (i, &(root, _)) in roots.iter().enumerate().filter(|(i, _)| keeps(*i)) {
+        gauge.check_at(i)?;
         let root = root as usize;
         if root == i {
             patches.push(i as u32);
@@ -378,7 +383,8 @@ fn number(primitives: &[Primitive], keeps: &impl Fn(usize) -> bool, sets: &mut S
         let (number, curved) = (number_of[root as usize], curved[root as usize]);
         if keeps(i) { Patch { key: number << 1 | u8::from(turned), curved } } else { Patch::default() }
     };
-    roots.iter().enumerate().map(patch).collect()
+    gauge.check()?;
+    Ok(roots.iter().enumerate().map(patch).collect())
 }
 
 /// Place of a box's middle along Morton's curve through another box, in cubes: what is close in space is mostly close along it.

@@ -198,7 +198,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "a reader that goes away is no error",
-        file: "crates/foton/src/talk.rs",
+        file: "crates/foton/src/console/mod.rs",
         from: "Err(cause) if cause.kind() == ErrorKind::BrokenPipe => {}",
         to: "Err(cause) if cause.kind() == ErrorKind::NotFound => {}",
         target: CLI,

@@ -111,8 +111,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "a cancelled reading says nothing of the file",
         file: "crates/foton-format/src/lib.rs",
-        from: "reader.scene();
-    options.cancel.check()?;",
+        from: "reader.scene();\n    options.cancel.check()?;",
         to: "reader.scene();",
         target: CANCELLING,
         test: "meshes_of_every_format_are_given_up_wherever_that_is_asked_for",
@@ -255,7 +254,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "what is printed is printable",
-        file: "crates/foton/src/talk.rs",
+        file: "crates/foton/src/console/mod.rs",
         from: "    text.lines().map(printable).collect::<Vec<_>>().join(\"\\n\")\n",
         to: "    text.to_owned()\n",
         target: CLI,

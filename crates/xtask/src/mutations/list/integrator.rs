@@ -223,8 +223,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "laying hit points out can be cancelled",
         file: "crates/foton-transport/src/photon_map/packet.rs",
-        from: "    cancel.check()?;
-    let bounds",
+        from: "    cancel.check()?;\n    let bounds",
         to: "    let bounds",
         target: INTEGRATOR,
         test: "a_start_that_is_cancelled_ends_in_that_wherever_it_comes",
@@ -232,10 +231,9 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "marking cells can be cancelled",
         file: "crates/foton-transport/src/photon_map/grid.rs",
-        from: "            cancel.check()?;
-            for disc",
+        from: "            cancel.check()?;\n            for disc",
         to: "            for disc",
-        target: INTEGRATOR,
+        target: TRANSPORT,
         test: "a_grid_that_is_cancelled_is_none_wherever_that_comes",
     },
 ];

@@ -23,8 +23,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "foton info is held to the limit",
         file: "crates/foton/src/info.rs",
-        from: "build(opened, &name, sensor, (None, args.memory), talk, &cancel)?",
-        to: "build(opened, &name, sensor, (None, None), talk, &cancel)?",
+        from: "build(opened, &name, sensor, (None, args.memory), console, &cancel)?",
+        to: "build(opened, &name, sensor, (None, None), console, &cancel)?",
         target: CLI,
         test: "scenes_that_cannot_be_read_or_built_in_the_memory_given_are_refused",
     },
@@ -39,7 +39,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "an image on the way that is not written ends nothing",
         file: "crates/foton/src/job.rs",
-        from: "Err(error) => talk.warning(&format!(\"an image on the way is missing: {error}\")),",
+        from: "Err(error) => console.warning(&format!(\"an image on the way is missing: {error}\")),",
         to: "Err(_) => interrupt.request(),",
         target: CLI,
         test: "an_image_on_the_way_that_cannot_be_written_is_a_warning_and_the_last_one_comes",
@@ -47,14 +47,14 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "a checkpoint that is not written is said",
         file: "crates/foton/src/job.rs",
-        from: "talk.warning(&format!(\"no checkpoint: {error}\"));",
+        from: "console.warning(&format!(\"no checkpoint: {error}\"));",
         to: "let _ = error;",
         target: CLI,
         test: "a_full_disk_costs_a_checkpoint_but_not_the_render",
     },
     Mutation {
         what: "dropped photons are warned of",
-        file: "crates/foton/src/talk.rs",
+        file: "crates/foton/src/console/checks.rs",
         from: "if ledger.dropped > 0 {",
         to: "if ledger.dropped == u64::MAX {",
         target: CLI,
@@ -62,7 +62,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "light that is cut off is warned of",
-        file: "crates/foton/src/talk.rs",
+        file: "crates/foton/src/console/checks.rs",
         from: "if share > WORTH_A_WARNING {",
         to: "if share > 2.0 {",
         target: CLI,
@@ -78,7 +78,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "what makes no scene has its place",
-        file: "crates/foton/src/talk.rs",
+        file: "crates/foton/src/console/failure.rs",
         from: "Self::Build(opened.finding(Severity::Error, scene, cause.part(), cause.to_string()))",
         to: "Self::Build(opened.finding(Severity::Error, scene, None, cause.to_string()))",
         target: CLI,
@@ -125,12 +125,10 @@ pub(super) const LIST: &[Mutation] = &[
         test: "one_request_gives_up_loading_and_finishes_a_pass_two_discard_it",
     },
     Mutation {
-        what: "signals are heard while a scene is read",
+        what: "signals are heard while a scene is built",
         file: "crates/foton/src/job.rs",
-        from: "cancel: cancel.clone() };
-    foton_format::open",
-        to: "cancel: Cancel::default() };
-    foton_format::open",
+        from: "BuildOptions { cancel: cancel.clone(), tell: Some(&tell), ..BuildOptions::default() }",
+        to: "BuildOptions { tell: Some(&tell), ..BuildOptions::default() }",
         target: CLI,
         test: "a_scene_that_is_read_or_built_is_given_up_at_the_first_signal",
     },

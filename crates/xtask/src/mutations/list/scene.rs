@@ -264,8 +264,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "building the tree can be cancelled",
         file: "crates/foton-scene/src/accel/collapse.rs",
-        from: "gauge.check()?;
-            pieces.clear();",
+        from: "gauge.check()?;\n            pieces.clear();",
         to: "pieces.clear();",
         target: GEOMETRY,
         test: "a_build_that_is_cancelled_ends_in_that_wherever_it_comes",

@@ -1,0 +1,267 @@
+//! What the program says: a progress bar on a terminal's stderr, JSON lines on stdout where asked for, findings on stderr.
+
+mod checks;
+mod failure;
+mod json;
+
+use std::io::{self, ErrorKind, Write};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use foton_format::{Diagnostic, Severity};
+use foton_input::printable;
+use foton_scene::BuildStep;
+use foton_session::{Progress, Session, StopRule};
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::{Value, json};
+
+use crate::figure::{self, add_error, classes_text, error_text, upper_end_text};
+use crate::memory::Confined;
+
+pub(crate) use failure::Failure;
+use json::{ledger_json, lights_json, located, not_finite};
+
+/// A text for a terminal, in which lines are our own and nothing else does more than show itself.
+fn harmless(text: &str) -> String {
+    text.lines().map(printable).collect::<Vec<_>>().join("\n")
+}
+
+/// The program's voice.
+pub(crate) struct Console {
+    json: bool,
+    bar: ProgressBar,
+    /// Whether it was said that the error stays above its goal.
+    said_floor: AtomicBool,
+    /// Why a line on stdout was lost, of the first one.
+    lost: OnceLock<String>,
+}
+
+impl Console {
+    pub(crate) fn new(json: bool) -> Self {
+        let (said_floor, lost) = (AtomicBool::new(false), OnceLock::new());
+        Self { json, bar: ProgressBar::hidden(), said_floor, lost }
+    }
+
+    /// A line on stdout: what was asked for.
+    pub(crate) fn out(&self, text: &str) {
+        let mut stdout = io::stdout().lock();
+        let written = writeln!(stdout, "{}", harmless(text)).and_then(|()| stdout.flush());
+        drop(stdout);
+        match written {
+            Ok(()) => {}
+            // A reader that has gone away has read all that it wanted, and is no reason to stop rendering.
+            Err(cause) if cause.kind() == ErrorKind::BrokenPipe => {}
+            Err(cause) if self.lost.get().is_none() => {
+                self.line(&format!("warning: standard output cannot be written: {cause}"));
+                let _ = self.lost.set(cause.to_string());
+            }
+            Err(_) => {}
+        }
+    }
+
+    /// Why something that belongs on stdout is not there, if it is not.
+    pub(crate) fn lost(&self) -> Option<&str> {
+        self.lost.get().map(String::as_str)
+    }
+
+    /// A line of JSON, if any was asked for.
+    pub(crate) fn event(&self, event: &Value) {
+        if self.json {
+            self.out(&foton_input::json(&event.to_string()));
+        }
+    }
+
+    /// A line on stderr, above the bar.
+    pub(crate) fn line(&self, text: &str) {
+        self.bar.suspend(|| {
+            let _ = writeln!(io::stderr().lock(), "{}", harmless(text));
+        });
+    }
+
+    /// Something to know that does not stop the render.
+    pub(crate) fn warning(&self, message: &str) {
+        self.event(&json!({ "event": "warning", "message": message }));
+        self.line(&format!("warning: {message}"));
+    }
+
+    /// Something that a picture does not show of itself.
+    pub(crate) fn note(&self, message: &str) {
+        self.event(&json!({ "event": "note", "message": message }));
+        self.line(&format!("note: {message}"));
+    }
+
+    /// A finding in a scene file that does not stop the render.
+    pub(crate) fn finding(&self, d: &Diagnostic) {
+        self.event(&located("warning", d));
+        self.line(&format!("warning: {d}"));
+    }
+
+    /// Why nothing was rendered.
+    pub(crate) fn failure(&mut self, failure: &Failure) {
+        self.bar.finish_and_clear();
+        let found = match failure {
+            Failure::Open(cause) => cause.diagnostics(),
+            Failure::Build(diagnostic) => std::slice::from_ref(diagnostic),
+            _ => &[],
+        };
+        if !found.is_empty() {
+            for d in found {
+                let severity = match d.severity {
+                    Severity::Warning => "warning",
+                    Severity::Error => "error",
+                };
+                self.event(&located(severity, d));
+                self.line(&format!("{severity}: {d}"));
+            }
+            if found.iter().any(|d| d.message.ends_with("MiB may be used"))
+                && let Some(confined) = Confined::of_system()
+            {
+                self.line(&confined.to_string());
+            }
+            return;
+        }
+        if let Failure::Interrupted(at) = failure {
+            self.event(&json!({ "event": "interrupted", "while": at }));
+            self.line(&failure.to_string());
+            return;
+        }
+        if let Failure::NotFinite { place, .. } = failure {
+            self.event(&not_finite(place));
+        }
+        if let Failure::Roles(clash) = failure {
+            self.json &= !clash.is_standard_output;
+        }
+        let message = failure.to_string();
+        self.event(&json!({ "event": "error", "message": message }));
+        self.line(&format!("error: {message}"));
+    }
+
+    /// Starts the bar; it shows only on a terminal.
+    pub(crate) fn begin(&mut self) {
+        self.bar = ProgressBar::new(1000);
+        let style = ProgressStyle::with_template("{bar:32} {elapsed}  {msg}");
+        self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        self.bar.set_message("reading the scene");
+    }
+
+    /// Says what is done next, from its beginning.
+    pub(crate) fn stage(&self, what: &'static str) {
+        self.bar.set_position(0);
+        self.bar.set_message(what);
+    }
+
+    /// Says how far building a scene is, from any thread.
+    pub(crate) fn building(&self) -> impl Fn(BuildStep, f64) + Sync + use<> {
+        let bar = self.bar.clone();
+        move |step, share| {
+            bar.set_position((share * 1000.0) as u64);
+            bar.set_message(step.text());
+        }
+    }
+
+    /// Says how far something is, from 0 to 1, and what it is at.
+    pub(crate) fn progress(&self, fraction: f64, what: String) {
+        self.bar.set_position((fraction * 1000.0) as u64);
+        self.bar.set_message(what);
+    }
+
+    /// Ends the bar.
+    pub(crate) fn end(&self) {
+        self.bar.finish_and_clear();
+    }
+
+    /// Says how a render stands after a pass.
+    pub(crate) fn pass(&self, p: &Progress<'_>, rule: &StopRule) {
+        let seconds = p.elapsed.as_secs_f64();
+        let rate = |n: u64| n as f64 / seconds.max(1e-9);
+        let r = &p.report;
+        let error = p.render.error();
+        if self.json {
+            let mut event = json!({
+                "event": "pass",
+                "pass": r.pass,
+                "photons": r.photons,
+                "seconds": seconds,
+                "photons_per_s": rate(r.photons),
+                "rays_per_s": rate(p.rays),
+                "radius_median": p.render.radii().median,
+                "no_photon_share": r.no_photon_share,
+                "bytes": p.render.bytes(),
+                "stored": r.stored,
+                "candidates": r.candidates,
+                "accepted": r.accepted,
+                "radii_at_floor": r.floored,
+            });
+            add_error(&mut event, error.as_ref());
+            self.event(&event);
+        }
+        let too_high =
+            rule.error.zip(error).and_then(|(goal, e)| figure::out_of_reach(goal, &e, r, p.render));
+        if let Some(why) = too_high.filter(|_| !self.said_floor.swap(true, Ordering::Relaxed)) {
+            self.warning(&why);
+        }
+        if let Some(fraction) = rule.fraction(r.pass, p.elapsed, error.as_ref()) {
+            self.bar.set_position((fraction * 1000.0) as u64);
+        }
+        self.bar.set_message(format!(
+            "pass {}, {:.1} M photons, {:.2} M/s, {:.1} % of hit points without a photon{}",
+            r.pass,
+            r.photons as f64 / 1e6,
+            rate(r.photons) / 1e6,
+            r.no_photon_share * 100.0,
+            error.map_or_else(String::new, |e| format!(", {}", error_text(&e)))
+        ));
+    }
+
+    /// Says that a render is done, what it wrote, and where its light went.
+    pub(crate) fn done(&self, session: &Session, outputs: &[String]) {
+        self.bar.finish_and_clear();
+        let render = session.render();
+        let seconds = session.elapsed().as_secs_f64();
+        let stages: serde_json::Map<_, _> =
+            session.stages().iter().map(|(s, t)| (s.name().to_owned(), json!(t.as_secs_f64()))).collect();
+        let mut done = json!({
+            "event": "done",
+            "passes": render.passes(),
+            "photons": render.photons_emitted(),
+            "seconds": seconds,
+            "outputs": outputs,
+            "ledger": ledger_json(render.ledger(), render.photons_emitted(), render.scene().normalisation().scale()),
+            "hit_points": render.start_report().hit_points,
+            "eye_rays": render.start_report().eye_rays,
+            "stages": stages,
+            "lights": lights_json(render),
+        });
+        add_error(&mut done, render.error().as_ref());
+        self.event(&done);
+        if self.json {
+            return;
+        }
+        let shares: Vec<String> = session
+            .stages()
+            .iter()
+            .filter(|(_, t)| !t.is_zero())
+            .map(|(s, t)| format!("{} {:.2} s", s.name().replace('_', " "), t.as_secs_f64()))
+            .collect();
+        self.line(&format!(
+            "{} passes, {:.1} M photons in {seconds:.1} s ({:.2} M/s): {}",
+            render.passes(),
+            render.photons_emitted() as f64 / 1e6,
+            render.photons_emitted() as f64 / 1e6 / seconds.max(1e-9),
+            shares.join(", ")
+        ));
+        if let Some(error) = render.error() {
+            self.line(&format!(
+                "{}{}; 90 % confidence {:.2} to {:.2} %, {}; without what eye samples miss and what no photon has found",
+                error_text(&error),
+                classes_text(&error),
+                100.0 * error.low,
+                100.0 * error.high,
+                upper_end_text(&error)
+            ));
+        }
+        for path in outputs {
+            self.line(&format!("wrote {path}"));
+        }
+    }
+}
