@@ -26,6 +26,7 @@ use crossbeam_channel::{Receiver, Sender, bounded};
 use foton_integrator::Cancel;
 
 pub use command::{Change, Command, Configuration, ErrorPart, Event, Gesture, Shown, Source};
+pub use foton_scene::BuildStep;
 pub use frame::{Activity, Dot, Frame, Numbers, Picture, Probe, SceneFacts, Selection, SensorFacts};
 pub use loader::{Loaded, Loader};
 pub use setup::Setup;

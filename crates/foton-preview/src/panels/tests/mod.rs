@@ -16,8 +16,8 @@ use foton_film::{Image, ToneMap};
 use foton_math::Rgb;
 use foton_session::edit::{Control, Field, FieldId, Inspection, MaterialUse, Property, Side, Target, Value};
 use foton_session::engine::{
-    Activity, Command, Configuration, Event, Frame, Numbers, Picture, SceneFacts, Selection, SensorFacts,
-    Shown, Source,
+    Activity, BuildStep, Command, Configuration, Event, Frame, Numbers, Picture, SceneFacts, Selection,
+    SensorFacts, Shown, Source,
 };
 use foton_session::{
     Alpha, DirectLight, Ledger, RadiusFloor, RadiusRule, RenderSettings, SettingChange, StopRule,
@@ -190,6 +190,7 @@ fn every_control_has_an_accessible_name() {
             if with_everything {
                 state.frame.as_mut().expect("there").selection = Some(selection());
                 state.frame.as_mut().expect("there").opening = Some("slow.xml".into());
+                state.frame.as_mut().expect("there").building = Some((BuildStep::Tree, 0.25));
                 state.frame.as_mut().expect("there").stop = StopRule::passes(9);
                 state.error("room.xml:1:1: wrong");
                 state.changed_on_disk = true;
@@ -425,9 +426,12 @@ fn checkpoints_are_kept_and_taken_up_by_the_file_dialog() {
 #[test]
 fn a_scene_that_opens_can_be_called_off_and_one_that_changed_reloaded() {
     let mut harness = window(|state| {
-        state.frame.as_mut().expect("there").opening = Some("slow.xml".into());
+        let frame = state.frame.as_mut().expect("there");
+        frame.opening = Some("slow.xml".into());
+        frame.building = Some((BuildStep::Tree, 0.25));
         state.changed_on_disk = true;
     });
+    harness.get_by_role_and_label(Role::ProgressIndicator, BuildStep::Tree.text());
     click(&mut harness, Role::Button, "Cancel");
     assert_asked(&mut harness, &Command::CancelOpen);
     click(&mut harness, Role::Button, "Reload");
