@@ -16,6 +16,7 @@ mod far;
 mod filter;
 pub mod metals;
 mod normalise;
+mod plane;
 mod primitive;
 mod scene;
 mod sensor;

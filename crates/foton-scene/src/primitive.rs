@@ -3,7 +3,7 @@
 use foton_math::glam::{DVec3, Vec2, Vec3};
 use foton_math::{Aabb, Ray};
 
-use crate::surface::Plane;
+use crate::plane::Plane;
 
 /// A surface element in scene units. 40 bytes, kept in the order of the tree's leaves.
 #[derive(Clone, Copy, Debug)]
@@ -209,6 +209,11 @@ impl ShearedRay {
 }
 
 impl Primitive {
+    /// The plane of a triangle; whatever for another primitive.
+    pub(crate) fn plane(&self) -> Plane {
+        if let Self::Triangle(corners) = self { Plane::new(*corners) } else { Plane::default() }
+    }
+
     /// The smallest box around the primitive.
     #[must_use]
     pub(crate) fn bounds(&self) -> Aabb {
@@ -239,13 +244,4 @@ impl Primitive {
             Self::Tube { axis, radius, .. } => 2.0 * PI * radius.abs() * axis.length(),
         }
     }
-}
-
-/// The unit normal of a triangle by its winding, or `None` when it has no area.
-///
-/// In double precision: a sliver of 10^6 : 1 still gets the normal of its plane.
-pub(crate) fn triangle_normal([a, b, c]: [Vec3; 3]) -> Option<Vec3> {
-    let [a, b, c]: [DVec3; 3] = [a, b, c].map(Vec3::as_dvec3);
-    let n = (b - a).cross(c - a).try_normalize()?.as_vec3();
-    n.is_finite().then_some(n)
 }

@@ -6,8 +6,7 @@ use foton_scene::Scene;
 
 use crate::args::Convert;
 use crate::console::{Console, Failure};
-use crate::job::{open, refuse_two_roles};
-use crate::memory;
+use crate::job::{open, refuse_to_build, refuse_two_roles};
 
 /// Runs `foton convert`.
 pub(crate) fn run(args: &Convert, console: &Console) -> Result<(), Failure> {
@@ -19,7 +18,7 @@ pub(crate) fn run(args: &Convert, console: &Console) -> Result<(), Failure> {
         console.finding(finding);
     }
     // What cannot be rendered is not worth writing; building also checks every index.
-    memory::refuse_to_build(&opened.description, None)?;
+    refuse_to_build(&opened.description, None)?;
     let scene = args.scene.display().to_string();
     Scene::build(&opened.description).map_err(|cause| Failure::of_build(&opened, &scene, &cause))?;
     foton_format::write_scene(&opened.description, &args.output, &opened.files)?;

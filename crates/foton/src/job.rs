@@ -8,7 +8,10 @@ use std::time::Duration;
 use foton_film::{check_writable, write_spare};
 use foton_format::{Opened, Options, Severity, Suggested};
 use foton_input::quoted;
-use foton_integrator::{Alpha, Cancel, LayerKind, PpmSettings, Render, RenderSettings, SettingChange};
+use foton_integrator::{
+    Alpha, Cancel, LayerKind, MemoryEstimate, PpmSettings, Render, RenderSettings, SettingChange,
+};
+use foton_scene::description::SceneDescription;
 use foton_scene::{BuildOptions, Scene};
 use foton_session::snapshot::{self, Format};
 use foton_session::{Interrupt, Preset, SceneIdentity, Session, StopCause, StopRule, checkpoint};
@@ -245,7 +248,7 @@ pub(crate) fn build(
             sensor.resize(width, height);
         }
     }
-    memory::refuse_to_build(&opened.description, memory)?;
+    refuse_to_build(&opened.description, memory)?;
     let tell = console.building();
     let options = BuildOptions { cancel: cancel.clone(), tell: Some(&tell), ..BuildOptions::default() };
     let scene = Scene::build_with(&opened.description, &options)
@@ -303,6 +306,15 @@ pub(crate) fn refuse_beyond_memory(
 ) -> Result<(), Failure> {
     let refusal = Session::estimate_memory(scene, settings, threads).refusal(memory::limit(asked));
     refusal.map_or(Ok(()), |why| Err(Failure::Memory(why)))
+}
+
+/// Refuses a scene whose building alone would take more than may be used: bytes asked for, or the system's.
+pub(crate) fn refuse_to_build(description: &SceneDescription, asked: Option<u64>) -> Result<(), Failure> {
+    let takes = description.build_bytes() as f64 + MemoryEstimate::PROGRAM_BYTES;
+    match memory::limit(asked) {
+        Some(limit) if takes > limit => Err(Failure::BuildMemory { takes, limit }),
+        _ => Ok(()),
+    }
 }
 
 /// Ctrl-C, SIGTERM and the limits of the system end the render after its pass; a second one discards the pass. Before there are passes

@@ -6,9 +6,6 @@ use std::fs;
 use std::path::Path;
 
 use foton_integrator::MemoryEstimate;
-use foton_scene::description::SceneDescription;
-
-use crate::console::Failure;
 
 /// Share of the free memory that is used unless `--memory` says otherwise.
 const SHARE: f64 = 0.8;
@@ -29,15 +26,6 @@ pub(crate) fn limit(asked: Option<u64>) -> Option<f64> {
         None => confined.room() * SHARE,
     });
     wanted.into_iter().chain(room).reduce(f64::min)
-}
-
-/// Refuses a scene whose building alone would take more than may be used: bytes asked for, or the system's.
-pub(crate) fn refuse_to_build(description: &SceneDescription, asked: Option<u64>) -> Result<(), Failure> {
-    let takes = description.build_bytes() as f64 + MemoryEstimate::PROGRAM_BYTES;
-    match limit(asked) {
-        Some(limit) if takes > limit => Err(Failure::BuildMemory { takes, limit }),
-        _ => Ok(()),
-    }
 }
 
 /// A limit of the system on address space or data, which ends a program that goes beyond it.

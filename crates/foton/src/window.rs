@@ -16,6 +16,7 @@ use foton_session::SceneIdentity;
 use foton_session::engine::{Loaded, Loader, Source};
 
 use crate::embedded::{self, Embedded};
+use crate::job::refuse_to_build;
 use crate::memory;
 use crate::signals;
 
@@ -77,7 +78,7 @@ impl Loader for Files {
             let lines: Vec<String> = e.diagnostics().iter().map(ToString::to_string).collect();
             lines.join("\n")
         })?;
-        memory::refuse_to_build(&opened.description, None).map_err(|failure| failure.to_string())?;
+        refuse_to_build(&opened.description, None).map_err(|failure| failure.to_string())?;
         Ok(Loaded {
             description: opened.description.clone(),
             identity: SceneIdentity { name, hash: opened.source_hash },

@@ -13,8 +13,8 @@ use foton_math::{Aabb, Cancelled, Ray};
 use rayon::prelude::*;
 
 use crate::build::{BuildOptions, BuildStep};
+use crate::plane::Plane;
 use crate::primitive::{Primitive, ShearedRay};
-use crate::surface::Plane;
 use node::{BoxRay, Child, Node, QUAD, Quad, Target, WIDTH};
 
 /// Boxes grow by this share of the scene's half-size on each side: rounding errors of the triangle test, with a margin.
@@ -70,7 +70,7 @@ impl Accel {
         let tree = cluster::build(&boxes, &gauge)?;
         let collapsed = collapse::collapse(&tree, primitives, &gauge)?;
         let ordered: Vec<Primitive> = collapsed.order.iter().map(|&i| primitives[i as usize]).collect();
-        let planes = ordered.par_iter().map(Plane::of).collect();
+        let planes = ordered.par_iter().map(Primitive::plane).collect();
         let accel = Self { nodes: collapsed.nodes, quads: collapsed.quads, primitives: ordered, planes };
         Ok((accel, collapsed.order))
     }

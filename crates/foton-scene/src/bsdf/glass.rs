@@ -3,7 +3,9 @@
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Frame, Rgb};
 
-use super::{FollowedLobe, LOBES, Transport, fresnel, mirrored};
+use super::fresnel;
+use super::lobe::{FollowedLobe, LOBES, Transport};
+use super::reflect::mirrored;
 use crate::description::Microfacets;
 
 /// Reflection and refraction at glass, by the surface's normal or by a facet's.

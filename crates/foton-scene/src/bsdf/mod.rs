@@ -10,8 +10,10 @@
 mod coat;
 mod fresnel;
 mod glass;
+mod lobe;
 mod microfacet;
 mod plastic;
+mod reflect;
 
 use std::f32::consts::FRAC_1_PI;
 
@@ -21,57 +23,12 @@ use foton_math::{Rgb, warp};
 use crate::description::{Bsdf, Microfacets};
 pub use coat::Coat;
 use glass::{glass_lobes, rough_glass, rough_glass_pdf};
+pub use lobe::{BsdfSample, FollowedLobe, LOBES, Lobe, Transport};
+use reflect::{cosine, facet_density, mirrored, rough_metal, single};
 
 /// Lobes of at most this roughness α are followed by eye paths. Below it a lobe is narrower than about 6° and a hit point
 /// would weigh a few photons very much and most not at all.
 pub const FOLLOWED_ROUGHNESS: f32 = 0.1;
-
-/// What flows along the path: it decides whether refraction scales by the squared relative index.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Transport {
-    /// Eye paths: radiance is compressed or spread by refraction.
-    Radiance,
-    /// Photon paths: power is not.
-    Importance,
-}
-
-/// A direction in which a followed lobe continues.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FollowedLobe {
-    /// Unit direction.
-    pub wi: Vec3,
-    /// What the path's weight is multiplied with when every lobe is followed.
-    pub weight: Rgb,
-    /// The chance with which a path that follows a single lobe should take this one; chances of all lobes sum to 1 at most.
-    pub probability: f32,
-}
-
-/// Lobes that can be followed at once: reflection, refraction, straight on.
-pub const LOBES: usize = 3;
-
-/// The kind of a lobe that a path took. Eye paths follow all but the first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lobe {
-    /// One that hit points keep.
-    Kept,
-    /// A single direction: that of a mirror or of smooth glass.
-    Single,
-    /// A narrow one, or that of rough glass.
-    Narrow,
-    /// Straight on, as if there were no surface.
-    Straight,
-}
-
-/// One direction chosen at random.
-#[derive(Clone, Copy, Debug)]
-pub struct BsdfSample {
-    /// Unit direction.
-    pub wi: Vec3,
-    /// `f · |cos θ| / pdf`, the chance of the lobe included.
-    pub weight: Rgb,
-    /// What kind of lobe it came from.
-    pub lobe: Lobe,
-}
 
 /// A BSDF at a point of a surface: colours looked up, and how much of the surface is there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -433,48 +390,6 @@ impl Scattering {
         };
         pdf * self.opacity
     }
-}
-
-/// Density (sr⁻¹) of reflecting `wo` into `wi` by a facet that is seen; both above.
-fn facet_density(r: &Microfacets, wo: Vec3, wi: Vec3) -> f32 {
-    r.reflect_density(wo, (wo + wi).normalize())
-}
-
-fn mirrored(wo: Vec3) -> Vec3 {
-    Vec3::new(-wo.x, -wo.y, wo.z)
-}
-
-fn single(wi: Vec3, weight: Rgb) -> Option<FollowedLobe> {
-    Some(FollowedLobe { wi, weight, probability: 1.0 })
-}
-
-/// Cosine-distributed on `wo`'s side.
-#[inline(always)]
-fn cosine(wo: Vec3, u: Vec2) -> Vec3 {
-    let wi = warp::square_to_cosine_hemisphere(u);
-    if wo.z < 0.0 { -wi } else { wi }
-}
-
-/// Reflection by a facet normal chosen as `wo` sees them; its weight is F G₁(wi).
-fn reflect_by_facet(
-    r: &Microfacets,
-    wo: Vec3,
-    u: Vec2,
-    fresnel: impl FnOnce(f32) -> Rgb,
-) -> Option<FollowedLobe> {
-    let side = 1f32.copysign(wo.z);
-    let up = wo * side;
-    let h = r.sample(up, u);
-    let wi = h * (2.0 * up.dot(h)) - up;
-    (wi.z > 0.0).then(|| FollowedLobe {
-        wi: wi * side,
-        weight: fresnel(up.dot(h)) * r.visible(wi, h),
-        probability: 1.0,
-    })
-}
-
-fn rough_metal(r: &Microfacets, wo: Vec3, u: Vec2, eta: Rgb, k: Rgb, tint: Rgb) -> Option<FollowedLobe> {
-    reflect_by_facet(r, wo, u, |cos| fresnel::conductor(cos, eta, k) * tint)
 }
 
 #[cfg(test)]

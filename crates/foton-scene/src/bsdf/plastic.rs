@@ -5,7 +5,9 @@ use std::f32::consts::FRAC_1_PI;
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Rgb, warp};
 
-use super::{BsdfSample, FollowedLobe, Lobe, Scattering, Transport, cosine, fresnel, reflect_by_facet};
+use super::lobe::{BsdfSample, FollowedLobe, Lobe, Transport};
+use super::reflect::{cosine, reflect_by_facet};
+use super::{Scattering, fresnel};
 use crate::description::{Bsdf, Microfacets};
 
 impl Scattering {

@@ -3,7 +3,7 @@
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
 
-use super::BuildError;
+use super::error::BuildError;
 use super::gather::even_scale;
 use crate::description::{
     Bsdf, Colour, EmitterKind, Geometry, Material, SceneDescription, SensorDescription, ShapeDescription,

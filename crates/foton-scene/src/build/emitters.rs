@@ -3,7 +3,7 @@
 use foton_math::glam::DVec3;
 use foton_math::{Aabb, Frame, Rgb};
 
-use super::orientation;
+use super::orientation::orientation;
 use crate::description::{EmitterDescription, EmitterKind};
 use crate::discrete::Discrete;
 use crate::emitter::{Aim, Ball, Emitter, Kind, Spot, Target};

@@ -5,13 +5,15 @@ use std::sync::Arc;
 use foton_math::glam::{DAffine3, DMat3, Vec2, Vec3};
 use foton_math::{Aabb, Cancelled};
 
-use super::{BuildError, BuildOptions, Gauge};
+use super::error::BuildError;
+use super::gauge::{BuildOptions, Gauge};
 use crate::accel::Accel;
 use crate::census::Census;
 use crate::description::{Geometry, Mesh, ShapeDescription};
 use crate::discrete::Discrete;
 use crate::normalise::Normalisation;
-use crate::primitive::{Primitive, triangle_normal};
+use crate::plane::triangle_normal;
+use crate::primitive::Primitive;
 use crate::scene::{Part, Scene};
 
 /// How far a transform's axes may be from equal length and right angles and still keep a sphere round.

@@ -12,7 +12,7 @@ use foton_math::glam::{DVec3, Vec2, Vec3};
 use foton_math::{Aabb, Cancelled, Frame, Ray};
 use rayon::prelude::*;
 
-use super::{BuildOptions, BuildStep, Gauge};
+use super::gauge::{BuildOptions, BuildStep, Gauge};
 use crate::accel::Accel;
 use crate::primitive::{Primitive, ShearedRay};
 use crate::surface::locate;
@@ -353,7 +353,7 @@ fn number(
     let mut boxes = vec![Aabb::EMPTY; primitives.len()];
     let mut curved = vec![false; primitives.len()];
     let normal = |i: usize| match primitives[i] {
-        Primitive::Triangle(corners) => crate::primitive::triangle_normal(corners),
+        Primitive::Triangle(corners) => crate::plane::triangle_normal(corners),
         Primitive::Disc { normal, .. } => Some(normal),
         Primitive::Sphere { .. } | Primitive::Tube { .. } => None,
     };

@@ -7,8 +7,9 @@ use foton_math::{Aabb, Frame, Rgb, warp};
 
 use super::Illumination;
 use crate::discrete::Discrete;
+use crate::plane::Plane;
 use crate::primitive::Primitive;
-use crate::surface::{Plane, Surface, locate};
+use crate::surface::{Surface, locate};
 
 /// A surface that emits on the side its normal points to.
 #[derive(Clone, Debug)]
@@ -31,7 +32,7 @@ impl Area {
         Self {
             radiance,
             primitives: primitives.to_vec(),
-            planes: primitives.iter().map(Plane::of).collect(),
+            planes: primitives.iter().map(Primitive::plane).collect(),
             by_area: Discrete::new(areas().map(f64::from)),
             area: areas().sum(),
             shape,

@@ -14,7 +14,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "scenes too large to build are refused",
-        file: "crates/foton/src/memory.rs",
+        file: "crates/foton/src/job.rs",
         from: "Some(limit) if takes > limit =>",
         to: "Some(limit) if takes < 0.0 * limit =>",
         target: CLI,

@@ -2,20 +2,19 @@
 
 mod checks;
 mod emitters;
+mod error;
 mod gather;
 mod gauge;
+mod materials;
 mod memory;
+mod orientation;
 mod patches;
 
 use std::sync::Arc;
 
-use foton_input::quoted;
-use foton_math::glam::{DAffine3, DMat3, Mat3, Vec3};
-use foton_math::{Aabb, Cancelled};
-use thiserror::Error;
+use foton_math::Aabb;
+use foton_math::glam::Vec3;
 
-use crate::bsdf::Coat;
-use crate::census::Census;
 use crate::coincident::Coincidences;
 use crate::description::{Bsdf, Colour, Material, SceneDescription, SensorDescription, ShapeDescription};
 use crate::emitter::{Aim, Area, Emitter, Kind};
@@ -28,116 +27,12 @@ use checks::{
     world_bounds,
 };
 use emitters::{ball, emitter_choice, unattached_emitter};
+pub use error::BuildError;
 use gather::Gathered;
 pub(crate) use gauge::Gauge;
 pub use gauge::{BuildOptions, BuildStep, Tell};
+use orientation::orientation;
 pub(crate) use patches::Patch;
-
-/// Why a description makes no scene. Names are those of the scene file.
-#[derive(Debug, Error, PartialEq)]
-pub enum BuildError {
-    /// There is nothing to look through.
-    #[error("the scene has no sensor")]
-    NoSensor,
-    /// A camera's numbers make no image.
-    #[error("sensor {}: its field of view, size or transform makes no image", quoted(.0))]
-    BadSensor(String),
-    /// A coordinate, or what an emitter emits, is NaN or infinite.
-    #[error("{} has a coordinate or an emission that is not finite", quoted(.0))]
-    NotFinite(String),
-    /// Light whose power, or that of its photons, single precision does not hold.
-    #[error(
-        "{} emits more than single precision holds: of its {emission:.1e}, this scene can take up to about {most:.0e}. \
-         Divide the emission of all lights by one number: the image is darker by that, and otherwise the same",
-        quoted(name)
-    )]
-    TooBright {
-        /// The emitter.
-        name: String,
-        /// The largest component of what it emits, in the unit of the file.
-        emission: f64,
-        /// What it may emit.
-        most: f64,
-    },
-    /// Light so weak in so large a scene that single precision does not hold it.
-    #[error(
-        "{} emits less than single precision holds in so large a scene: of its {emission:.1e}, at least {least:.0e} \
-         is needed. Multiply the emission of all lights by one number, or give the scene in a larger unit",
-        quoted(name)
-    )]
-    TooDim {
-        /// The emitter.
-        name: String,
-        /// The largest component of what it emits, in the unit of the file.
-        emission: f64,
-        /// What it must emit.
-        least: f64,
-    },
-    /// A light or camera whose distance single precision does not hold.
-    #[error(
-        "{} is {times:.0e} times as far away as the scene is large, and single precision holds no such distance: bring it \
-         nearer. For light from far away there is the \"directional\" emitter",
-        quoted(name)
-    )]
-    TooFar {
-        /// The emitter or sensor.
-        name: String,
-        /// Its distance in half-sizes of the scene.
-        times: f64,
-    },
-    /// A transform flattens the shape.
-    #[error("shape {}: its transform cannot be inverted", quoted(.0))]
-    Singular(String),
-    /// A transform makes a sphere, a disc or the cone of a spot something else.
-    #[error("{}: a sphere, a disc, a tube or a spot can only be turned, moved and scaled evenly", quoted(.0))]
-    NotRound(String),
-    /// A triangle names a vertex that is not there, or normals do not match positions.
-    #[error("shape {} has a triangle or normals that do not fit its vertices", quoted(.0))]
-    BadMesh(String),
-    /// A shape names a material that is not there.
-    #[error("shape {} names a material that is not there", quoted(.0))]
-    NoMaterial(String),
-    /// A material or an environment names a texture that is not there, or one without pixels.
-    #[error("{} names a texture that is not there or has no pixels", quoted(.0))]
-    NoTexture(String),
-    /// A colour of a texture is no share of light, or its transform is not finite.
-    #[error(
-        "texture {} has colours that are not numbers from 0 to 1, or a transform that is not finite", quoted(.0))]
-    BadTexture(String),
-    /// A material's number is one that no surface has.
-    #[error(
-        "material {} has a share of light that is not a number from 0 to 1, or an index of refraction or a roughness that \
-         is not a number above zero", quoted(.0))]
-    BadMaterial(String),
-    /// More primitives than indices.
-    #[error("the scene has more than 2^31 primitives")]
-    TooLarge,
-    /// Someone asked to stop: nothing is wrong with the description.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-}
-
-impl BuildError {
-    /// The part of the scene that it is about, by its name.
-    #[must_use]
-    pub fn part(&self) -> Option<&str> {
-        match self {
-            Self::NoSensor | Self::TooLarge | Self::Cancelled(_) => None,
-            Self::BadSensor(name)
-            | Self::NotFinite(name)
-            | Self::TooBright { name, .. }
-            | Self::TooDim { name, .. }
-            | Self::TooFar { name, .. }
-            | Self::Singular(name)
-            | Self::NotRound(name)
-            | Self::BadMesh(name)
-            | Self::NoMaterial(name)
-            | Self::NoTexture(name)
-            | Self::BadTexture(name)
-            | Self::BadMaterial(name) => Some(name),
-        }
-    }
-}
 
 impl Scene {
     /// Builds the scene that rays meet.
@@ -267,61 +162,6 @@ impl Scene {
     }
 }
 
-impl Material {
-    fn bsdfs(&self) -> impl Iterator<Item = &Bsdf> {
-        [Some(&self.front), self.back.as_ref()].into_iter().flatten()
-    }
-
-    /// Whether its roughness differs along u and v.
-    pub(crate) fn is_anisotropic(&self) -> bool {
-        self.bsdfs().filter_map(Bsdf::roughness).any(|r| r.alpha_u != r.alpha_v)
-    }
-
-    /// The colours of its sides where they are Lambertian and nothing else.
-    fn lambertian(&self) -> [Option<Colour>; 2] {
-        let colour = |bsdf: Option<&Bsdf>| match bsdf {
-            Some(Bsdf::Diffuse { reflectance }) if self.opacity.is_none() => Some(*reflectance),
-            _ => None,
-        };
-        let back = if self.front.transmits() { Some(&self.front) } else { self.back.as_ref() };
-        [colour(Some(&self.front)), colour(back)]
-    }
-
-    /// The rough coats of its sides.
-    fn coats(&self) -> [Option<Coat>; 2] {
-        let front = Coat::of(&self.front);
-        let same = self.back == Some(self.front);
-        [front, if same { front } else { self.back.as_ref().and_then(Coat::of) }]
-    }
-
-    /// All colours that it looks up.
-    fn colours(&self) -> impl Iterator<Item = Colour> {
-        let mut colours: Vec<Colour> = self.opacity.into_iter().collect();
-        for bsdf in self.bsdfs() {
-            let _ = bsdf.map(|c| colours.push(c));
-        }
-        colours.into_iter()
-    }
-}
-
-impl Census {
-    /// Notes what a material with or without interpolated normals asks for.
-    fn count(&mut self, material: &Material, smooth: bool) {
-        for bsdf in material.bsdfs() {
-            self.shading_normals |= bsdf.keeps() && smooth;
-            self.followed |= bsdf.follows() || material.opacity.is_some();
-            self.refraction |= bsdf.transmits();
-            self.narrow_gloss |= bsdf.follows() && bsdf.roughness().is_some();
-            self.single_directions |=
-                bsdf.follows() && bsdf.roughness().is_none() && !matches!(bsdf, Bsdf::Null);
-            self.straight |=
-                material.opacity.is_some() || matches!(bsdf, Bsdf::Null | Bsdf::ThinDielectric { .. });
-            self.rough_coats |= matches!(bsdf, Bsdf::Plastic { roughness: Some(_), .. });
-            self.kept_gloss |= bsdf.keeps() && !matches!(bsdf, Bsdf::Diffuse { .. });
-        }
-    }
-}
-
 /// Where a shape is of which no primitive is left: all of its points may be one in scene units.
 fn place_of(shape: &ShapeDescription, to_scene: &Normalisation) -> Aabb {
     let (min, max) = shape_bounds(shape);
@@ -341,11 +181,4 @@ fn steps_across(extent: &Aabb) -> f32 {
     }
     let step = f32::EPSILON * farthest.log2().floor().exp2();
     extent.size().max_element() / step
-}
-
-/// Scene to object space, turning only.
-fn orientation(to_world: &DAffine3) -> Mat3 {
-    let m = to_world.matrix3;
-    let turn = DMat3::from_cols(m.x_axis.normalize(), m.y_axis.normalize(), m.z_axis.normalize());
-    turn.transpose().as_mat3()
 }

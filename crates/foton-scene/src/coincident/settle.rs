@@ -1,121 +1,16 @@
-//! Surfaces that lie in one another: which of them a ray meets, and what the boundary of two clear ones is.
-//!
-//! Exporters set a glass block exactly on a floor and state the face between water and glass twice. A ray meets both at one
-//! distance, or in the order that rounding gives them, and the next ray starts beyond both. So pairs of primitives that share a
-//! part of a surface, within what single precision can tell apart, are found when a scene is built, and where a ray hits one of
-//! them the hit is settled: an emitter before what is opaque, that before what is clear, then the order of the file; the faces
-//! of two dielectrics become the one boundary between their inner media. Scenes without such pairs pay a look at an empty list.
-
-mod sheet;
+//! Which of several surfaces in one place a ray meets.
 
 use foton_math::glam::DVec3;
-use foton_math::{Aabb, Cancelled, Ray};
-use rayon::prelude::*;
+use foton_math::{Aabb, Ray};
 
-use crate::build::{BuildOptions, BuildStep};
+use super::share::MAX_NEAR;
+use super::sheet::{Sheet, meet_at, tolerance, weights};
 use crate::description::{Bsdf, Colour, Material};
 use crate::scene::Scene;
 use crate::surface::Surface;
-use sheet::{Face, Sheet, coincide, meet_at, tolerance, weights};
 
 /// Surfaces that are told apart at one point.
 const MOST: usize = 8;
-
-/// What a primitive has in common with others.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Share {
-    /// Whether a part of its surface.
-    pub(crate) any: bool,
-    /// Whether another may count there, or it is one boundary with another, for light from inside and from outside.
-    unsettled: [bool; 2],
-}
-
-impl Share {
-    /// Whether hits from a side are to be settled.
-    #[inline(always)]
-    pub(crate) const fn is_unsettled(self, outward: bool) -> bool {
-        self.unsettled[outward as usize]
-    }
-}
-
-/// Of the primitives near another, so many are looked at, and so many kept: a heap of thousands in one place must not take for ever.
-const MOST_NEAR: usize = 512;
-const MOST_PARTNERS: usize = 16;
-
-/// The primitives that share a part of their surface with another.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Coincidences {
-    /// By primitive in the tree's order; empty where there are none.
-    shared: Vec<Share>,
-    /// Pairs of shapes that share a part of a surface, the lower index first, each once, and whether their normals agree.
-    shapes: Vec<([u32; 2], bool)>,
-    /// By shape: how far apart its surface and those in it may be, for rays that start there.
-    gaps: Vec<f32>,
-}
-
-impl Coincidences {
-    /// Finds all pairs.
-    pub(crate) fn find(scene: &Scene, options: &BuildOptions<'_>) -> Result<Self, Cancelled> {
-        let accel = &scene.accel;
-        let (primitives, shape_of) = (accel.primitives(), |i: usize| scene.shape_of(i));
-        let gauge = options.step(BuildStep::Coincidences, primitives.len());
-        let mut pairs: Vec<[u32; 2]> = (0..primitives.len())
-            .into_par_iter()
-            .filter(|&i| gauge.item(i).is_ok() && gauge.check().is_ok())
-            .flat_map_iter(|i| {
-                let (mut partners, own) = (Vec::new(), Face::of(&primitives[i]));
-                // A small face on a large floor is found from its own side, whatever else lies near the floor.
-                accel.for_each_near(&primitives[i].bounds(), MOST_NEAR, |j| {
-                    if j != i && partners.len() < MOST_PARTNERS && coincide(&own, &Face::of(&primitives[j])) {
-                        partners.push([i.min(j) as u32, i.max(j) as u32]);
-                    }
-                });
-                partners
-            })
-            .collect();
-        gauge.check()?;
-        pairs.par_sort_unstable();
-        pairs.dedup();
-        if pairs.is_empty() {
-            return Ok(Self::default());
-        }
-        let count = scene.shapes.len();
-        let (mut shared, mut gaps) = (vec![Share::default(); primitives.len()], vec![0f32; count]);
-        let mut shapes = Vec::with_capacity(pairs.len());
-        for (number, pair) in pairs.into_iter().enumerate() {
-            gauge.item(number)?;
-            let [a, b] = pair.map(|i| i as usize);
-            let gap = 2.0 * tolerance(&primitives[a], &primitives[b]) as f32;
-            let normal = |i: usize| Sheet::of(&primitives[i], primitives[i].bounds().max.as_dvec3()).normal;
-            let agree = normal(a).dot(normal(b)) > 0.0;
-            for (i, other) in [(a, b), (b, a)] {
-                shared[i].any = true;
-                for outward in [false, true] {
-                    shared[i].unsettled[usize::from(outward)] |= !scene.counts(i, other, outward, agree);
-                }
-                gaps[shape_of(i) as usize] = gaps[shape_of(i) as usize].max(gap);
-            }
-            let mut pair = pair.map(|i| shape_of(i as usize));
-            pair.sort_unstable();
-            shapes.push((pair, agree));
-        }
-        shapes.sort_unstable();
-        shapes.dedup();
-        shapes.retain(|([a, b], _)| a != b);
-        Ok(Self { shared, shapes, gaps })
-    }
-
-    /// What a primitive has in common with others.
-    #[inline(always)]
-    pub(crate) fn share(&self, primitive: u32) -> Share {
-        self.shared.get(primitive as usize).copied().unwrap_or_default()
-    }
-
-    /// How far from a shape's surface another may lie that counts as the same.
-    pub(crate) fn gap(&self, shape: usize) -> f32 {
-        self.gaps.get(shape).copied().unwrap_or(0.0)
-    }
-}
 
 /// A surface as a ray that comes to it may meet it.
 #[derive(Clone, Copy)]
@@ -136,7 +31,7 @@ impl Scene {
         let mut found = [None; MOST];
         let mut count = 0;
         let reach = hit.error.max_element() + 2.0 * self.coincidences.gap(hit.shape as usize);
-        self.accel.for_each_near(&Aabb::around(hit.position, reach), MOST_NEAR, |j| {
+        self.accel.for_each_near(&Aabb::around(hit.position, reach), MAX_NEAR, |j| {
             let primitive = &primitives[j];
             let is_own = j as u32 == hit.primitive;
             if !is_own && (!self.coincidences.share(j as u32).any || !meet_at(own, primitive, p)) {
@@ -181,7 +76,7 @@ impl Scene {
     }
 
     /// Whether of two primitives that share a part of a surface the first counts there on a side of its own, as it is.
-    fn counts(&self, first: usize, other: usize, outward: bool, agree: bool) -> bool {
+    pub(super) fn counts(&self, first: usize, other: usize, outward: bool, agree: bool) -> bool {
         let [shape, its_shape] = [first, other].map(|i| self.shape_of(i));
         let fronts = [shape, its_shape].map(|s| self.material(s).front);
         let two_dielectrics = fronts.iter().all(|f| matches!(f, Bsdf::Dielectric { .. }));
