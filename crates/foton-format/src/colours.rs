@@ -6,10 +6,11 @@ use foton_input::shown_path;
 use foton_math::Rgb;
 use foton_scene::description::Colour;
 
+use crate::attributes::parse_attribute;
 use crate::diagnostic::Place;
 use crate::document::Element;
 use crate::files::Files;
-use crate::properties::{Located, Properties, parse_attribute};
+use crate::properties::{Located, Properties};
 use crate::reader::Reader;
 use crate::spectrum::Spectrum;
 use crate::values;

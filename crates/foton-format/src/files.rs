@@ -10,7 +10,7 @@ use foton_math::Cancel;
 use crate::diagnostic::{Place, Report};
 use crate::hash::Fnv1a;
 use crate::limits::Budget;
-use crate::{BYTES_PER_BYTE, ReadFile};
+use crate::options::{BYTES_PER_BYTE, ReadFile};
 
 /// Reads files and remembers which.
 pub(crate) struct Files<'a> {

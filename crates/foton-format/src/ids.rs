@@ -7,9 +7,9 @@ use std::collections::{BTreeSet, HashMap};
 
 use foton_input::quoted;
 
+use crate::attributes::check_attributes;
 use crate::diagnostic::Report;
 use crate::document::{Attribute, Document, Element, NodeId};
-use crate::properties::check_attributes;
 
 /// All elements of a document that have an id.
 pub(crate) struct Ids<'a> {

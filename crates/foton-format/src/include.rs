@@ -7,12 +7,12 @@ use std::path::{Path, PathBuf};
 
 use foton_input::{shown, shown_path};
 
+use crate::attributes::{check_attributes, parse_attribute};
 use crate::diagnostic::{Place, Report};
 use crate::document::{Document, Element, NodeId};
 use crate::files::Files;
 use crate::limits::{Budget, Census, at_place};
 use crate::names::{OBJECT_TAGS, VALUE_TAGS};
-use crate::properties::{check_attributes, parse_attribute};
 use crate::substitute::Parameters;
 use crate::{upgrade, values};
 

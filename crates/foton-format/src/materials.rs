@@ -2,39 +2,18 @@
 //!
 //! A material that several shapes refer to is read once and stands once in the description.
 
-use std::collections::HashMap;
-
 use foton_math::Rgb;
 use foton_scene::description::{Bsdf, Colour, Material};
 
 use crate::diagnostic::Place;
 use crate::document::NodeId;
+use crate::known::Sides;
 use crate::names::BSDFS;
 use crate::properties::{Object, Properties};
 use crate::reader::Reader;
 
 /// References from one BSDF to another may be this long.
 const LONGEST_CHAIN: usize = 16;
-
-/// Materials read so far.
-#[derive(Default)]
-pub(crate) struct Materials {
-    /// What a BSDF's element says; `None` if that is not valid.
-    sides: HashMap<NodeId, Option<Sides>>,
-    /// The BSDF's place in the description.
-    indices: HashMap<NodeId, usize>,
-    /// Materials of shapes that name none: grey, and black for emitters.
-    defaults: [Option<usize>; 2],
-    /// BSDFs being read, outermost first.
-    open: Vec<NodeId>,
-}
-
-#[derive(Clone, Copy)]
-struct Sides {
-    front: Bsdf,
-    back: Option<Bsdf>,
-    opacity: Option<Colour>,
-}
 
 impl Reader<'_> {
     /// The index of the material that a `<bsdf>` describes.

@@ -8,8 +8,9 @@ use std::collections::HashSet;
 use foton_input::{quoted, shown};
 use foton_math::glam::{DAffine3, DVec3};
 
+use crate::attributes::{check_attributes, parse_attribute};
 use crate::diagnostic::{Place, Report};
-use crate::document::{Attribute, Document, Element, NodeId};
+use crate::document::{Document, Element, NodeId};
 use crate::ids::Ids;
 use crate::names::{OBJECT_TAGS, VALUE_TAGS};
 use crate::{transform, values};
@@ -301,42 +302,4 @@ fn report_tag(element: &Element, report: &mut Report) {
             report.error(element.place, format!("unknown element <{}>{hint}", shown(tag)));
         }
     }
-}
-
-/// Reports attributes that are unknown or missing; whether none was.
-pub(crate) fn check_attributes(
-    element: &Element,
-    required: &[&'static str],
-    optional: &[&'static str],
-    report: &mut Report,
-) -> bool {
-    let tag = shown(&element.name);
-    let known = || required.iter().chain(optional).copied();
-    let mut complete = true;
-    for attribute in element.attributes.iter().filter(|a| !known().any(|k| k == a.name)) {
-        complete = false;
-        let hint = report.did_you_mean(&attribute.name, known());
-        report.error(
-            attribute.place,
-            format!("unknown attribute {} of <{tag}>{hint}", quoted(&attribute.name)),
-        );
-    }
-    // One misspelt attribute is one problem.
-    if complete && let Some(missing) = required.iter().find(|r| element.attribute(r).is_none()) {
-        complete = false;
-        report.error(element.place, format!("<{tag}> needs the attribute \"{missing}\""));
-    }
-    complete
-}
-
-/// The value of an attribute; broken ones are reported already.
-pub(crate) fn parse_attribute<T>(
-    attribute: &Attribute,
-    parse: impl FnOnce(&str) -> Result<T, String>,
-    report: &mut Report,
-) -> Option<T> {
-    if attribute.broken {
-        return None;
-    }
-    parse(&attribute.value).map_err(|message| report.error(attribute.value_place, message)).ok()
 }

@@ -7,20 +7,20 @@ use std::rc::Rc;
 use foton_input::{printable, quoted, shown};
 use foton_scene::description::SceneDescription;
 
-use crate::SceneNodes;
+use crate::attributes::check_attributes;
 use crate::diagnostic::Report;
 use crate::document::{Document, Element, NodeId};
 use crate::files::Files;
 use crate::ids::Ids;
 use crate::images::Images;
 use crate::include::major_version;
-use crate::integrator::Suggested;
-use crate::materials::Materials;
-use crate::meshes::Meshes;
+use crate::known::{Materials, Textures};
+use crate::mesh::files::Meshes;
 use crate::names::{Plugins, did_you_mean};
-use crate::properties::{Properties, check_attributes};
+use crate::opened::SceneNodes;
+use crate::properties::Properties;
 use crate::spectrum::Spectrum;
-use crate::textures::Textures;
+use crate::suggested::Suggested;
 
 /// What is known while a scene is read.
 pub(crate) struct Reader<'a> {

@@ -8,7 +8,7 @@ use foton_scene::description::{Geometry, Mesh, ShapeDescription};
 
 use crate::diagnostic::Place;
 use crate::document::NodeId;
-use crate::meshes::{Format, Wanted};
+use crate::mesh::wanted::{Format, Wanted};
 use crate::names::SHAPES;
 use crate::properties::Properties;
 use crate::reader::Reader;

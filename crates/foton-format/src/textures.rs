@@ -3,19 +3,13 @@
 //! Mitsuba's texture coordinate v begins at a bitmap's *top*; in a description it points up. Meshes keep Mitsuba's
 //! coordinates, and a bitmap's `to_uv` here ends with the turn v → 1 − v.
 
-use std::collections::HashMap;
-
 use foton_input::quoted;
 use foton_math::glam::{DAffine2, DAffine3, DMat2, DVec2};
 use foton_scene::description::{Texture, TextureKind, Wrap};
 
-use crate::document::NodeId;
 use crate::names::TEXTURES;
 use crate::properties::{Object, Properties};
 use crate::reader::Reader;
-
-/// Indices of textures by element; `None` if it is not valid.
-pub(crate) type Textures = HashMap<NodeId, Option<usize>>;
 
 /// v → 1 − v.
 pub(crate) const TURN: DAffine2 =

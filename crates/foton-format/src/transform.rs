@@ -3,10 +3,10 @@
 use foton_input::shown;
 use foton_math::glam::{DAffine3, DMat3, DVec3};
 
+use crate::attributes::{check_attributes, parse_attribute};
 use crate::diagnostic::Report;
 use crate::document::{Document, Element, NodeId};
 use crate::names::did_you_mean;
-use crate::properties::{check_attributes, parse_attribute};
 use crate::values;
 
 const STEPS: &[&str] = &["translate", "rotate", "scale", "matrix", "lookat"];

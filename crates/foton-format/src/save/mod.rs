@@ -19,7 +19,10 @@ use foton_scene::description::SceneDescription;
 
 use crate::diagnostic::Report;
 use crate::document::{Document, Element};
-use crate::{Opened, Options, write_scene};
+use crate::open::read;
+use crate::opened::Opened;
+use crate::options::Options;
+use crate::write::write_scene;
 use changes::Changes;
 use tree::Obstacle;
 
@@ -83,7 +86,7 @@ fn changed_text(opened: &Opened, edited: &SceneDescription, path: &Path) -> Resu
     report.main_text(&text);
     // Defaults say what parameters did; the memory is that of opening it.
     let options = Options { defines: Vec::new(), ..opened.options.clone() };
-    let again = crate::read(report, &text, &|file| options.read(file, Named::ByFile), &options);
+    let again = read(report, &text, &|file| options.read(file, Named::ByFile), &options);
     let again = again.map_err(|error| format!("what was changed does not read back: {error}"))?;
     match same::difference(edited, &again.description) {
         None => Ok(text),

@@ -6,7 +6,7 @@ use crate::mutations::targets::{BAD_FILES, CANCELLING, CLI, FORMAT, INPUT, MESHE
 pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "glass that refracts nothing is opaque",
-        file: "crates/foton-format/src/mtl.rs",
+        file: "crates/foton-format/src/mesh/mtl.rs",
         from: "let is_glass = (asks_for_glass && refracts)",
         to: "let is_glass = asks_for_glass",
         target: MESHES,
@@ -14,7 +14,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "Tr is what other materials say",
-        file: "crates/foton-format/src/mtl.rs",
+        file: "crates/foton-format/src/mesh/mtl.rs",
         from: "let opacity = if reading.tr_is_opacity { tr } else { 1.0 - tr };",
         to: "let opacity = 1.0 - tr;",
         target: MESHES,
@@ -22,7 +22,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "concave polygons are no fans",
-        file: "crates/foton-format/src/polygons.rs",
+        file: "crates/foton-format/src/mesh/polygons.rs",
         from: "(is_wrong || (square == 0.0 && folded)).then_some(area)",
         to: "(is_wrong && square < 0.0 && folded).then_some(area)",
         target: MESHES,
@@ -30,7 +30,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "materials keep their faces when triangles are gone",
-        file: "crates/foton-format/src/obj.rs",
+        file: "crates/foton-format/src/mesh/obj.rs",
         from: "while gone.next_if(|&at| at < before).is_some() {",
         to: "while gone.next_if(|&at| at < before).is_some() && false {",
         target: FORMAT,
@@ -38,7 +38,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "texture coordinates of corners are read",
-        file: "crates/foton-format/src/ply/faces.rs",
+        file: "crates/foton-format/src/mesh/ply/faces.rs",
         from: "if element.properties.iter().any(Property::is_corner_textures) {",
         to: "if false {",
         target: MESHES,
@@ -46,7 +46,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "mended normals are counted",
-        file: "crates/foton-format/src/meshes.rs",
+        file: "crates/foton-format/src/mesh/normals.rs",
         from: "normals.add_many(usize::from(is_used), Problem::default);",
         to: "let _ = is_used;",
         target: MESHES,
@@ -54,7 +54,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "binary STL files that begin like text are known by their bytes",
-        file: "crates/foton-format/src/stl.rs",
+        file: "crates/foton-format/src/mesh/stl.rs",
         from: "if says_solid(bytes) && !is_binary {",
         to: "if says_solid(bytes) && !is_exact {",
         target: MESHES,
@@ -94,7 +94,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "reading lines can be cancelled",
-        file: "crates/foton-format/src/words.rs",
+        file: "crates/foton-format/src/mesh/words.rs",
         from: "if self.cancel.is_requested() {",
         to: "if false {",
         target: CANCELLING,
@@ -110,7 +110,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "a cancelled reading says nothing of the file",
-        file: "crates/foton-format/src/lib.rs",
+        file: "crates/foton-format/src/open.rs",
         from: "reader.scene();\n    options.cancel.check()?;",
         to: "reader.scene();",
         target: CANCELLING,
@@ -150,7 +150,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "vertices at one position are looked up in a table",
-        file: "crates/foton-format/src/meshes.rs",
+        file: "crates/foton-format/src/mesh/vertices.rs",
         from: "if length < LONGEST_CHAIN {",
         to: "if length < LONGEST_CHAIN << 20 {",
         target: FORMAT,
@@ -158,7 +158,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "meshes that stand often are counted",
-        file: "crates/foton-format/src/meshes.rs",
+        file: "crates/foton-format/src/mesh/files.rs",
         from: "if has_mesh.replace(true)\n",
         to: "if has_mesh.replace(true) && false\n",
         target: BAD_FILES,
@@ -174,7 +174,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "nothing is quoted of a file that is no OBJ file",
-        file: "crates/foton-format/src/obj.rs",
+        file: "crates/foton-format/src/mesh/obj.rs",
         from: "false if !is_of_kind(bytes, cancel) =>",
         to: "false if !is_of_kind(bytes, cancel) && bytes.is_empty() =>",
         target: BAD_FILES,
@@ -230,7 +230,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "what a scene names may not be a pipe",
-        file: "crates/foton-format/src/lib.rs",
+        file: "crates/foton-format/src/open.rs",
         from: "{ Named::ByUser } else { Named::ByFile }",
         to: "{ Named::ByUser } else { Named::ByUser }",
         target: BAD_FILES,

@@ -111,7 +111,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "hits on surfaces that lie in one another are settled",
-        file: "crates/foton-scene/src/coincident.rs",
+        file: "crates/foton-scene/src/coincident/share.rs",
         from: "self.shared.get(primitive as usize).copied().unwrap_or_default()",
         to: "self.shared.get(primitive as usize).copied().filter(|_| false).unwrap_or_default()",
         target: GEOMETRY,
@@ -119,7 +119,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "a face of two dielectrics is one boundary",
-        file: "crates/foton-scene/src/coincident.rs",
+        file: "crates/foton-scene/src/coincident/settle.rs",
         from: "merged.then_some([inside, outside])",
         to: "(merged && inside < 0.0).then_some([inside, outside])",
         target: GEOMETRY,
@@ -223,7 +223,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "points on a large ground are where the ray meets it",
-        file: "crates/foton-scene/src/surface.rs",
+        file: "crates/foton-scene/src/plane.rs",
         from: "        if out > largest {",
         to: "        if out >= 0.0 * largest {",
         target: ANALYTIC,
@@ -271,7 +271,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "finding surfaces in one another can be cancelled",
-        file: "crates/foton-scene/src/coincident.rs",
+        file: "crates/foton-scene/src/coincident/find.rs",
         from: ".filter(|&i| gauge.item(i).is_ok() && gauge.check().is_ok())",
         to: "",
         target: GEOMETRY,

@@ -8,8 +8,8 @@ use earcut::Earcut;
 use foton_math::Cancel;
 use foton_math::glam::{DVec2, DVec3};
 
-use crate::tally::Tally;
-use crate::words::Problem;
+use crate::mesh::tally::Tally;
+use crate::mesh::words::Problem;
 
 /// How much of a polygon's area a triangle may lie on the wrong side, or the triangles may be off together: rounding.
 const ROUNDING: f64 = 1e-6;

@@ -9,8 +9,8 @@ use foton_math::glam::DVec3;
 use foton_scene::description::Mesh;
 
 use crate::diagnostic::Place;
-use crate::meshes::Parsed;
-use crate::words::{Problem, Words, shown, unread, vector, without_mark};
+use crate::mesh::wanted::Parsed;
+use crate::mesh::words::{Problem, Words, shown, unread, vector, without_mark};
 
 /// What stands before the triangles of a binary file: 80 bytes of anything, and their number.
 const HEADER: usize = 84;

@@ -1,6 +1,6 @@
 //! What a file has wrong so often that it is counted, not listed: one warning each, at the place of the first.
 
-use crate::words::Problem;
+use crate::mesh::words::Problem;
 
 /// How often something was mended or left out, and where first.
 #[derive(Default)]

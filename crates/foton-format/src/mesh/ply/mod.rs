@@ -9,14 +9,18 @@
 mod faces;
 mod header;
 mod numbers;
+mod values;
 
 use foton_input::shown;
 use foton_math::Cancel;
 use foton_math::glam::{DVec2, DVec3};
 use foton_scene::description::Mesh;
 
-use crate::meshes::{self, Parsed};
-use crate::words::Problem;
+use values::skip_value;
+
+use crate::mesh::normals;
+use crate::mesh::wanted::Parsed;
+use crate::mesh::words::Problem;
 use faces::Faces;
 use header::{Element, Encoding, Header, Kind, Property};
 use numbers::{Binary, Cancellable, Numbers, Text};
@@ -65,7 +69,7 @@ fn read(header: &Header, numbers: impl Numbers, cancel: &Cancel) -> Parsed {
         }
     }
     let mut warnings = faces.finish(&mut mesh, cancel)?;
-    warnings.extend(meshes::mend(&mut mesh, cancel));
+    warnings.extend(normals::mend(&mut mesh, cancel));
     Ok((mesh, warnings))
 }
 
@@ -77,29 +81,6 @@ fn skip(element: &Element, numbers: &mut impl Numbers) -> Result<(), Problem> {
         numbers.end_element();
     }
     Ok(())
-}
-
-fn skip_value(property: &Property, numbers: &mut impl Numbers) -> Result<(), Problem> {
-    match property.kind {
-        Kind::Scalar(number) => numbers.next(number).map(|_| ()),
-        Kind::List { count, item } => {
-            for _ in 0..length(numbers.next(count)?, numbers)? {
-                numbers.next(item)?;
-            }
-            Ok(())
-        }
-    }
-}
-
-/// The length of a list; more items than bytes are left run into the end of the file.
-fn length(count: f64, numbers: &impl Numbers) -> Result<u64, Problem> {
-    whole(count).ok_or_else(|| numbers.problem(format!("{count} is not the length of a list")))
-}
-
-/// A number that counts, if it does; all types of a file but 64-bit floats fit.
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
-fn whole(number: f64) -> Option<u64> {
-    ((0.0..=4_294_967_295.0).contains(&number) && number.fract() == 0.0).then_some(number as u64)
 }
 
 /// Where each number of a vertex goes: x, y, z, then its normal, then u and v.

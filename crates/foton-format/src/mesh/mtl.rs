@@ -24,7 +24,7 @@ use foton_math::{Cancel, Rgb};
 use foton_scene::description::{Bsdf, Colour, Material, MicrofacetDistribution, Microfacets};
 
 use crate::diagnostic::Place;
-use crate::words::{Problem, Word, Words, shown};
+use crate::mesh::words::{Problem, Word, Words, shown};
 
 /// A material of a file.
 #[derive(Clone, Debug)]

@@ -4,7 +4,7 @@ use foton_math::Cancel;
 
 use super::header::{Kind, Number};
 use crate::diagnostic::Place;
-use crate::words::{Problem, parsed, shown, unread};
+use crate::mesh::words::{Problem, parsed, shown, unread};
 
 /// A way to store numbers.
 pub(super) trait Numbers {

@@ -6,13 +6,13 @@ use foton_scene::description::Mesh;
 
 use super::header::{Element, Header, Kind, Property};
 use super::numbers::Numbers;
-use super::{length, skip_value, whole};
+use super::values::{length, skip_value, whole};
 use crate::diagnostic::Place;
-use crate::meshes::Vertices;
-use crate::obj::LEFT_OUT;
-use crate::polygons::Polygons;
-use crate::tally::Tally;
-use crate::words::Problem;
+use crate::mesh::obj::LEFT_OUT;
+use crate::mesh::polygons::Polygons;
+use crate::mesh::tally::Tally;
+use crate::mesh::vertices::Vertices;
+use crate::mesh::words::Problem;
 
 /// The triangles of a file as they are read, and what was left out.
 pub(super) struct Faces {

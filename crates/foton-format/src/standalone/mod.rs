@@ -11,27 +11,31 @@
 //! printers and the programs that make these files have it.
 
 mod parts;
+mod shapes;
 
 use std::path::Path;
-use std::sync::Arc;
 
 use foton_input::shown;
 use foton_math::glam::{DAffine3, DMat3, DVec3};
 use foton_math::{Cancel, Rgb};
 use foton_scene::description::{
-    Bsdf, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
-    SensorDescription, ShapeDescription,
+    EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Mesh, SceneDescription, SensorDescription,
 };
 
 use crate::diagnostic::{Diagnostic, OpenError, Place, Report};
 use crate::document::Document;
 use crate::hash::Fnv1a;
-use crate::integrator::Suggested;
 use crate::limits::Budget;
-use crate::meshes::{self, Format, Wanted};
-use crate::obj::Obj;
-use crate::words::Problem;
-use crate::{BYTES_PER_BYTE, Opened, Options, ReadFile, SceneNodes, mtl, ply, stl};
+use crate::mesh::normals;
+use crate::mesh::obj::Obj;
+use crate::mesh::ply;
+use crate::mesh::stl;
+use crate::mesh::wanted::{Format, Wanted};
+use crate::mesh::words::Problem;
+use crate::opened::{Opened, SceneNodes};
+use crate::options::{BYTES_PER_BYTE, Options, ReadFile};
+use crate::suggested::Suggested;
+use shapes::{Library, add_shape};
 
 /// Field of view along the shorter side of the image.
 const FOV_DEGREES: f64 = 45.0;
@@ -147,9 +151,6 @@ pub(crate) fn open(
     })
 }
 
-/// Finds a file of materials: its path, and its contents or why it cannot be read.
-type Library<'a> = dyn FnMut(&str) -> Option<(String, Result<Vec<u8>, String>)> + 'a;
-
 /// Whether a name stands for nothing: a word that is none, or one too long to be one.
 fn is_absent(error: &std::io::Error) -> bool {
     use std::io::ErrorKind::{InvalidFilename, InvalidInput, NotADirectory, NotFound};
@@ -174,7 +175,7 @@ fn read(
             let wanted = Wanted { format: Format::Ply, face_normals: false, flip_v: false };
             let (mesh, warnings) = ply::parse(bytes, cancel).map_err(|problem| vec![problem])?;
             warn(warnings, report);
-            let mesh = meshes::finished(&mesh, wanted, &DAffine3::IDENTITY, cancel);
+            let mesh = normals::finished(&mesh, wanted, &DAffine3::IDENTITY, cancel);
             add_shape("mesh", mesh, None, &mut scene);
         }
         Kind::Stl => {
@@ -195,25 +196,6 @@ fn read(
 
 fn warn(warnings: Vec<Problem>, report: &mut Report) {
     warnings.into_iter().for_each(|(place, message)| report.warning(place, message));
-}
-
-/// Grey, from both sides.
-fn grey(name: &str) -> Material {
-    let front = Bsdf::Diffuse { reflectance: Rgb::splat(0.5).into() };
-    Material { name: name.to_owned(), front, back: Some(front), opacity: None }
-}
-
-fn add_shape(name: &str, mesh: Mesh, known: Option<&mtl::Entry>, scene: &mut SceneDescription) {
-    let material = known.map_or_else(|| grey(name), |entry| entry.material.clone());
-    scene.materials.push(material);
-    scene.shapes.push(ShapeDescription {
-        name: name.to_owned(),
-        geometry: Geometry::Mesh(Arc::new(mesh)),
-        to_world: DAffine3::IDENTITY,
-        flip_normals: false,
-        material: scene.materials.len() - 1,
-        radiance: known.and_then(|entry| entry.radiance),
-    });
 }
 
 /// What is to be looked at and lit.

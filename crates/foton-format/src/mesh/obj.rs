@@ -10,9 +10,9 @@ use foton_math::Cancel;
 use foton_math::glam::{DVec2, DVec3};
 
 use crate::diagnostic::Place;
-use crate::polygons::Polygons;
-use crate::tally::Tally;
-use crate::words::{Problem, Word, Words, direction, shown, texture_coordinate, vector};
+use crate::mesh::polygons::Polygons;
+use crate::mesh::tally::Tally;
+use crate::mesh::words::{Problem, Word, Words, direction, shown, texture_coordinate, vector};
 
 /// How warnings that readers of meshes share go on.
 pub(crate) const LEFT_OUT: &str = "fewer than three corners and are left out";

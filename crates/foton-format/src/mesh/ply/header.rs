@@ -3,8 +3,8 @@
 use foton_input::quoted;
 
 use crate::diagnostic::Place;
-use crate::tally::Tally;
-use crate::words::{Problem, shown};
+use crate::mesh::tally::Tally;
+use crate::mesh::words::{Problem, shown};
 
 /// What a file says about itself.
 pub(super) struct Header {

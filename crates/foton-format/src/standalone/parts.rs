@@ -8,11 +8,11 @@ use foton_math::Cancel;
 use foton_math::glam::DAffine3;
 use foton_scene::description::{Mesh, SceneDescription};
 
-use super::{Library, add_shape};
+use super::shapes::{Library, add_shape};
 use crate::diagnostic::{Place, Report};
-use crate::meshes::{self, Format, Wanted};
-use crate::mtl;
-use crate::obj::Obj;
+use crate::mesh::obj::Obj;
+use crate::mesh::wanted::{Format, Wanted};
+use crate::mesh::{mtl, normals};
 use crate::reader::name_of;
 
 /// So many different lines that name files of materials are heeded.
@@ -66,7 +66,7 @@ pub(super) fn add_obj(
         }
     }
     let wanted = Wanted { format: Format::Obj, face_normals: false, flip_v: true };
-    let mesh = meshes::build(obj, wanted, &DAffine3::IDENTITY, cancel);
+    let mesh = normals::build(obj, wanted, &DAffine3::IDENTITY, cancel);
     let mut remap = vec![u32::MAX; mesh.positions.len()];
     for (name, triangles) in by_material(obj, &mesh) {
         let entry = find(name, &known);

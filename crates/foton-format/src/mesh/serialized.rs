@@ -12,7 +12,8 @@ use foton_scene::description::Mesh;
 
 use crate::diagnostic::Place;
 use crate::limits::Budget;
-use crate::meshes::{self, Parsed};
+use crate::mesh::normals;
+use crate::mesh::wanted::Parsed;
 
 const MAGIC: u16 = 0x041c;
 const HAS_NORMALS: u32 = 0x0001;
@@ -35,7 +36,7 @@ const TOO_SHORT: &str = "the file is too short for what it claims to hold";
 /// The first problem of the file, or that it has not as many meshes.
 pub(crate) fn parse(bytes: &[u8], shape_index: u32, budget: &mut Budget, cancel: &Cancel) -> Parsed {
     let mut mesh = mesh(bytes, shape_index, budget, cancel).map_err(|message| (Place::default(), message))?;
-    let warnings = meshes::mend(&mut mesh, cancel);
+    let warnings = normals::mend(&mut mesh, cancel);
     Ok((mesh, warnings))
 }
 

@@ -1,0 +1,101 @@
+//! Opens scene files, and scenes from memory.
+
+use std::cell::RefCell;
+use std::path::Path;
+
+use foton_input::Named;
+
+use crate::diagnostic::{OpenError, Place, Report};
+use crate::files::Files;
+use crate::hash::{self, Fnv1a};
+use crate::limits::Budget;
+use crate::opened::Opened;
+use crate::options::{Options, ReadFile};
+use crate::reader::Reader;
+use crate::{include, standalone};
+
+/// Opens a scene file; the files that it names are found from its folder. An OBJ, PLY or STL file is a whole scene: what
+/// it lacks is added, and a warning says so.
+///
+/// # Errors
+/// Everything that is wrong with the file, unless it is not well-formed XML: then the first problem. Or that reading was cancelled.
+pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
+    let files = RefCell::new(Vec::new());
+    let opened = open_with(path, options, &|file| {
+        // The file itself may be a pipe; what it names may not.
+        let named = if file == path { Named::ByUser } else { Named::ByFile };
+        let bytes = options.read(file, named)?;
+        files.borrow_mut().push(file.to_owned());
+        Ok(bytes)
+    })?;
+    Ok(Opened { files: files.into_inner(), ..opened })
+}
+
+fn open_with(path: &Path, options: &Options, files: &ReadFile<'_>) -> Result<Opened, OpenError> {
+    if let Some(kind) = standalone::Kind::of(path) {
+        return standalone::open(path, kind, files, options);
+    }
+    let name = path.to_string_lossy();
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let report = Report::new(&name, folder);
+    let text = match files(path).map(String::from_utf8) {
+        Ok(Ok(text)) => text,
+        Ok(Err(error)) => {
+            let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+            let line = valid.iter().filter(|&&b| b == b'\n').count() + 1;
+            let place = Place { line: u32::try_from(line).unwrap_or(0), column: 0 };
+            return Err(report.fail(place, "the text is not UTF-8"));
+        }
+        Err(error) => {
+            options.cancel.check()?;
+            return Err(report.fail(Place::default(), format!("cannot be read: {error}")));
+        }
+    };
+    let opened = read(report, &text, files, options)?;
+    Ok(Opened { path: Some(path.to_owned()), ..opened })
+}
+
+/// Reads a scene from memory. `name` stands in messages; `files` is asked for other files by the names in the
+/// scene.
+///
+/// # Errors
+/// As [`open`].
+pub fn read_str(name: &str, xml: &str, files: &ReadFile<'_>, options: &Options) -> Result<Opened, OpenError> {
+    read(Report::new(name, Path::new("")), xml, files, options)
+}
+
+pub(crate) fn read(
+    mut report: Report,
+    xml: &str,
+    files: &ReadFile<'_>,
+    options: &Options,
+) -> Result<Opened, OpenError> {
+    let text = xml.strip_prefix('\u{feff}').unwrap_or(xml);
+    report.main_text(text);
+    let mut budget = Budget::new(options.memory);
+    let document = match include::parse(text, &mut budget) {
+        Ok(document) => document,
+        Err((place, message)) => return Err(report.fail(place, message)),
+    };
+    let mut files = Files::new(files, &options.cancel, budget);
+    let expanded = include::expand(&document, &options.defines, &mut files, &mut report);
+    let mut reader = Reader::new(&expanded.document, files, report);
+    reader.scene();
+    options.cancel.check()?;
+    let Reader { report, files, description, mut nodes, suggested, .. } = reader;
+    let warnings = report.finish()?;
+    let source_hash = source_hash(xml, options, files.hash);
+    let required = [&mut nodes.sensors, &mut nodes.shapes, &mut nodes.emitters].into_iter().flatten();
+    for node in required.chain(nodes.materials.iter_mut().flatten()) {
+        *node = expanded.origin(*node);
+    }
+    let options = options.without_cancel();
+    let (path, files) = (None, Vec::new());
+    Ok(Opened { description, document, nodes, path, files, options, suggested, warnings, source_hash })
+}
+
+fn source_hash(xml: &str, options: &Options, files: Fnv1a) -> u64 {
+    let defines = options.defines.iter().flat_map(|(name, value)| [name.as_bytes(), value.as_bytes()]);
+    let files = files.finish().to_le_bytes();
+    hash::of_parts(std::iter::once(xml.as_bytes()).chain(defines).chain([&files[..]]))
+}

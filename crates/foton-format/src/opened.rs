@@ -1,0 +1,72 @@
+//! A scene as its file states it.
+
+use std::path::PathBuf;
+
+use foton_scene::description::SceneDescription;
+
+use crate::diagnostic::{Diagnostic, Place, Severity};
+use crate::document::{Document, NodeId};
+use crate::options::Options;
+use crate::suggested::Suggested;
+
+/// A scene as its file states it.
+#[derive(Clone, Debug)]
+pub struct Opened {
+    /// What to render.
+    pub description: SceneDescription,
+    /// The file's tree as it was written, before parameters were replaced.
+    pub document: Document,
+    /// Where in the document things stand.
+    pub nodes: SceneNodes,
+    /// The scene file; `None` for a scene from memory and for a mesh file.
+    pub path: Option<PathBuf>,
+    /// All files of the disk that were read for it, itself among them: what is written must be none of these.
+    pub files: Vec<PathBuf>,
+    /// How it was read.
+    pub options: Options,
+    /// Settings that the file asks for.
+    pub suggested: Suggested,
+    /// What the file says without effect.
+    pub warnings: Vec<Diagnostic>,
+    /// Hash of the contents of the file and of those it names, and of the defines. The same on every platform.
+    pub source_hash: u64,
+}
+
+impl Opened {
+    /// A finding about the part of the scene of that name, or about the whole file, which is called `file`. Its place is that of the
+    /// part's element, or of the `<include>` that brings it.
+    #[must_use]
+    pub fn finding(&self, severity: Severity, file: &str, part: Option<&str>, message: String) -> Diagnostic {
+        let place = part.and_then(|part| self.node_of(part)).and_then(|node| self.document.element(node));
+        let Place { line, column } = place.map_or_else(Place::default, |element| element.place);
+        Diagnostic { severity, file: file.to_owned(), line, column, message }
+    }
+
+    /// The element of the sensor, shape, emitter or material of that name.
+    fn node_of(&self, part: &str) -> Option<NodeId> {
+        let (named, nodes) = (&self.description, &self.nodes);
+        let sensor = named.sensors.iter().position(|s| s.name == part);
+        let shape = named.shapes.iter().position(|s| s.name == part);
+        let emitter = named.emitters.iter().position(|e| e.name == part);
+        let material = named.materials.iter().position(|m| m.name == part);
+        let found = sensor.and_then(|i| nodes.sensors.get(i).copied());
+        let found = found.or_else(|| nodes.shapes.get(shape?).copied());
+        let found = found.or_else(|| nodes.emitters.get(emitter?).copied());
+        let found = found.or_else(|| *nodes.materials.get(material?)?);
+        // In place of a mesh file there is an empty document, and its root stands for all shapes.
+        found.filter(|node| *node != self.document.root())
+    }
+}
+
+/// The elements that stand for what is in a description, in its order; for those of another file its `<include>`.
+#[derive(Clone, Debug, Default)]
+pub struct SceneNodes {
+    /// Of the sensors.
+    pub sensors: Vec<NodeId>,
+    /// Of the materials; `None` for those of shapes that name none.
+    pub materials: Vec<Option<NodeId>>,
+    /// Of the shapes.
+    pub shapes: Vec<NodeId>,
+    /// Of the emitters that are not surfaces.
+    pub emitters: Vec<NodeId>,
+}
