@@ -14,7 +14,7 @@ pub type ReadFile<'a> = dyn Fn(&Path) -> io::Result<Vec<u8>> + 'a;
 pub struct Options {
     /// Parameters as name and value, stronger than the file's `<default>`s; of two with a name the last holds.
     pub defines: Vec<(String, String)>,
-    /// Bytes that reading may take; `None`: as many as there are. What [`open`](crate::open) could not read within that is refused unread.
+    /// Bytes that reading may take; `None`: as many as there are. What [`open`](fn@crate::open) could not read within that is refused unread.
     pub memory: Option<u64>,
     /// Ends reading within a fraction of a second: then the outcome is [`OpenError::Cancelled`](crate::OpenError::Cancelled).
     pub cancel: Cancel,

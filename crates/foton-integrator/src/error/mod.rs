@@ -103,7 +103,7 @@ struct OfTile {
 struct Addend {
     light: f64,
     bias: f64,
-    /// How far squared light of all passes may be above what discs see (see [`Evidence::focus`](crate::ppm::adaptive::Evidence::focus)).
+    /// How far squared light of all passes may be above what discs see (see `Evidence::focus`).
     focus: f64,
     /// The variance of that: whether a sample lies in a focus is chance.
     focus_variance: f64,

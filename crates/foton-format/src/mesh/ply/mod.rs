@@ -4,7 +4,7 @@
 //! them): then vertices are split where those differ, and a seam is a crease unless the file has normals, as in OBJ files.
 //! Elements and properties of other names are read over, lists too. A count in the header is believed only as far as
 //! the bytes after it can hold it, so that no file makes us allocate more than a small multiple of its size. Normals
-//! are those of the file; where it has none, [`crate::meshes`] computes them.
+//! are those of the file; where it has none, [`crate::mesh::normals`] computes them.
 
 mod faces;
 mod header;
