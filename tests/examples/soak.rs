@@ -19,9 +19,9 @@ use foton_tests::{Sketch, glass, grey};
 const SIDE: u32 = 16;
 const PHOTONS: u32 = 1000;
 /// How far the running mean may be from that summed with Kahan's compensation, as a share of it.
-const MOST_DRIFT: f64 = 1e-9;
+const MAX_DRIFT: f64 = 1e-9;
 /// How much more memory the last quarter of the time may have taken than the second: the system's allocator rounds.
-const MOST_GROWTH: u64 = 1 << 20;
+const MAX_GROWTH: u64 = 1 << 20;
 /// Bytes of a pixel in a state: three sums in double precision, then the last pass's three addends in single precision.
 const PIXEL: usize = 36;
 
@@ -151,5 +151,5 @@ fn soak(time: Duration) -> bool {
         "memory in the quarters of the time: {:?} KiB; all numbers finite: {finite}",
         quarters.map(|q| q >> 10)
     );
-    finite && drift <= MOST_DRIFT && quarters[3] <= quarters[1] + MOST_GROWTH
+    finite && drift <= MAX_DRIFT && quarters[3] <= quarters[1] + MAX_GROWTH
 }

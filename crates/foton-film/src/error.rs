@@ -179,7 +179,7 @@ impl ReadError {
     /// A file that is no EXR or PNG file as it should be. Libraries quote what they find: their words are cut and escaped.
     pub(crate) fn malformed(path: &Path, format: &'static str, reason: &str) -> Self {
         let mut reason = printable(reason).into_owned();
-        if let Some((end, _)) = reason.char_indices().nth(LONGEST_REASON) {
+        if let Some((end, _)) = reason.char_indices().nth(MAX_REASON) {
             reason.truncate(end);
             reason.push('…');
         }
@@ -188,4 +188,4 @@ impl ReadError {
 }
 
 /// The most characters of what a library says of a file.
-const LONGEST_REASON: usize = 160;
+const MAX_REASON: usize = 160;

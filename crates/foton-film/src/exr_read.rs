@@ -17,7 +17,7 @@ use crate::{Image, Metadata, ReadError, exr_header};
 const PIXELS_PER_BYTE: usize = 4096;
 
 /// Channels that a message names.
-const MOST_NAMES: usize = 8;
+const MAX_NAMES: usize = 8;
 
 /// What a pixel takes while it is read: in the image, in the blocks that it is unpacked from, and on the way.
 const BYTES_PER_PIXEL: u64 = 40;
@@ -124,8 +124,8 @@ fn check(
         Channels::Grey
     } else {
         let all = meta.headers.first().map(names).unwrap_or_default();
-        let mut channels: Vec<String> = all.iter().take(MOST_NAMES).map(|name| shown(name)).collect();
-        channels.extend((all.len() > MOST_NAMES).then(|| format!("{} more", all.len() - MOST_NAMES)));
+        let mut channels: Vec<String> = all.iter().take(MAX_NAMES).map(|name| shown(name)).collect();
+        channels.extend((all.len() > MAX_NAMES).then(|| format!("{} more", all.len() - MAX_NAMES)));
         return Err(ReadError::NoRgb { path: path.into(), channels: channels.join(", ") });
     };
     for header in &meta.headers {

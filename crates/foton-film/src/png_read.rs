@@ -18,7 +18,7 @@ const PIXELS_PER_BYTE: usize = 8 * 1032;
 const BYTES_PER_PIXEL: u64 = 36;
 
 /// What else than pixels a file may unpack, such as a colour profile, of which nothing is read.
-const MOST_BESIDE: usize = 64 << 20;
+const MAX_BESIDE: usize = 64 << 20;
 
 /// Reads a PNG of any colour type and depth as linear colours in [0, 1]³.
 ///
@@ -41,7 +41,7 @@ pub fn read_png_within(path: &Path, memory: Option<u64>) -> Result<Image, ReadEr
     if !bytes.starts_with(b"\x89PNG") {
         return Err(malformed("it does not begin as one".into()));
     }
-    let mut decoder = Decoder::new_with_limits(Cursor::new(&bytes), Limits { bytes: MOST_BESIDE });
+    let mut decoder = Decoder::new_with_limits(Cursor::new(&bytes), Limits { bytes: MAX_BESIDE });
     decoder.set_transformations(Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(|cause| malformed(cause.to_string()))?;
     let (width, height) = (reader.info().width, reader.info().height);

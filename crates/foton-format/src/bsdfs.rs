@@ -10,7 +10,7 @@ use crate::properties::{Located, Properties};
 use crate::reader::Reader;
 
 /// Mitsuba takes smaller values of alpha for this.
-const LEAST_ALPHA: f32 = 1e-4;
+const MIN_ALPHA: f32 = 1e-4;
 
 impl Reader<'_> {
     /// The BSDF of a plugin that has no others inside.
@@ -158,6 +158,6 @@ impl Reader<'_> {
             self.report.error(alpha.place, format!("\"{name}\" must not be negative or above a million"));
             return None;
         }
-        Some((alpha.value as f32).max(LEAST_ALPHA))
+        Some((alpha.value as f32).max(MIN_ALPHA))
     }
 }

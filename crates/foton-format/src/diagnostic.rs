@@ -11,13 +11,13 @@ use foton_math::Cancelled;
 use crate::names::did_you_mean;
 
 /// More errors, or warnings, than these are only counted.
-const MOST_FINDINGS: usize = 1000;
+const MAX_FINDINGS: usize = 1000;
 
 /// So many times a nearest name is looked for among those of a file, which may be many and long.
-const MOST_HINTS: u32 = 50;
+const MAX_HINTS: u32 = 50;
 
 /// A file looks for others in so many folders, and in those of the files that include it.
-const MOST_FOLDERS: usize = 64;
+const MAX_FOLDERS: usize = 64;
 
 /// How bad a finding is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -151,8 +151,8 @@ impl Report {
     /// An error where that are too many.
     pub(crate) fn look_in(&mut self, folder: &str, place: Place) {
         let index = self.source_index(place);
-        if self.sources[index].folders.len() >= MOST_FOLDERS {
-            return self.error(place, format!("files are looked for in {MOST_FOLDERS} folders already"));
+        if self.sources[index].folders.len() >= MAX_FOLDERS {
+            return self.error(place, format!("files are looked for in {MAX_FOLDERS} folders already"));
         }
         let folder = self.sources[index].folder.join(folder);
         self.sources[index].folders.insert(0, folder);
@@ -203,7 +203,7 @@ impl Report {
 
     /// Whether there are so many errors that looking for more is of no use.
     pub(crate) fn is_full(&self) -> bool {
-        self.errors >= MOST_FINDINGS
+        self.errors >= MAX_FINDINGS
     }
 
     /// [`did_you_mean`] with names of the file; nothing once that was asked for often.
@@ -213,7 +213,7 @@ impl Report {
         known: impl IntoIterator<Item = &'a str>,
     ) -> String {
         self.hints += 1;
-        if self.hints > MOST_HINTS { String::new() } else { did_you_mean(name, known) }
+        if self.hints > MAX_HINTS { String::new() } else { did_you_mean(name, known) }
     }
 
     fn push(&mut self, severity: Severity, file: String, Place { line, column }: Place, message: String) {
@@ -222,7 +222,7 @@ impl Report {
             Severity::Warning => &mut self.warnings,
         };
         *count += 1;
-        if *count > MOST_FINDINGS {
+        if *count > MAX_FINDINGS {
             return;
         }
         self.diagnostics.push(Diagnostic { severity, file, line, column, message });
@@ -230,7 +230,7 @@ impl Report {
 
     /// How many errors and warnings are not listed.
     fn unlisted(&self) -> [(Severity, usize, &'static str); 2] {
-        let beyond = |count: usize| count.saturating_sub(MOST_FINDINGS);
+        let beyond = |count: usize| count.saturating_sub(MAX_FINDINGS);
         [
             (Severity::Error, beyond(self.errors), "errors"),
             (Severity::Warning, beyond(self.warnings), "warnings"),

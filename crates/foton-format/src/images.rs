@@ -19,17 +19,17 @@ use crate::properties::Located;
 use crate::values::srgb_to_linear;
 
 /// Pixels of one image: 2²⁸ fill 3 GiB.
-const MOST_PIXELS: u64 = 1 << 28;
+const MAX_PIXELS: u64 = 1 << 28;
 
 /// More pixels than this no byte of a file can hold: deflate unpacks 1,032 to 1, to at most eight pixels a byte, and the other
 /// formats less. A header that claims more is broken, and must not make us allocate what it claims.
-const MOST_PIXELS_PER_BYTE: u64 = 8 * 1032;
+const MAX_PIXELS_PER_BYTE: u64 = 8 * 1032;
 
 /// Bytes of a pixel in a scene.
 const BYTES_PER_PIXEL: u64 = size_of::<Rgb>() as u64;
 
 /// The most characters of what a library says of a file.
-const LONGEST_REASON: usize = 160;
+const MAX_REASON: usize = 160;
 
 /// Images read so far, by file, whether they are raw, and whether they are shares of light.
 #[derive(Default)]
@@ -114,7 +114,7 @@ fn decode(
     let decoder = reader.into_decoder().map_err(said)?;
     let (width, height) = decoder.dimensions();
     check_size(width, height)?;
-    if u64::from(width) * u64::from(height) / MOST_PIXELS_PER_BYTE > bytes.len() as u64 {
+    if u64::from(width) * u64::from(height) / MAX_PIXELS_PER_BYTE > bytes.len() as u64 {
         return Err(format!("{width} × {height} pixels cannot be in {} bytes", bytes.len()));
     }
     // As it is stored, and as we keep it; for some formats once more, as numbers of another kind.
@@ -179,7 +179,7 @@ fn is_cut_jpeg(bytes: &[u8]) -> bool {
 
 /// What a library says of a file: it may quote that.
 fn said(error: impl std::fmt::Display) -> String {
-    printable(&error.to_string()).chars().take(LONGEST_REASON).collect()
+    printable(&error.to_string()).chars().take(MAX_REASON).collect()
 }
 
 fn decode_exr(path: &Path, bytes: &[u8], budget: &mut Budget, cancel: &Cancel) -> Result<Bitmap, String> {
@@ -201,7 +201,7 @@ fn decode_exr(path: &Path, bytes: &[u8], budget: &mut Budget, cancel: &Cancel) -
 
 fn check_size(width: u32, height: u32) -> Result<(), String> {
     let pixels = u64::from(width) * u64::from(height);
-    if pixels == 0 || pixels > MOST_PIXELS {
+    if pixels == 0 || pixels > MAX_PIXELS {
         return Err(format!("{width} × {height} pixels are none or too many"));
     }
     Ok(())

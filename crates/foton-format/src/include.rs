@@ -19,7 +19,7 @@ use crate::{upgrade, values};
 /// Includes inside includes; Mitsuba's bound is the same.
 const DEEPEST: usize = 15;
 /// All files that a scene may include: some that double at every level must not take for ever.
-const MOST_FILES: usize = 1000;
+const MAX_FILES: usize = 1000;
 
 /// The newest version of Mitsuba, by the first part of its number, whose names are known here.
 const NEWEST: u32 = 3;
@@ -148,8 +148,8 @@ impl Walk<'_, '_> {
             self.report.error(place, format!("files are included deeper than {DEEPEST} levels"));
             return nothing;
         }
-        if self.files_included >= MOST_FILES {
-            self.report.error(place, format!("more than {MOST_FILES} files are included"));
+        if self.files_included >= MAX_FILES {
+            self.report.error(place, format!("more than {MAX_FILES} files are included"));
             return nothing;
         }
         self.files_included += 1;

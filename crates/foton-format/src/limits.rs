@@ -6,9 +6,9 @@ use crate::diagnostic::Place;
 const SMALL: u64 = 4 << 20;
 
 /// The most attributes of an element: readers look for each among all before it.
-const MOST_ATTRIBUTES: usize = 1000;
+const MAX_ATTRIBUTES: usize = 1000;
 /// The most declarations of name spaces in a file. Each element repeats those around it, and scenes have none.
-const MOST_NAME_SPACES: usize = 64;
+const MAX_NAME_SPACES: usize = 64;
 
 /// Bytes that an element takes, with the text behind it, by the parser and in our trees before and after parameters are replaced.
 const BYTES_PER_ELEMENT: u64 = 700;
@@ -67,8 +67,8 @@ pub(crate) struct Census {
 impl Census {
     /// Counts elements and attributes; at the offset of an element that has too many attributes a message.
     pub(crate) fn of(text: &str) -> Result<Self, (usize, String)> {
-        if text.matches("xmlns").nth(MOST_NAME_SPACES).is_some() {
-            return Err((0, format!("more than {MOST_NAME_SPACES} name spaces are declared")));
+        if text.matches("xmlns").nth(MAX_NAME_SPACES).is_some() {
+            return Err((0, format!("more than {MAX_NAME_SPACES} name spaces are declared")));
         }
         let mut census = Self { bytes: text.len() as u64, ..Self::default() };
         let mut at = 0;
@@ -81,8 +81,8 @@ impl Census {
                 continue;
             }
             let (length, attributes) = tag(rest);
-            if attributes > MOST_ATTRIBUTES {
-                return Err((start, format!("an element has more than {MOST_ATTRIBUTES} attributes")));
+            if attributes > MAX_ATTRIBUTES {
+                return Err((start, format!("an element has more than {MAX_ATTRIBUTES} attributes")));
             }
             census.elements += 1;
             census.attributes += attributes as u64;
@@ -136,13 +136,13 @@ mod tests {
         for broken in ["<", "<a b='", "<!--", "<a", "</", "<![CDATA[", "<?"] {
             assert!(Census::of(broken).is_ok_and(|c| c.elements <= 1), "{broken}");
         }
-        let many = format!("<s>\n <a {}/></s>", "a='' ".repeat(MOST_ATTRIBUTES + 1));
+        let many = format!("<s>\n <a {}/></s>", "a='' ".repeat(MAX_ATTRIBUTES + 1));
         let (offset, message) = Census::of(&many).unwrap_err();
         assert_eq!(
             (at_place(&many, offset), &*message),
             (Place { line: 2, column: 2 }, "an element has more than 1000 attributes")
         );
-        assert!(Census::of(&"<a xmlns:b='c'/>".repeat(MOST_NAME_SPACES + 1)).is_err());
+        assert!(Census::of(&"<a xmlns:b='c'/>".repeat(MAX_NAME_SPACES + 1)).is_err());
     }
 
     #[test]

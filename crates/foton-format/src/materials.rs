@@ -13,7 +13,7 @@ use crate::properties::{Object, Properties};
 use crate::reader::Reader;
 
 /// References from one BSDF to another may be this long.
-const LONGEST_CHAIN: usize = 16;
+const MAX_CHAIN: usize = 16;
 
 impl Reader<'_> {
     /// The index of the material that a `<bsdf>` describes.
@@ -126,7 +126,7 @@ impl Reader<'_> {
 
     /// A BSDF inside another one.
     fn nested_sides(&mut self, nested: Object<'_>) -> Option<Sides> {
-        if self.materials.open.contains(&nested.node) || self.materials.open.len() >= LONGEST_CHAIN {
+        if self.materials.open.contains(&nested.node) || self.materials.open.len() >= MAX_CHAIN {
             self.refuse_chain(nested.place);
             return None;
         }

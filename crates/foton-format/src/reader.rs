@@ -156,11 +156,11 @@ impl<'a> Reader<'a> {
 }
 
 /// The most characters of a name in a scene.
-const LONGEST_NAME: usize = 200;
+const MAX_NAME: usize = 200;
 
 /// A name of a file as it stands in the scene: printable and of bearable length. `number` tells it from others that are cut.
 pub(crate) fn name_of(name: &str, number: usize) -> String {
-    match name.char_indices().nth(LONGEST_NAME) {
+    match name.char_indices().nth(MAX_NAME) {
         Some((end, _)) => format!("{}…{number}", printable(&name[..end])),
         None => printable(name).into_owned(),
     }

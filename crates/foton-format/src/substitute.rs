@@ -14,11 +14,11 @@ use crate::document::{Attribute, Document, Element};
 
 /// How long the values of all attributes may become together: so much for any scene, and so many times as long as they were.
 /// Values that name others twice, and so on, would double at every step.
-const MOST_BYTES: usize = 8 << 20;
-const MOST_TIMES: usize = 4;
+const MAX_BYTES: usize = 8 << 20;
+const MAX_TIMES: usize = 4;
 
 /// Among more parameters than these the nearest name is not looked for.
-const MOST_NAMES: usize = 1000;
+const MAX_NAMES: usize = 1000;
 
 /// A parameter.
 struct Parameter {
@@ -43,14 +43,14 @@ impl Parameters {
         let given =
             |value: &String| Parameter { value: value.clone(), from_outside: true, meant_by_file: false };
         let known = defines.iter().map(|(name, value)| (name.clone(), given(value))).collect();
-        Self { known, left: MOST_BYTES, exhausted: false }
+        Self { known, left: MAX_BYTES, exhausted: false }
     }
 
     /// Lets values become longer, for those of a document that is read.
     pub(crate) fn allow(&mut self, document: &Document) {
         let values = document.elements().flat_map(|(_, element)| &element.attributes);
         let bytes: usize = values.map(|attribute| attribute.value.len()).sum();
-        self.left = self.left.saturating_add(MOST_TIMES.saturating_mul(bytes));
+        self.left = self.left.saturating_add(MAX_TIMES.saturating_mul(bytes));
     }
 
     /// Replaces every `$name` in an element, and learns what a `<default>` says. To be called in the order of the
@@ -66,7 +66,7 @@ impl Parameters {
 
     /// Reports parameters from outside that the file has no use for.
     pub(crate) fn finish(&self, report: &mut Report) {
-        let few = self.known.len() <= MOST_NAMES;
+        let few = self.known.len() <= MAX_NAMES;
         let known =
             || self.known.iter().filter(|(_, p)| few && p.meant_by_file).map(|(name, _)| name.as_str());
         for (name, p) in self.known.iter().filter(|(_, p)| p.from_outside && !p.meant_by_file) {
@@ -154,7 +154,7 @@ impl Parameters {
             } else {
                 attribute.broken = true;
                 let end = after.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(after.len());
-                let (name, few) = (&after[..end], self.known.len() <= MOST_NAMES);
+                let (name, few) = (&after[..end], self.known.len() <= MAX_NAMES);
                 let names = self.known.keys().filter(|_| few).map(String::as_str);
                 let hint = report.did_you_mean(name, names).replacen('"', "\"$", 1);
                 let name = quoted(&format!("${name}"));

@@ -15,4 +15,4 @@ mod open;
 mod quote;
 
 pub use open::{Limit, Named, Refusal, read_file};
-pub use quote::{LONGEST_QUOTE, is_printable, json, printable, quoted, shown, shown_bytes, shown_path};
+pub use quote::{MAX_QUOTE, is_printable, json, printable, quoted, shown, shown_bytes, shown_path};

@@ -7,10 +7,10 @@ use std::borrow::Cow;
 use std::path::Path;
 
 /// The most characters of a word that a message quotes.
-pub const LONGEST_QUOTE: usize = 40;
+pub const MAX_QUOTE: usize = 40;
 
 /// The most characters of a path in a message.
-const LONGEST_PATH: usize = 200;
+const MAX_PATH: usize = 200;
 
 /// Whether a character shows itself and nothing else: no control character, no mark of direction, no separator of lines, nothing
 /// of no width.
@@ -28,13 +28,13 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     if text.chars().all(is_printable) { Cow::Borrowed(text) } else { Cow::Owned(escaped(text.chars())) }
 }
 
-/// A word as a message may quote it: printable, at most [`LONGEST_QUOTE`] characters, with `…` for what is left out.
+/// A word as a message may quote it: printable, at most [`MAX_QUOTE`] characters, with `…` for what is left out.
 #[must_use]
 pub fn shown(text: &str) -> String {
-    if text.chars().nth(LONGEST_QUOTE).is_none() {
+    if text.chars().nth(MAX_QUOTE).is_none() {
         return escaped(text.chars());
     }
-    escaped(text.chars().take(LONGEST_QUOTE - 1)) + "…"
+    escaped(text.chars().take(MAX_QUOTE - 1)) + "…"
 }
 
 /// [`shown`] between quotation marks.
@@ -47,7 +47,7 @@ pub fn quoted(text: &str) -> String {
 #[must_use]
 pub fn shown_bytes(text: &[u8]) -> String {
     // No character has more than four bytes.
-    shown(&String::from_utf8_lossy(&text[..text.len().min(4 * LONGEST_QUOTE + 4)]))
+    shown(&String::from_utf8_lossy(&text[..text.len().min(4 * MAX_QUOTE + 4)]))
 }
 
 /// A path as it may stand in a message: printable, and without its middle where it is very long.
@@ -55,10 +55,10 @@ pub fn shown_bytes(text: &[u8]) -> String {
 pub fn shown_path(path: &Path) -> String {
     let text = path.to_string_lossy();
     let length = text.chars().count();
-    if length <= LONGEST_PATH {
+    if length <= MAX_PATH {
         return escaped(text.chars());
     }
-    let (start, end) = (LONGEST_PATH / 4, 3 * LONGEST_PATH / 4 - 1);
+    let (start, end) = (MAX_PATH / 4, 3 * MAX_PATH / 4 - 1);
     escaped(text.chars().take(start)) + "…" + &escaped(text.chars().skip(length - end))
 }
 
@@ -101,8 +101,8 @@ mod tests {
         let [short, long] = [40, 41].map(|n| "é".repeat(n));
         assert_eq!(quoted(&short), format!("\"{short}\""));
         assert_eq!(quoted(&long), format!("\"{}…\"", "é".repeat(39)));
-        assert_eq!(shown_bytes(&[b'a'; 1000]).chars().count(), LONGEST_QUOTE);
-        assert_eq!(shown_bytes(&"🦀".repeat(1000).into_bytes()).chars().count(), LONGEST_QUOTE);
+        assert_eq!(shown_bytes(&[b'a'; 1000]).chars().count(), MAX_QUOTE);
+        assert_eq!(shown_bytes(&"🦀".repeat(1000).into_bytes()).chars().count(), MAX_QUOTE);
     }
 
     #[test]
@@ -139,7 +139,7 @@ mod tests {
     fn a_long_path_keeps_its_beginning_and_its_end() {
         let path = format!("/start/{}/end.obj", "x".repeat(5000));
         let shown = shown_path(Path::new(&path));
-        assert_eq!(shown.chars().count(), LONGEST_PATH);
+        assert_eq!(shown.chars().count(), MAX_PATH);
         assert!(shown.starts_with("/start/x") && shown.ends_with("x/end.obj"), "{shown}");
     }
 }

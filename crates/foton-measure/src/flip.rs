@@ -29,7 +29,7 @@ const KNEE_VALUE: f32 = 0.95;
 /// What the eye resolves of luminance, red-green and blue-yellow: sums of a·√(π/b)·exp(−π² z²/b) with z in degrees.
 const SENSITIVITY: [&[(f64, f64)]; 3] = [&[(1.0, 0.0047)], &[(1.0, 0.0053)], &[(34.1, 0.04), (13.5, 0.025)]];
 /// The largest b of [`SENSITIVITY`]: it sets the radius of all its filters.
-const WIDEST: f64 = 0.04;
+const MAX_WIDTH: f64 = 0.04;
 
 /// Linear sRGB to CIE XYZ, in columns, each row divided by its sum so that white is (1, 1, 1).
 const RGB_TO_XYZ: Mat3 = Mat3::from_cols(
@@ -148,7 +148,7 @@ fn largest_color_difference() -> f32 {
 
 /// `plane` filtered by a normalised sum of Gaussians from [`SENSITIVITY`].
 fn blur(plane: &[f32], width: usize, terms: &[(f64, f64)]) -> Vec<f32> {
-    let radius = (3.0 * (WIDEST / (2.0 * PI * PI)).sqrt() * PIXELS_PER_DEGREE).ceil() as usize;
+    let radius = (3.0 * (MAX_WIDTH / (2.0 * PI * PI)).sqrt() * PIXELS_PER_DEGREE).ceil() as usize;
     let kernels: Vec<_> = terms
         .iter()
         .map(|&(a, b)| {

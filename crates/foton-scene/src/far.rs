@@ -22,7 +22,7 @@ const LAMP_APART: f32 = 1e3;
 const TOO_FAR: f64 = 1e5;
 
 /// A light that fewer of its photons than this reach the scene of lights nothing within any time.
-const SMALLEST_CHANCE: f64 = 1e-6;
+const MIN_CHANCE: f64 = 1e-6;
 
 /// What to take instead of what is far.
 const FROM_FAR: &str =
@@ -102,7 +102,7 @@ impl Scene {
         };
         let times = self.half_diagonals(position);
         let chance = (0.25 / (times * times * share_of_all)).min(1.0);
-        let near = times <= TOO_FAR && chance >= SMALLEST_CHANCE;
+        let near = times <= TOO_FAR && chance >= MIN_CHANCE;
         let towards = (self.bounds.centre().as_dvec3() - position.as_dvec3()).normalize_or_zero().as_vec3();
         let intensity = match &emitter.kind {
             Kind::Point { intensity, .. } => *intensity,

@@ -10,7 +10,7 @@ const HALF_SIZE_EXPONENT: i32 = 11;
 
 /// Scenes whose half-size is 2 to the power of more than this, or less than its negative, are scaled as if it were that: beyond,
 /// the factor itself is no number.
-const LARGEST_EXPONENT: i32 = 1000;
+const MAX_EXPONENT: i32 = 1000;
 
 /// The map between world units and scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +32,7 @@ impl Normalisation {
         if !(half > 0.0 && half.is_finite() && centre.is_finite()) {
             return Self { centre: if centre.is_finite() { centre } else { DVec3::ZERO }, scale: 1.0 };
         }
-        let exponent = (half.log2().ceil() as i32).clamp(-LARGEST_EXPONENT, LARGEST_EXPONENT);
+        let exponent = (half.log2().ceil() as i32).clamp(-MAX_EXPONENT, MAX_EXPONENT);
         Self { centre, scale: 2f64.powi(HALF_SIZE_EXPONENT - exponent) }
     }
 

@@ -8,7 +8,7 @@ use foton_integrator::ErrorEstimate;
 const ENOUGH_PASSES: f64 = 8.0;
 
 /// The error is believed while at most this share of the pixels has found no light at all.
-const MOST_UNKNOWN: f64 = 0.05;
+const MAX_UNKNOWN: f64 = 0.05;
 
 /// A render stops as soon as one of the limits is reached; without any it goes on until interrupted.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -62,7 +62,7 @@ impl StopRule {
 }
 
 fn is_certainly_below(error: &ErrorEstimate, limit: f64) -> bool {
-    error.high <= limit && error.effective_passes >= ENOUGH_PASSES && error.unknown_share <= MOST_UNKNOWN
+    error.high <= limit && error.effective_passes >= ENOUGH_PASSES && error.unknown_share <= MAX_UNKNOWN
 }
 
 #[cfg(test)]

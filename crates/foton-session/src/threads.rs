@@ -7,7 +7,7 @@ use foton_input::quoted;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 /// The most threads that can be asked for.
-pub const MOST: usize = 1024;
+pub const MAX: usize = 1024;
 
 /// The variable of the environment that says how many threads there are by default, as for other programs that use Rayon.
 const VARIABLE: &str = "RAYON_NUM_THREADS";
@@ -17,17 +17,17 @@ const VARIABLE: &str = "RAYON_NUM_THREADS";
 pub fn count(asked: Option<usize>) -> usize {
     let stated = || std::env::var(VARIABLE).ok().and_then(|text| stated(&text).ok().flatten());
     let machine = || available_parallelism().map_or(1, usize::from);
-    asked.or_else(stated).unwrap_or_else(machine).clamp(1, MOST)
+    asked.or_else(stated).unwrap_or_else(machine).clamp(1, MAX)
 }
 
 /// The number that a text states, `None` where it leaves that to the machine, or what is wrong with it.
 fn stated(text: &str) -> Result<Option<usize>, String> {
     match text.parse::<usize>() {
         Ok(0) => Ok(None),
-        Ok(number) if number <= MOST => Ok(Some(number)),
+        Ok(number) if number <= MAX => Ok(Some(number)),
         _ if text.is_empty() => Ok(None),
         _ => Err(format!(
-            "{VARIABLE} is {}, which is no number of threads from 1 to {MOST}: there are as many as the machine has",
+            "{VARIABLE} is {}, which is no number of threads from 1 to {MAX}: there are as many as the machine has",
             quoted(text)
         )),
     }
@@ -96,7 +96,7 @@ mod tests {
         for text in ["1025", "1000000000", "99999999999999999999999", "-1", "two", "2 "] {
             assert!(stated(text).is_err_and(|said| said.contains(text)), "{text}");
         }
-        assert_eq!(count(Some(usize::MAX)), MOST);
+        assert_eq!(count(Some(usize::MAX)), MAX);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use foton_math::glam::Vec3;
 use foton_scene::Surface;
 
 /// |ω·n_g| counts as at least this in the shading normals' correction.
-pub const SMALLEST_COSINE: f32 = 1e-2;
+pub const MIN_COSINE: f32 = 1e-2;
 
 /// The shading normal, outside, or the geometric one where the shading normal turns away from a direction that the geometry
 /// does see (or sees one that it does not): a smooth silhouette is not black.

@@ -26,7 +26,7 @@ use crate::signals;
 const DEFAULT_TIME: Duration = Duration::from_secs(60);
 
 /// A shape that is fewer steps of single precision across is worth a warning: its outline is off by a hundredth of its size.
-const FEW_STEPS: f32 = 100.0;
+const MIN_STEPS: f32 = 100.0;
 
 /// Runs `foton render`.
 pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Failure> {
@@ -257,7 +257,7 @@ pub(crate) fn build(
     if census.degenerate_triangles > 0 {
         console.warning(&format!("left out {} triangles without area", census.degenerate_triangles));
     }
-    for shape in scene.shapes().iter().filter(|s| s.steps_across < FEW_STEPS) {
+    for shape in scene.shapes().iter().filter(|s| s.steps_across < MIN_STEPS) {
         console.warning(&format!(
             "{} is only {:.0} steps of single precision across, so small is it where it stands: its shape is rounded to those",
             quoted(&shape.name),

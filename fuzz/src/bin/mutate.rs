@@ -17,7 +17,7 @@ use foton_fuzz::{TIME_LIMIT, check_with_time, seeds};
 const LARGEST: usize = 1 << 16;
 
 /// Inputs kept at most.
-const MOST_KEPT: usize = 4000;
+const MAX_KEPT: usize = 4000;
 
 /// The input under way, for the watchdog.
 static UNDER_WAY: Mutex<(Vec<u8>, Option<Instant>)> = Mutex::new((Vec::new(), None));
@@ -159,7 +159,7 @@ fn main() {
         tried += 1;
         match run(&target, &input) {
             Ok(text) => {
-                if kept.len() < MOST_KEPT && said.insert(text) {
+                if kept.len() < MAX_KEPT && said.insert(text) {
                     kept.push(input);
                 }
             }

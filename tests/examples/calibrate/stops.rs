@@ -14,7 +14,7 @@ const SIDE: u32 = 128;
 const SCENES: [&str; 6] = ["furnace", "cornell-diffuse", "cornell-spheres", "ring", "pool", "box-spheres"];
 const GOALS: [f64; 3] = [0.2, 0.15, 0.1];
 const PHOTONS: u32 = 1 << 16;
-const MOST_PASSES: u64 = 2000;
+const MAX_PASSES: u64 = 2000;
 /// Eye samples a pixel of the image that has none of the antialiasing error.
 const MANY_SAMPLES: NonZeroU32 = NonZeroU32::new(16).expect("above 0");
 
@@ -41,7 +41,7 @@ fn rows(name: &str, scene: &Arc<Scene>, seed: u64, truth_passes: u64) {
         loop {
             let render = &runs.runs()[0];
             if rule.is_reached(render.passes(), time, time, render.error().as_ref())
-                || render.passes() >= MOST_PASSES
+                || render.passes() >= MAX_PASSES
             {
                 break;
             }
@@ -51,7 +51,7 @@ fn rows(name: &str, scene: &Arc<Scene>, seed: u64, truth_passes: u64) {
         let Some(error) = render.error() else { continue };
         let real = same_eyes.error(render);
         let total = many_eyes.error(render).value;
-        let never = if render.passes() >= MOST_PASSES { " (never stopped)" } else { "" };
+        let never = if render.passes() >= MAX_PASSES { " (never stopped)" } else { "" };
         println!(
             "| {name} | {:.0} | {}{never} | {:.1} ({:.1}–{:.1}) | {:.1} ± {:.1} | {:.2} | {:.1} |",
             100.0 * goal,

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::WriteError;
 
 /// Links on the way to one file, as many as Linux follows.
-const MOST_LINKS: usize = 40;
+const MAX_LINKS: usize = 40;
 
 /// Where the bytes go.
 pub(super) enum Target {
@@ -110,7 +110,7 @@ pub(super) fn folder_of(path: &Path) -> &Path {
 /// Where links lead to that end in nothing.
 fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
-    for _ in 0..MOST_LINKS {
+    for _ in 0..MAX_LINKS {
         if !fs::symlink_metadata(&path).is_ok_and(|found| found.is_symlink()) {
             return Ok(path);
         }

@@ -13,7 +13,7 @@ use super::target::folder_of;
 
 /// A name up to this many bytes stands in that of its temporary file; of a longer one there is a hash, for names may not have more
 /// than 255, on some file systems 143.
-const LONGEST_NAME: usize = 100;
+const MAX_NAME: usize = 100;
 
 /// How often another name is tried where one is taken.
 const TRIES: usize = 8;
@@ -89,7 +89,7 @@ pub(super) fn prefix(target: &Path) -> Option<OsString> {
     let name = target.file_name()?;
     let mut prefix = OsString::from(".");
     let bytes = name.as_encoded_bytes();
-    if bytes.len() <= LONGEST_NAME {
+    if bytes.len() <= MAX_NAME {
         prefix.push(name);
     } else {
         // FNV-1a, 64 bits.

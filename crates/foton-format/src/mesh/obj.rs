@@ -20,7 +20,7 @@ pub(crate) const NORMALS_MENDED: &str = "zero or not finite: the faces around sa
 pub(crate) const TEXTURES_MENDED: &str = "not finite and taken as zero";
 
 /// More problems than these in one file are only counted.
-const MOST_PROBLEMS: usize = 20;
+const MAX_PROBLEMS: usize = 20;
 
 /// The contents of a file, still by index.
 pub(crate) struct Obj {
@@ -52,7 +52,7 @@ impl Obj {
     /// Reads a file. Faces with more than three corners become fans, as in Mitsuba 3, unless they are concave.
     ///
     /// # Errors
-    /// All problems of the file, at most [`MOST_PROBLEMS`] of them one by one.
+    /// All problems of the file, at most [`MAX_PROBLEMS`] of them one by one.
     pub(crate) fn parse(bytes: &[u8], cancel: &Cancel) -> Result<Self, Vec<Problem>> {
         if u32::try_from(bytes.len()).is_err() {
             return Err(vec![(Place::default(), "the file is larger than 4 GiB".to_owned())]);
@@ -80,7 +80,7 @@ impl Obj {
         let mut words = Words::new(bytes, cancel);
         while words.next_line() {
             if let Err(problem) = parser.line(&mut words) {
-                if parser.problems.len() < MOST_PROBLEMS {
+                if parser.problems.len() < MAX_PROBLEMS {
                     parser.problems.push(problem);
                 } else {
                     unlisted += 1;
@@ -459,8 +459,8 @@ mod tests {
     #[test]
     fn a_hopeless_file_is_reported_briefly() {
         let found = problems(&"f 1 2 3\n".repeat(1000));
-        assert_eq!(found.len(), MOST_PROBLEMS + 1);
-        assert_eq!(found[MOST_PROBLEMS], "0:0: 980 more problems in this file");
+        assert_eq!(found.len(), MAX_PROBLEMS + 1);
+        assert_eq!(found[MAX_PROBLEMS], "0:0: 980 more problems in this file");
         assert_eq!(problems(SQUARE), ["0:0: the file has no faces"]);
         assert_eq!(problems(""), ["0:0: the file has no faces"]);
     }

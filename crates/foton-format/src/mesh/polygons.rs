@@ -15,7 +15,7 @@ use crate::mesh::words::Problem;
 const ROUNDING: f64 = 1e-6;
 
 /// Concave faces of more corners stay fans: cutting ears takes the square of their number.
-const MOST_CORNERS: usize = 1 << 15;
+const MAX_CORNERS: usize = 1 << 15;
 
 /// The faces of a mesh with more than three corners.
 #[derive(Default)]
@@ -89,7 +89,7 @@ impl Polygons {
                 }
                 let fan = &mut triangles[first..first + size];
                 let Some(area) = wrong_area(fan, &position) else { continue };
-                if run.corners > MOST_CORNERS {
+                if run.corners > MAX_CORNERS {
                     mended.large += 1;
                     continue;
                 }
@@ -282,8 +282,8 @@ mod tests {
 
     #[test]
     fn concave_polygons_of_too_many_corners_are_told() {
-        let comb: Vec<_> = (0..MOST_CORNERS).map(|i| [i as f64, (i % 2) as f64]).collect();
-        let closed = [&[[MOST_CORNERS as f64, -1.0], [-1.0, -1.0]], &comb[..]].concat();
+        let comb: Vec<_> = (0..MAX_CORNERS).map(|i| [i as f64, (i % 2) as f64]).collect();
+        let closed = [&[[MAX_CORNERS as f64, -1.0], [-1.0, -1.0]], &comb[..]].concat();
         let (found, mended) = triangles(&polygon(&closed));
         assert_eq!((found.len(), mended.large), (closed.len() - 2, 1));
         assert_eq!(mended.warnings().count(), 1);

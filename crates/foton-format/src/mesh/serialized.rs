@@ -26,7 +26,7 @@ const BLOCK: u64 = 1 << 20;
 const DENSEST: u64 = 1032;
 
 /// The longest name of a mesh.
-const LONGEST_NAME: usize = 1 << 16;
+const MAX_NAME: usize = 1 << 16;
 
 const TOO_SHORT: &str = "the file is too short for what it claims to hold";
 
@@ -99,7 +99,7 @@ impl Stream<'_> {
             let mut length = 0;
             while self.array::<1>()? != [0] {
                 length += 1;
-                if length > LONGEST_NAME {
+                if length > MAX_NAME {
                     return Err("the name of a mesh does not end".to_owned());
                 }
             }

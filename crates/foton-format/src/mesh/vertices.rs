@@ -17,7 +17,7 @@ pub(crate) struct Vertices<K> {
 const NONE: u32 = u32::MAX;
 
 /// The most vertices of a chain; those of real meshes have fewer.
-const LONGEST_CHAIN: usize = 16;
+const MAX_CHAIN: usize = 16;
 
 impl<K: Copy + Eq + Hash> Vertices<K> {
     pub(crate) fn new(positions: usize) -> Self {
@@ -37,7 +37,7 @@ impl<K: Copy + Eq + Hash> Vertices<K> {
             at = self.next[at as usize];
             length += 1;
         }
-        if length < LONGEST_CHAIN {
+        if length < MAX_CHAIN {
             self.next.push(*slot);
             *slot = new;
         } else {
@@ -69,6 +69,6 @@ mod tests {
         while let Some(&next) = vertices.next.get(chain[chain.len() - 1] as usize) {
             chain.push(next);
         }
-        assert_eq!(chain.len(), LONGEST_CHAIN + 1);
+        assert_eq!(chain.len(), MAX_CHAIN + 1);
     }
 }

@@ -16,9 +16,9 @@ use crate::mesh::{mtl, normals};
 use crate::reader::name_of;
 
 /// So many different lines that name files of materials are heeded.
-const MOST_LIBRARIES: usize = 100;
+const MAX_LIBRARIES: usize = 100;
 /// The longest of those lines: each word of it may be a name.
-const LONGEST_LINE: usize = 4096;
+const MAX_LINE: usize = 4096;
 
 /// Adds a shape for each material of an OBJ file, in the order in which they are first used.
 pub(super) fn add_obj(
@@ -31,9 +31,9 @@ pub(super) fn add_obj(
     let mut known: HashMap<String, mtl::Entry> = HashMap::new();
     let mut read: HashSet<&str> = HashSet::new();
     // Exporters name a file for each part; files of other kinds may name very many.
-    let lines = obj.libraries.iter().filter(|(_, line)| read.insert(line)).take(MOST_LIBRARIES);
+    let lines = obj.libraries.iter().filter(|(_, line)| read.insert(line)).take(MAX_LIBRARIES);
     for (place, line) in lines {
-        if line.len() > LONGEST_LINE {
+        if line.len() > MAX_LINE {
             report.warning(*place, "the names of files of materials are too long: their materials are grey");
             continue;
         }

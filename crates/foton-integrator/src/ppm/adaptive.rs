@@ -24,7 +24,7 @@ const OF_OFFSET: f64 = 6.0;
 const CAUTION: f64 = 2.0;
 
 /// R beyond which radii shrink no faster.
-const MOST: f64 = 30.0;
+const MAX: f64 = 30.0;
 
 /// Light may seem concentrated by chance, by this over the root of its photons: the spread of even light has a standard deviation of
 /// 0.29 r², 0.58 of its mean.
@@ -103,7 +103,7 @@ impl Evidence {
         let at_edges = OF_OFFSET * offset2.max(0.0) / self.light;
         let blur2 = laplacian2.max(0.0) + at_edges * at_edges;
         // A quotient of what is no finite number is none; then the most is taken.
-        (blur2 / (0.5 * self.variance)).min(MOST)
+        (blur2 / (0.5 * self.variance)).min(MAX)
     }
 
     /// How far light may be above what the disc sees, squared and relative to that: r²/ρ² − 1 where it lies within a circle of radius
@@ -194,17 +194,17 @@ mod tests {
         assert!((evidence(n).balance() - 1.0).abs() < 0.02, "{}", evidence(n).balance());
         assert!((evidence(n).alpha(Alpha::default()).get() - 2.0 / 3.0).abs() < 0.01);
         assert_eq!(evidence(0.9 * CAUTION * 3.0 / (PI * c * c)).balance(), 0.0, "it may be noise");
-        assert_eq!(evidence(100.0 * n).balance(), MOST);
+        assert_eq!(evidence(100.0 * n).balance(), MAX);
     }
 
     #[test]
     fn edges_through_the_middle_are_seen_and_gentle_slopes_are_not() {
         let edge = evidence(100.0, |x, _| f64::from(u8::from(x > 0.0)));
         assert!(edge.laplacian.abs() < 1e-3 * edge.light, "both sides cancel");
-        assert_eq!(edge.balance(), MOST);
+        assert_eq!(edge.balance(), MAX);
         let slope = |n: f64| evidence(n, |x, _| 1.0 + 0.1 * x);
         assert!(slope(1e3).balance() < 0.1);
-        assert_eq!(slope(1e9).balance(), MOST, "in the end all blur outweighs noise");
+        assert_eq!(slope(1e9).balance(), MAX, "in the end all blur outweighs noise");
     }
 
     #[test]

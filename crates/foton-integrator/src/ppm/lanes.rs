@@ -3,7 +3,7 @@
 
 use foton_math::glam::Vec3;
 use foton_transport::photon_map::{LANES, Packet, Photon};
-use foton_transport::shading::SMALLEST_COSINE;
+use foton_transport::shading::MIN_COSINE;
 
 /// A photon counts only where its surface faces about the same way: the cosine between the normals must exceed this.
 const MIN_NORMAL_COSINE: f32 = 0.1;
@@ -104,7 +104,7 @@ impl Face {
         let plain = (nx == shading[0]) & (ny == shading[1]) & (nz == shading[2]);
         let own = w.x * nx + w.y * ny + w.z * nz;
         let stored = w.x * self.normal.x + w.y * self.normal.y + w.z * self.normal.z;
-        if (off <= 0.51) | plain { own } else { stored.max(SMALLEST_COSINE) * (1.0 / 127.0) }
+        if (off <= 0.51) | plain { own } else { stored.max(MIN_COSINE) * (1.0 / 127.0) }
     }
 }
 
@@ -114,5 +114,5 @@ impl Face {
 pub(super) fn cosine_ratio(shading: f32, geometric: f32) -> f32 {
     let ratio = shading / geometric;
     // Not a number where both are zero.
-    if ratio > 0.0 { ratio.min(1.0 / SMALLEST_COSINE) } else { 0.0 }
+    if ratio > 0.0 { ratio.min(1.0 / MIN_COSINE) } else { 0.0 }
 }

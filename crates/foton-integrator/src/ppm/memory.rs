@@ -47,7 +47,7 @@ pub struct MemoryEstimate {
 }
 
 /// Most hit points, with room for the lanes of packets that stay empty: they are numbered by 32 bits.
-const MOST_HIT_POINTS: f64 = FILL * u32::MAX as f64 * 0.9;
+const MAX_HIT_POINTS: f64 = FILL * u32::MAX as f64 * 0.9;
 
 impl MemoryEstimate {
     /// Bytes of the program itself, measured from outside on a scene of nothing.
@@ -57,12 +57,12 @@ impl MemoryEstimate {
     /// can be numbered; `None` where it may.
     #[must_use]
     pub fn refusal(&self, limit: Option<f64>) -> Option<String> {
-        if self.hit_points.max(self.pixels) > MOST_HIT_POINTS {
+        if self.hit_points.max(self.pixels) > MAX_HIT_POINTS {
             return Some(format!(
                 "this render has {:.1} billion hit points in {:.1} billion pixels; {:.1} billion of either can be numbered",
                 self.hit_points / 1e9,
                 self.pixels / 1e9,
-                MOST_HIT_POINTS / 1e9
+                MAX_HIT_POINTS / 1e9
             ));
         }
         let limit = limit.filter(|&limit| self.peak_bytes() > limit)?;

@@ -41,7 +41,7 @@ const REFERENCE_SHARE: f64 = 0.3;
 /// The first job, which has the star's arms, gets as much time as this many others.
 const FIRST_WEIGHT: f64 = 3.0;
 /// A job is left out if the centre has emitted less than this many of its passes in the time there was.
-const FEWEST_PASSES: u64 = 4;
+const MIN_PASSES: u64 = 4;
 
 /// What to sweep.
 pub struct Sweep {
@@ -320,5 +320,5 @@ fn weight(job: &Job, centre: &Configuration) -> f64 {
 /// Whether passes are so large that a handful of them is more than the centre emitted in its longer time.
 fn is_too_large(job: &Job, first: Option<&Vec<Point>>) -> bool {
     let emitted = first.and_then(|points| points.iter().map(|p| p.photons).max());
-    emitted.is_some_and(|emitted| u64::from(job.photons.get()) * FEWEST_PASSES > emitted)
+    emitted.is_some_and(|emitted| u64::from(job.photons.get()) * MIN_PASSES > emitted)
 }

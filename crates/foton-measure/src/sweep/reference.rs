@@ -28,7 +28,7 @@ use super::masks::{self, Masks};
 /// Passes at least: fewer say too little of their own noise.
 const FEWEST: u64 = 16;
 /// Photons a pass at most.
-const MOST_PHOTONS: NonZeroU32 = NonZeroU32::new(1 << 16).expect("above 0");
+const MAX_PHOTONS: NonZeroU32 = NonZeroU32::new(1 << 16).expect("above 0");
 /// Radius over the centre's first radius at `TIME` seconds of rendering.
 const SCALE: f64 = 0.15;
 const TIME: f64 = 180.0;
@@ -155,7 +155,7 @@ impl OwnRun {
         (scale, photons): (f64, u64),
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
-        let photons_per_pass = base.ppm.photons_per_pass.min(MOST_PHOTONS);
+        let photons_per_pass = base.ppm.photons_per_pass.min(MAX_PHOTONS);
         let of_radius = |scale: f64, layers| RenderSettings {
             layers,
             error: false,

@@ -5,7 +5,7 @@ use foton_session::{ErrorEstimate, StopRule};
 use crate::state::{State, Trace};
 
 /// Points of a trace that a slope is fitted to, at least.
-const LEAST_POINTS: usize = 6;
+const MIN_POINTS: usize = 6;
 
 /// What a person who asks for nothing else may want to know the time to: 2 %.
 const USUAL_GOAL: f64 = 0.02;
@@ -101,7 +101,7 @@ fn seconds_to(trace: &Trace, goal: f64) -> Option<f64> {
     let since = now / 4.0;
     let points = trace.points.iter().filter(|p| p[0] >= since && p[0] > 0.0 && p[1] > 0.0);
     let logs: Vec<[f64; 2]> = points.map(|p| [p[0].ln(), (p[1] / 100.0).ln()]).collect();
-    if logs.len() < LEAST_POINTS || error <= 100.0 * goal {
+    if logs.len() < MIN_POINTS || error <= 100.0 * goal {
         return None;
     }
     let n = logs.len() as f64;

@@ -6,7 +6,7 @@ use super::uniforms::{self, Kind};
 use super::{Area, Picture, View, colour_map};
 
 /// Pipelines that are kept, of the thirty that there can be: adapters in software hold megabytes of machine code for each.
-const MOST_PIPELINES: usize = 4;
+const MAX_PIPELINES: usize = 4;
 
 /// Encoded bytes, as they go to the screen.
 const SHADED: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -140,7 +140,7 @@ impl Presenter {
                 let made =
                     create_pipeline(device, &self.module, &self.layouts[0], "shade", &constants, SHADED);
                 self.shade.insert(0, (kind, made));
-                self.shade.truncate(MOST_PIPELINES);
+                self.shade.truncate(MAX_PIPELINES);
             }
         }
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {

@@ -12,7 +12,7 @@ pub(super) const BYTES: u64 = 4 * WORDS as u64;
 
 /// Texels that a pixel may hold along an axis before their mean is shown. A little more than one: at scale 1 rounding must not
 /// start to blur.
-const LARGEST_TEXEL_COUNT: f32 = 1.001;
+const MAX_TEXEL_COUNT: f32 = 1.001;
 
 /// The extents in texels of the picture and of the pinned one, if there is one.
 pub(super) type Extents = [Option<[f32; 2]>; 2];
@@ -72,7 +72,7 @@ impl Kind {
         let compares = view.wipe.is_some() && extents[1].is_some();
         let shrinks = extents.map(|extent| {
             extent.is_some_and(|[width, height]| {
-                width > LARGEST_TEXEL_COUNT * size.x || height > LARGEST_TEXEL_COUNT * size.y
+                width > MAX_TEXEL_COUNT * size.x || height > MAX_TEXEL_COUNT * size.y
             })
         });
         Self { mode, tone_map, compares, shrinks: [shrinks[0], shrinks[1] && compares] }

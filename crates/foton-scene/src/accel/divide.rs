@@ -12,7 +12,7 @@ use crate::build::Gauge;
 const BINS: usize = 16;
 
 /// Each side of a division has at least one in so many of what is divided, or both have half of it.
-const LEAST_SHARE: usize = 8;
+const MIN_SHARE: usize = 8;
 
 /// A stretch of what is divided, and the node that it becomes.
 struct Stretch {
@@ -71,7 +71,7 @@ fn halve(parts: &mut [Bvh2Node]) -> (Aabb, usize) {
         };
         if let Some(border) = cheapest_border(parts, bin) {
             let left = partition(parts, |part| bin(part) < border);
-            if left.min(parts.len() - left) >= parts.len() / LEAST_SHARE {
+            if left.min(parts.len() - left) >= parts.len() / MIN_SHARE {
                 return (bounds, left);
             }
         }

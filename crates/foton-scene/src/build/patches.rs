@@ -19,7 +19,7 @@ use crate::surface::locate;
 
 /// Surfaces continue each other where their normals, turned to the same side, have at least this cosine: what the gather asks
 /// of a photon's normal, too.
-const SMALLEST_COSINE: f64 = 0.1;
+const MIN_COSINE: f64 = 0.1;
 
 /// Normals of a patch that all have at least this cosine (0.26°) say that it is flat.
 const FLAT_COSINE: f32 = 1.0 - 1e-5;
@@ -28,10 +28,10 @@ const FLAT_COSINE: f32 = 1.0 - 1e-5;
 const PROBED_STEPS: f32 = 16.0;
 
 /// Of more triangles at one edge, each is compared with so many only.
-const MOST_AT_AN_EDGE: usize = 16;
+const MAX_AT_AN_EDGE: usize = 16;
 
 /// Of the primitives near an edge so many are looked at.
-const MOST_NEAR: usize = 32;
+const MAX_NEAR: usize = 32;
 
 /// Numbers of patches, beside 0 for surfaces that keep no photon.
 const NUMBERS: usize = 127;
@@ -99,7 +99,7 @@ impl Side {
         if other.ends != [a, b] && other.ends != [b, a] {
             return None;
         }
-        let goes_on = self.inward.dot(other.inward) < -SMALLEST_COSINE;
+        let goes_on = self.inward.dot(other.inward) < -MIN_COSINE;
         (goes_on || self.third == other.third).then(|| self.normal.dot(other.normal) < 0.0)
     }
 }
@@ -201,7 +201,7 @@ fn join_equal_edges(
         for (i, edge) in group.iter().enumerate().skip(1) {
             gauge.check_at(i)?;
             let Some(one) = side(edge) else { continue };
-            for other_edge in &group[..i.min(MOST_AT_AN_EDGE)] {
+            for other_edge in &group[..i.min(MAX_AT_AN_EDGE)] {
                 let Some(turned) = side(other_edge).and_then(|other| one.continued_by(&other)) else {
                     continue;
                 };
@@ -283,13 +283,13 @@ impl Rim {
             let sheared = ShearedRay::new(ray);
             let near = Aabb::EMPTY.with(origin).with(ray.at(ray.t_max));
             let mut nearest: Option<(f32, u32, f32)> = None;
-            accel.for_each_near(&near, MOST_NEAR, |index| {
+            accel.for_each_near(&near, MAX_NEAR, |index| {
                 let primitive = &accel.primitives()[index];
                 let farthest = nearest.map_or(ray.t_max, |(t, ..)| t);
                 let Some(t) = sheared.hit_other(primitive, farthest).filter(|_| keeps(index)) else { return };
                 let (_, _, other) = locate(primitive, Vec2::ZERO, ray.at(t));
                 let cosine = normal.dot(other);
-                if f64::from(cosine.abs()) > SMALLEST_COSINE {
+                if f64::from(cosine.abs()) > MIN_COSINE {
                     nearest = Some((t, index as u32, cosine));
                 }
             });

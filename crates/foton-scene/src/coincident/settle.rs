@@ -10,7 +10,7 @@ use crate::scene::Scene;
 use crate::surface::Surface;
 
 /// Surfaces that are told apart at one point.
-const MOST: usize = 8;
+const MAX: usize = 8;
 
 /// A surface as a ray that comes to it may meet it.
 #[derive(Clone, Copy)]
@@ -28,7 +28,7 @@ impl Scene {
     pub(crate) fn settle(&self, ray: &Ray, hit: &mut Surface) {
         let primitives = self.accel.primitives();
         let (own, p) = (&primitives[hit.primitive as usize], hit.position.as_dvec3());
-        let mut found = [None; MOST];
+        let mut found = [None; MAX];
         let mut count = 0;
         let reach = hit.error.max_element() + 2.0 * self.coincidences.gap(hit.shape as usize);
         self.accel.for_each_near(&Aabb::around(hit.position, reach), MAX_NEAR, |j| {
@@ -45,7 +45,7 @@ impl Scene {
                 .iter()
                 .flatten()
                 .any(|c: &Candidate| c.shape == shape && c.normal.dot(sheet.normal) > 0.0 && !is_own);
-            if !known && count < MOST {
+            if !known && count < MAX {
                 found[count] =
                     Some(Candidate { primitive: j as u32, shape, rank, normal: sheet.normal, gap });
                 count += 1;

@@ -10,7 +10,7 @@ use crate::metadata::SceneIdentity;
 const SCENE: &str = "scene";
 
 /// Differences that are said at most.
-const MOST: usize = 20;
+const MAX: usize = 20;
 
 /// A line for each: its name, which is that of its option, and its value.
 pub(super) fn of(render: &Render, scene: &SceneIdentity) -> String {
@@ -59,7 +59,7 @@ pub(super) fn difference(kept: &str, here: &str) -> Option<String> {
         // Hit points differ along with anything that makes others of them.
         Some(_) => {
             let all: Vec<String> = differing
-                .take(MOST)
+                .take(MAX)
                 .map(|((name, kept), (_, here))| {
                     format!("{} {}, not {}", shown(name), shown(kept), shown(here))
                 })

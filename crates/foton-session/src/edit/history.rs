@@ -9,7 +9,7 @@ use std::sync::Arc;
 use foton_scene::description::SceneDescription;
 
 /// Steps that can be undone; older ones are forgotten.
-pub const MOST_STEPS: usize = 200;
+pub const MAX_STEPS: usize = 200;
 
 #[derive(Clone, Debug)]
 struct Step {
@@ -80,7 +80,7 @@ impl History {
         }
         self.future.clear();
         self.past.push_back(step);
-        if self.past.len() > MOST_STEPS {
+        if self.past.len() > MAX_STEPS {
             self.past.pop_front();
         }
     }
@@ -215,7 +215,7 @@ mod tests {
         for n in 1..=300 {
             h.record(format!("step {n}"), depth(n));
         }
-        assert_eq!(h.len(), MOST_STEPS);
+        assert_eq!(h.len(), MAX_STEPS);
         while h.undo().is_some() {}
         assert_eq!(h.current().max_depth, Some(100));
     }

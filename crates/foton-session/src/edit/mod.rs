@@ -26,7 +26,7 @@ pub use camera::{Camera, FOV_RANGE, UpAxis};
 pub use camera_xml::camera_xml;
 pub use drag::{DragMode, DragPlane};
 pub use field::{Control, Field, FieldId, Property, Side, Value};
-pub use history::{History, MOST_STEPS};
+pub use history::{History, MAX_STEPS};
 pub use inspect::{Inspection, MaterialUse, inspect};
 pub use outline::{Outline, Segment, markers};
 pub(crate) use pick::middle;

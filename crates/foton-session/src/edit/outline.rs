@@ -20,7 +20,7 @@ use super::view::View;
 pub type Segment = [[f32; 2]; 2];
 
 /// Meshes of more triangles show their bounds instead.
-const MOST_TRIANGLES: usize = 200_000;
+const MAX_TRIANGLES: usize = 200_000;
 /// Lines of a circle.
 const CIRCLE: usize = 64;
 /// Half the size of a light's marker in pixels.
@@ -48,7 +48,7 @@ impl Outline {
         let mut edges = None;
         if let Target::Shape(index) = target
             && let Some(Geometry::Mesh(mesh)) = description.shapes.get(index).map(|s| &s.geometry)
-            && mesh.triangles.len() <= MOST_TRIANGLES
+            && mesh.triangles.len() <= MAX_TRIANGLES
         {
             edges = Some(Edges { mesh: Arc::clone(mesh), edges: shared_edges(mesh) });
         }

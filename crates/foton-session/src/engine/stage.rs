@@ -23,7 +23,7 @@ const NUDGE: f64 = 4.0;
 
 /// Scenes of more triangles take too long to be built for every move of a hand: the outline goes with it, and the picture
 /// follows when it lets go.
-const MOST_LIVE_TRIANGLES: u64 = 100_000;
+const MAX_LIVE_TRIANGLES: u64 = 100_000;
 
 /// Scenes of fewer surfaces are built before anyone could give that up.
 const QUICK: usize = 10_000;
@@ -233,7 +233,7 @@ impl Stage {
     /// Moves what is held to a film position, or the outline alone where the scene is large.
     pub(super) fn drag_to(&mut self, film: [f64; 2]) -> Result<Effect, String> {
         let Some(next) = self.dragged(film)? else { return Ok(Effect::None) };
-        if self.scene.census().triangles <= MOST_LIVE_TRIANGLES {
+        if self.scene.census().triangles <= MAX_LIVE_TRIANGLES {
             return self.take(next);
         }
         self.history.proceed(next);

@@ -16,7 +16,7 @@ use crate::shading::leaves_wrongly;
 use crate::straight;
 
 /// So many lights without extent are all looked up; of more, so many are chosen by chance.
-const MOST: usize = 16;
+const MAX: usize = 16;
 
 /// Where an eye path follows rough lobes.
 #[derive(Clone, Copy)]
@@ -55,15 +55,15 @@ impl Glossy<'_> {
 
     fn without_extent(&self, stream: &mut Stream, rays: &mut u64) -> Rgb {
         let (emitters, found) = (self.scene.emitters(), self.scene.emitters_without_extent());
-        if found.len() <= MOST {
+        if found.len() <= MAX {
             return found.iter().map(|&i| self.look_at(i as usize, (0.0, Vec2::ZERO), |_| 1.0, rays)).sum();
         }
         let mut sum = Rgb::BLACK;
-        for _ in 0..MOST {
+        for _ in 0..MAX {
             if let Some((i, chance)) = self.scene.choose_emitter(f64::from(stream.next_1d()))
                 && emitters[i].is_without_extent()
             {
-                sum += self.look_at(i, (0.0, Vec2::ZERO), |_| 1.0, rays) / (MOST as f32 * chance as f32);
+                sum += self.look_at(i, (0.0, Vec2::ZERO), |_| 1.0, rays) / (MAX as f32 * chance as f32);
             }
         }
         sum

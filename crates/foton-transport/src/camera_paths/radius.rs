@@ -17,10 +17,10 @@ use foton_scene::{Scene, Surface};
 const FOOTPRINTS: f32 = 4.0;
 
 /// The largest first radius as a share of the scene's bounding radius.
-const LARGEST_SHARE: f32 = 0.05;
+const MAX_SHARE: f32 = 0.05;
 
 /// Cosines below this count as this: a footprint at grazing angles stays finite.
-const SMALLEST_COSINE: f32 = 0.05;
+const MIN_COSINE: f32 = 0.05;
 
 /// The rule, for one scene and setting. Lengths in scene units.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +42,7 @@ impl FirstRadius {
             // A disc beyond the whole scene finds what one of its size finds, and its square must stay finite.
             fixed: radius.map(|r| scene.normalisation().length(r).min(2.0 * scene.bounds().radius())),
             scale: scale as f32,
-            largest: LARGEST_SHARE * scene.bounds().radius(),
+            largest: MAX_SHARE * scene.bounds().radius(),
             floor: floor as f32 / (samples_per_pixel as f32).sqrt(),
         }
     }
@@ -56,7 +56,7 @@ impl FirstRadius {
         cosine: f32,
         position: Vec3,
     ) -> (f32, f32) {
-        let area = distance * distance * solid_angle / cosine.max(SMALLEST_COSINE);
+        let area = distance * distance * solid_angle / cosine.max(MIN_COSINE);
         let radius = self.fixed.unwrap_or_else(|| (FOOTPRINTS * (area / PI).sqrt()).min(self.largest));
         let resolved = smallest_radius(position.abs().max_element());
         let first = (radius * self.scale).max(resolved);

@@ -9,7 +9,7 @@ use super::pass::{Path, PhotonPass};
 use crate::ledger::{Ledger, energy, left_out};
 use crate::not_finite::{self, LeftOut, Quantity};
 use crate::photon_map::{Chunk, PathClass, Photon};
-use crate::shading::{SMALLEST_COSINE, leaves_wrongly, on_the_right_side, shading_normal_towards};
+use crate::shading::{MIN_COSINE, leaves_wrongly, on_the_right_side, shading_normal_towards};
 
 /// A direction that a photon leaves in, before it is known whether it does.
 struct Leaving {
@@ -204,7 +204,7 @@ fn adjoint_correction(n_g: Vec3, n_s: Vec3, wo: Vec3, wi: Vec3) -> f32 {
         return 1.0;
     }
     let upper = wo.dot(n_s).abs() * wi.dot(n_g).abs();
-    let lower = wo.dot(n_g).abs().max(SMALLEST_COSINE) * wi.dot(n_s).abs().max(SMALLEST_COSINE);
+    let lower = wo.dot(n_g).abs().max(MIN_COSINE) * wi.dot(n_s).abs().max(MIN_COSINE);
     upper / lower
 }
 

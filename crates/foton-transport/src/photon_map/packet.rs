@@ -12,7 +12,7 @@ pub const LANES: usize = 16;
 
 /// A packet is split further while it is wider than this many of its largest radius: most photons near a wide packet are near
 /// none of its discs.
-const WIDEST: f32 = 6.0;
+const MAX_WIDTH: f32 = 6.0;
 
 /// Hot query records of up to [`LANES`] hit points. Empty lanes have a negative squared radius, which nothing reaches.
 #[derive(Clone, Debug)]
@@ -143,7 +143,7 @@ fn halve(points: &mut [Point], cancel: &Cancel) -> Result<Vec<Vec<u32>>, Cancell
     let size = bounds.size();
     if points.len() <= LANES {
         let radius = points.iter().fold(0f32, |r, p| r.max(p.radius));
-        if points.len() == 1 || size.max_element() <= WIDEST * radius {
+        if points.len() == 1 || size.max_element() <= MAX_WIDTH * radius {
             return Ok(vec![points.iter().map(|p| p.index).collect()]);
         }
     }
@@ -199,7 +199,7 @@ mod tests {
         for g in &groups {
             assert!(!g.is_empty() && g.len() <= LANES);
             let b = g.iter().fold(Aabb::EMPTY, |b, &i| b.with(found[i as usize].position));
-            assert!(b.size().max_element() <= WIDEST * 2.0);
+            assert!(b.size().max_element() <= MAX_WIDTH * 2.0);
             for &i in g {
                 assert!(!std::mem::replace(&mut seen[i as usize], true), "{i} twice");
             }

@@ -127,7 +127,7 @@ impl Header {
                 return Err((place, NO_PLY.to_owned()));
             }
             let begins = words.first().is_none_or(|word| KEYWORDS.contains(&word.as_str()));
-            let (mut problem, mut may_go_on) = ((place, misunderstood(line)), MOST_WRAPS);
+            let (mut problem, mut may_go_on) = ((place, misunderstood(line)), MAX_WRAPS);
             match unfinished.take() {
                 Some((before, left, first)) if !begins && left > 0 => {
                     words = [before, words].concat();
@@ -188,8 +188,8 @@ impl Header {
             }
             ["element", name, count] => {
                 let count = count.parse().map_err(|_| None)?;
-                if self.elements.len() >= MOST_ELEMENTS {
-                    return Err(Some(format!("more than {MOST_ELEMENTS} elements are declared")));
+                if self.elements.len() >= MAX_ELEMENTS {
+                    return Err(Some(format!("more than {MAX_ELEMENTS} elements are declared")));
                 }
                 if self.elements.iter().any(|e| e.name == name) {
                     return Err(Some(format!("element {} is declared twice", quoted(name))));
@@ -246,10 +246,10 @@ const NO_PLY: &str = "the file does not begin with \"ply\"";
 const KEYWORDS: [&str; 7] = ["ply", "format", "comment", "obj_info", "element", "property", "end_header"];
 
 /// Kinds of things that a file lists at most; those of programs have three.
-const MOST_ELEMENTS: usize = 1000;
+const MAX_ELEMENTS: usize = 1000;
 
 /// A statement goes on for at most so many lines more.
-const MOST_WRAPS: u32 = 4;
+const MAX_WRAPS: u32 = 4;
 
 /// What lines end in, going by the first.
 fn line_end(bytes: &[u8]) -> u8 {

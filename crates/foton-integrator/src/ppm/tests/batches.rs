@@ -15,7 +15,7 @@ use crate::settings::RenderSettings;
 
 const PHOTONS: u32 = 30_000;
 /// Three batches, and not equal ones.
-const MOST: u64 = 10_100;
+const MAX: u64 = 10_100;
 
 fn settings() -> RenderSettings {
     let photons = NonZeroU32::new(PHOTONS).expect("above 0");
@@ -49,7 +49,7 @@ fn a_pass_in_batches_is_the_pass_at_once() {
         ppm: PpmSettings { radius_rule: RadiusRule::Local, ..settings().ppm },
         ..settings()
     };
-    let (mut whole, mut parts) = (start(local(), u64::MAX), start(local(), MOST));
+    let (mut whole, mut parts) = (start(local(), u64::MAX), start(local(), MAX));
     for _ in 0..4 {
         let (at_once, in_parts) = (advance(&mut whole), advance(&mut parts));
         assert_eq!(at_once, in_parts, "counted by the pass, not by the batch");
@@ -81,7 +81,7 @@ fn a_pass_in_batches_is_the_pass_at_once() {
 
 #[test]
 fn radii_that_adapt_do_so_by_all_batches_of_a_pass() {
-    let (mut whole, mut parts) = (start(settings(), u64::MAX), start(settings(), MOST));
+    let (mut whole, mut parts) = (start(settings(), u64::MAX), start(settings(), MAX));
     let mut radii = || {
         advance(&mut whole);
         advance(&mut parts);
@@ -106,7 +106,7 @@ fn batches_give_the_same_bits_on_any_number_of_threads() {
             pool.install(|| {
                 let mut ppm = start(
                     RenderSettings { ppm: PpmSettings { direct_light, ..settings().ppm }, ..settings() },
-                    MOST,
+                    MAX,
                 );
                 for _ in 0..3 {
                     advance(&mut ppm);
@@ -121,7 +121,7 @@ fn batches_give_the_same_bits_on_any_number_of_threads() {
 
 #[test]
 fn a_pass_that_is_cancelled_between_its_batches_has_not_happened() {
-    let mut ppm = start(settings(), MOST);
+    let mut ppm = start(settings(), MAX);
     advance(&mut ppm);
     let before = state(&ppm);
     let cancel = Cancel::default();
@@ -135,7 +135,7 @@ fn a_pass_that_is_cancelled_between_its_batches_has_not_happened() {
     assert!(ppm.advance(&mut watch, &cancel).is_err());
     assert!(traced == 3 && before == state(&ppm));
     advance(&mut ppm);
-    let mut straight = start(settings(), MOST);
+    let mut straight = start(settings(), MAX);
     for _ in 0..2 {
         advance(&mut straight);
     }
@@ -175,7 +175,7 @@ fn a_batch_that_is_shown_stands_for_its_pass() {
         let photons = ppm.stored_photons(usize::MAX);
         (photons.len() as f64, photons.iter().map(|p| f64::from(p.power.g)).sum::<f64>())
     };
-    let ((all, watts), (some, as_bright)) = (shown(u64::MAX), shown(MOST));
+    let ((all, watts), (some, as_bright)) = (shown(u64::MAX), shown(MAX));
     assert!((some / all * 3.0 - 1.0).abs() < 0.05, "a third: {some} of {all}");
     assert!((as_bright / watts - 1.0).abs() < 0.05, "{as_bright} {watts}");
 }
@@ -198,7 +198,7 @@ fn memory_does_not_grow_with_photons_beyond_a_batch() {
 
 #[test]
 fn batches_end_when_passes_are_small_again() {
-    let mut ppm = start(settings(), MOST);
+    let mut ppm = start(settings(), MAX);
     advance(&mut ppm);
     assert!(!ppm.kept.counts.is_empty());
     let ppm = &mut ppm.with_batches_of(u64::MAX);

@@ -55,8 +55,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "long names have short temporary ones",
         file: "crates/foton-film/src/atomic/temporary.rs",
-        from: "if bytes.len() <= LONGEST_NAME {",
-        to: "if bytes.len() <= 10 * LONGEST_NAME {",
+        from: "if bytes.len() <= MAX_NAME {",
+        to: "if bytes.len() <= 10 * MAX_NAME {",
         target: TEMPORARY,
         test: "names_of_any_length_and_any_bytes_are_written",
     },

@@ -71,7 +71,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "small things far away are warned of",
         file: "crates/foton/src/job.rs",
-        from: "s.steps_across < FEW_STEPS",
+        from: "s.steps_across < MIN_STEPS",
         to: "s.steps_across < 0.0",
         target: CLI,
         test: "what_a_scene_cannot_have_in_single_precision_is_said_by_name",

@@ -208,7 +208,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "folds end a surface",
         file: "crates/foton-scene/src/build/patches.rs",
-        from: "let goes_on = self.inward.dot(other.inward) < -SMALLEST_COSINE;",
+        from: "let goes_on = self.inward.dot(other.inward) < -MIN_COSINE;",
         to: "let goes_on = self.inward.dot(other.inward) < 2.0;",
         target: GEOMETRY,
         test: "the_halves_of_a_folded_leaf_are_two_surfaces_and_those_of_an_open_one_are_one",
@@ -256,8 +256,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "what is divided is no chain",
         file: "crates/foton-scene/src/accel/divide.rs",
-        from: "if left.min(parts.len() - left) >= parts.len() / LEAST_SHARE {",
-        to: "if left.min(parts.len() - left) > 0 * LEAST_SHARE {",
+        from: "if left.min(parts.len() - left) >= parts.len() / MIN_SHARE {",
+        to: "if left.min(parts.len() - left) > 0 * MIN_SHARE {",
         target: SCENE,
         test: "what_is_divided_becomes_no_chain",
     },
