@@ -55,7 +55,7 @@ fn compare(s: &Scattering, lines: &[&str]) -> [f64; 3] {
             }
             worst[1] = worst[1].max(deviation(s.pdf(wo, wi), n[7], 1e-3));
         } else {
-            let lobes = s.followed_lobes(wo, Transport::Radiance, Vec2::splat(0.5));
+            let lobes = s.specular_lobes(wo, Transport::Radiance, Vec2::splat(0.5));
             let near = lobes.iter().flatten().find(|l| l.wi.distance(wi) < 1e-3);
             let Some(lobe) = near else { return [f64::INFINITY; 3] };
             for (ours, theirs) in lobe.weight.to_array().into_iter().zip(&n[4..7]) {

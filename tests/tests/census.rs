@@ -54,10 +54,7 @@ fn modelling_what_a_scene_does_not_need_gives_the_same_bits() {
         ("environment", Census { environment: true, ..none }),
         ("shading normals' correction", Census { shading_normals: true, ..none }),
         ("rough coats", Census { rough_coats: true, ..none }),
-        (
-            "looking at lights from narrow gloss",
-            Census { narrow_gloss: true, lights_without_extent: true, ..none },
-        ),
+        ("looking at lights from narrow gloss", Census { narrow_gloss: true, delta_emitters: true, ..none }),
     ] {
         assert!(render(&room, forced).pixels == plain.pixels, "{name}");
     }

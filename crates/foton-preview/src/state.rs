@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use foton_film::ToneMap;
 use foton_session::SettingChange;
-use foton_session::engine::{Command, Configuration, Event, Frame, Picture, Shown, Source};
+use foton_session::engine::{Command, Configuration, Event, Frame, Picture, Source, ViewMode};
 
 use crate::files::FileDialog;
 use crate::preferences::Preferences;
@@ -61,7 +61,7 @@ pub(crate) enum DialogPurpose {
     OpenScene,
     SaveScene,
     KeepCheckpoint,
-    TakeUpCheckpoint,
+    ResumeCheckpoint,
 }
 
 /// What the pointer does with the scene.
@@ -114,7 +114,7 @@ pub(crate) struct State {
     pub(crate) placement: Placement,
     pub(crate) exposure_stops: f32,
     pub(crate) tone_map: ToneMap,
-    pub(crate) shown: Shown,
+    pub(crate) shown: ViewMode,
     pub(crate) show_photons: bool,
     pub(crate) auto_snapshots: bool,
     pub(crate) pinned: Option<Pinned>,
@@ -158,7 +158,7 @@ impl State {
             placement: Placement::FIT,
             exposure_stops: 0.0,
             tone_map: ToneMap::default(),
-            shown: Shown::Radiance,
+            shown: ViewMode::Radiance,
             show_photons: false,
             auto_snapshots: false,
             pinned: None,
@@ -251,7 +251,7 @@ impl State {
     }
 
     /// What frames should carry, told to the engine.
-    pub(crate) fn choose_shown(&mut self, shown: Shown) {
+    pub(crate) fn choose_shown(&mut self, shown: ViewMode) {
         if self.shown != shown {
             self.shown = shown;
             self.ask(Command::Show(shown));

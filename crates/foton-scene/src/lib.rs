@@ -25,7 +25,7 @@ mod surface;
 mod texture;
 
 pub use accel::Hit;
-pub use bsdf::{BsdfSample, Coat, FollowedLobe, Lobe, Scattering, Transport};
+pub use bsdf::{BsdfSample, Coat, Lobe, Scattering, SpecularLobe, Transport};
 pub use build::{BuildError, BuildOptions, BuildStep, Tell};
 pub use census::Census;
 pub use description::SceneDescription;

@@ -29,7 +29,7 @@ pub(crate) enum Primitive {
         radius: f32,
     },
     /// An open tube.
-    Tube {
+    Cylinder {
         /// Middle of one end.
         from: Vec3,
         /// Middle of the other end, less `from`.
@@ -203,7 +203,7 @@ impl ShearedRay {
             Primitive::Triangle(_) => None,
             Primitive::Sphere { centre, radius, .. } => self.hit_sphere(*centre, *radius, t_max),
             Primitive::Disc { centre, normal, radius } => self.hit_disc(*centre, *normal, *radius, t_max),
-            Primitive::Tube { from, axis, radius } => self.hit_tube(*from, *axis, *radius, t_max),
+            Primitive::Cylinder { from, axis, radius } => self.hit_tube(*from, *axis, *radius, t_max),
         }
     }
 }
@@ -224,7 +224,7 @@ impl Primitive {
                 let extent = (Vec3::ONE - normal * normal).max(Vec3::ZERO).map(f32::sqrt) * radius;
                 Aabb { min: centre - extent, max: centre + extent }
             }
-            Self::Tube { from, axis, radius } => {
+            Self::Cylinder { from, axis, radius } => {
                 let unit = axis.normalize();
                 let extent = (Vec3::ONE - unit * unit).max(Vec3::ZERO).map(f32::sqrt) * radius.abs();
                 let ends = Aabb::EMPTY.with(from).with(from + axis);
@@ -241,7 +241,7 @@ impl Primitive {
             Self::Triangle([a, b, c]) => 0.5 * (b - a).cross(c - a).length(),
             Self::Sphere { radius, .. } => 4.0 * PI * radius * radius,
             Self::Disc { radius, .. } => PI * radius * radius,
-            Self::Tube { axis, radius, .. } => 2.0 * PI * radius.abs() * axis.length(),
+            Self::Cylinder { axis, radius, .. } => 2.0 * PI * radius.abs() * axis.length(),
         }
     }
 }

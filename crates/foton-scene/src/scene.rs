@@ -72,7 +72,7 @@ pub struct Scene {
     /// Indices of the emitters at infinity that paths meet by escaping.
     pub(crate) environments: Arc<[u32]>,
     /// Indices of the emitters that no path meets by chance.
-    pub(crate) without_extent: Arc<[u32]>,
+    pub(crate) delta_emitters: Arc<[u32]>,
     pub(crate) emitter_choice: Discrete,
     /// Around what reflects or refracts into single directions, if that takes up clearly less than the scene.
     pub(crate) casters: Option<Ball>,
@@ -145,7 +145,7 @@ impl Scene {
             normal,
             shading_normal: normal,
             curved: part.patch.curved
-                || matches!(primitive, Primitive::Sphere { .. } | Primitive::Tube { .. }),
+                || matches!(primitive, Primitive::Sphere { .. } | Primitive::Cylinder { .. }),
             shape: part.shape,
             patch: part.patch.key,
             primitive: i as u32,
@@ -243,7 +243,7 @@ impl Scene {
                 let p = to_object * (surface.position - centre);
                 Vec2::new(p.x.hypot(p.y) / radius, turn(p.y.atan2(p.x) / (2.0 * PI)))
             }
-            Primitive::Tube { from, axis, .. } => {
+            Primitive::Cylinder { from, axis, .. } => {
                 let p = surface.position - from;
                 let q = Frame::from_normal(axis.normalize()).to_local(p);
                 Vec2::new(turn(q.y.atan2(q.x) / (2.0 * PI)), p.dot(axis) / axis.length_squared())
@@ -265,7 +265,7 @@ impl Scene {
                 let p = to_object * (surface.position - centre);
                 to_object.transpose() * Vec3::new(-p.y, p.x, 0.0)
             }
-            Primitive::Tube { axis, .. } => axis.cross(surface.normal),
+            Primitive::Cylinder { axis, .. } => axis.cross(surface.normal),
         }
     }
 
@@ -298,7 +298,7 @@ impl Scene {
     /// The density (sr⁻¹) with which choosing an emitter and a point of it leads from `position` to a point of a lamp; 0 where
     /// the surface emits nothing towards there.
     #[must_use]
-    pub fn lamp_density(&self, surface: &Surface, position: Vec3) -> f32 {
+    pub fn area_emitter_pdf(&self, surface: &Surface, position: Vec3) -> f32 {
         let Some(emitter) = self.shapes[surface.shape as usize].emitter else { return 0.0 };
         match &self.emitters[emitter as usize].kind {
             Kind::Area(area) => area.density(surface, position) * self.emitter_share(emitter as usize) as f32,
@@ -340,8 +340,8 @@ impl Scene {
 
     /// Indices of the emitters that shine from one point or in one direction.
     #[must_use]
-    pub fn emitters_without_extent(&self) -> &[u32] {
-        &self.without_extent
+    pub fn delta_emitters(&self) -> &[u32] {
+        &self.delta_emitters
     }
 
     /// All emitters.

@@ -70,7 +70,7 @@ pub(crate) fn locate(primitive: &Primitive, barycentric: Vec2, approximate: Vec3
             let position = approximate - normal * (approximate - centre).dot(normal);
             (position, (centre.abs() + position.abs()) * QUADRIC_ERROR, normal)
         }
-        Primitive::Tube { from, axis, radius } => {
+        Primitive::Cylinder { from, axis, radius } => {
             let p = approximate - from;
             let along = axis * (p.dot(axis) / axis.length_squared());
             let outward = (p - along).normalize_or(Vec3::Z);

@@ -38,7 +38,7 @@ impl fmt::Display for Panic {
 impl std::error::Error for Panic {}
 
 /// Does work; where it panics, what it said. What the work was changing is half-changed then.
-pub(crate) fn contained<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+pub(crate) fn catch_panic<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| message(&*panic))
 }
 
@@ -50,7 +50,7 @@ fn message(panic: &(dyn Any + Send)) -> String {
 /// Fails on purpose where the environment variable `FOTON_FAULT` says `SEED:STAGE:PASS`, so that tests see what comes of it.
 /// Programs that people get do not have this.
 #[cfg(debug_assertions)]
-pub(crate) fn strike(seed: u64, stage: Stage, pass: u64) {
+pub(crate) fn inject_fault(seed: u64, stage: Stage, pass: u64) {
     static FAULT: std::sync::OnceLock<Option<String>> = std::sync::OnceLock::new();
     let fault = FAULT.get_or_init(|| std::env::var("FOTON_FAULT").ok());
     let here = || format!("{seed}:{}:{pass}", stage.name());
@@ -61,7 +61,7 @@ pub(crate) fn strike(seed: u64, stage: Stage, pass: u64) {
 }
 
 #[cfg(not(debug_assertions))]
-pub(crate) const fn strike(_: u64, _: Stage, _: u64) {}
+pub(crate) const fn inject_fault(_: u64, _: Stage, _: u64) {}
 
 #[cfg(test)]
 mod tests {
@@ -72,10 +72,10 @@ mod tests {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("threads");
         let fails = |n: u32| {
             let work = || rayon::join(|| n, || assert!(n != 1, "number {n}")).0;
-            contained(|| pool.install(work))
+            catch_panic(|| pool.install(work))
         };
         assert_eq!(fails(1), Err("number 1".to_owned()));
         assert_eq!(fails(2), Ok(2));
-        assert_eq!(contained(|| std::panic::panic_any(7)), Err::<(), _>("no message".to_owned()));
+        assert_eq!(catch_panic(|| std::panic::panic_any(7)), Err::<(), _>("no message".to_owned()));
     }
 }

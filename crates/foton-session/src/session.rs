@@ -12,7 +12,7 @@ use thiserror::Error;
 
 use crate::clock::{StageClock, StageTimes};
 use crate::interrupt::Interrupt;
-use crate::panic::{Panic, contained, strike};
+use crate::panic::{Panic, catch_panic, inject_fault};
 use crate::stop::StopRule;
 use crate::threads::{self, Rank};
 
@@ -137,9 +137,9 @@ impl Session {
             let seed = settings.seed;
             let mut watch = |stage| {
                 clock.begin(stage);
-                strike(seed, stage, 0);
+                inject_fault(seed, stage, 0);
             };
-            let started = contained(|| pool.install(|| Render::start(scene, settings, &mut watch, cancel)));
+            let started = catch_panic(|| pool.install(|| Render::start(scene, settings, &mut watch, cancel)));
             started.map_err(|message| Panic { stage: clock.stage(), message })??
         };
         Ok(Self { render, pool, stages, elapsed: begin.elapsed(), rays: 0, panic: None, not_finite: None })
@@ -199,9 +199,9 @@ impl Session {
             let (seed, pass) = (render.settings().seed, render.passes() + 1);
             let mut watch = |stage| {
                 clock.begin(stage);
-                strike(seed, stage, pass);
+                inject_fault(seed, stage, pass);
             };
-            let outcome = contained(|| self.pool.install(|| render.advance(&mut watch, cancel)));
+            let outcome = catch_panic(|| self.pool.install(|| render.advance(&mut watch, cancel)));
             outcome.map_err(|message| Panic { stage: clock.stage(), message })
         };
         self.elapsed = self.elapsed.saturating_add(begin.elapsed());

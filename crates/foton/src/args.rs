@@ -123,7 +123,7 @@ pub(crate) struct RenderArgs {
     ))]
     pub(crate) photons: Option<NonZeroU32>,
     #[arg(long, value_name = "A", value_parser = alpha, help = with_default(
-        "Share of new photons kept, in (0, 1]: small shrinks radii fast (less blur, more noise) [as the scene says, else ",
+        "Share of new photons kept, in (0, 1]: small shrinks radii fast (less bias, more noise) [as the scene says, else ",
         RenderSettings::default().ppm.alpha,
     ))]
     pub(crate) alpha: Option<Alpha>,

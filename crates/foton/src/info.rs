@@ -88,7 +88,7 @@ fn as_json(scene: &Scene, settings: &RenderSettings, name: &str, hash: u64) -> V
         "hash": format!("{hash:016x}"),
         "census": {
             "shapes": scene.shapes().len(), "triangles": c.triangles, "spheres": c.spheres, "discs": c.discs,
-            "tubes": c.tubes, "degenerate_triangles": c.degenerate_triangles, "emitters": c.emitters,
+            "tubes": c.cylinders, "degenerate_triangles": c.degenerate_triangles, "emitters": c.emitters,
         },
         "sensors": scene.sensors().iter().map(|s| json!({ "name": s.name, "width": s.width, "height": s.height })).collect::<Vec<_>>(),
         "emitters": emitters,
@@ -111,7 +111,7 @@ fn as_text(scene: &Scene, settings: &RenderSettings, name: &str, hash: u64) -> V
             c.triangles,
             c.spheres,
             c.discs,
-            c.tubes,
+            c.cylinders,
             c.degenerate_triangles
         ),
     ];

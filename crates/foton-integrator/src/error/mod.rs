@@ -103,7 +103,7 @@ struct OfTile {
 struct Addend {
     light: f64,
     bias: f64,
-    /// How far squared light of all passes may be above what discs see (see `Evidence::focus`).
+    /// How far squared light of all passes may be above what discs see (see `RadiusStatistics::focus`).
     focus: f64,
     /// The variance of that: whether a sample lies in a focus is chance.
     focus_variance: f64,
@@ -123,12 +123,12 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
         let (mut bias, mut answer, mut focus, mut focus_variance) = (0.0, 0.0, 0.0, 0.0);
         for (&slot, &weight) in hit_points.slot_of[range.clone()].iter().zip(&hit_points.weights[range]) {
             if looks
-                && let evidence = &hit_points.evidence_slots[slot as usize]
-                && let excess = evidence.focus()
+                && let radius_statistics = &hit_points.radius_statistics_slots[slot as usize]
+                && let excess = radius_statistics.focus()
                 && excess > 0.0
             {
                 // One sample in 1 + excess is as bright as the focus: its square has this mean and about this variance.
-                let square = (f64::from(weight.luminance()) * evidence.light()).powi(2) * excess;
+                let square = (f64::from(weight.luminance()) * radius_statistics.light()).powi(2) * excess;
                 focus += square;
                 focus_variance += square * square * (1.0 + excess);
             }

@@ -16,7 +16,7 @@ use super::hit_points::HitPoints;
 use super::light::Light;
 use super::report::{PassReport, Start};
 use super::settings::{DirectLight, RadiusRule};
-use super::slots::Kept;
+use super::slots::EarlierBatches;
 use crate::error::ErrorSums;
 use crate::settings::{RenderSettings, SettingChange};
 
@@ -36,7 +36,7 @@ pub(crate) struct Ppm {
     pub(super) marked_radius2: f64,
     pub(super) chunks: Vec<Chunk>,
     pub(super) map: PhotonMap,
-    pub(super) kept: Kept,
+    pub(super) earlier: EarlierBatches,
     /// Photons of a batch at most: [`MAX_PHOTONS`] but in tests.
     pub(super) max_in_batch: u64,
     pub(super) ledger: Ledger,
@@ -74,7 +74,7 @@ impl Ppm {
         let hit_points =
             HitPoints::new(&eye.hit_points, &eye.gloss, eye.pixel_start(), normals, shadow_rays, cancel)?;
         let asks = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;
-        let hit_points = if asks { hit_points.with_evidence() } else { hit_points };
+        let hit_points = if asks { hit_points.with_radius_statistics() } else { hit_points };
         let start = Start { hit_points: hit_points.len() as u64, eye_rays: eye.rays, dropped: eye.dropped };
         let step = (eye.hit_points.len() / LOOKED_AT).max(1);
         let disc = |h: &HitPoint| (h.position, h.radius2.sqrt());
@@ -102,7 +102,7 @@ impl Ppm {
             marked_radius2: f64::INFINITY,
             chunks: Vec::new(),
             map: PhotonMap::default(),
-            kept: Kept::default(),
+            earlier: EarlierBatches::default(),
             max_in_batch: MAX_PHOTONS,
             ledger: Ledger::default(),
             lights,

@@ -3,7 +3,7 @@
 use foton_scene::{Emitter, Scene};
 use foton_transport::camera_paths::Gloss;
 
-use super::adaptive::Evidence;
+use super::adaptive::RadiusStatistics;
 use super::hit_points::ShadowOrigin;
 use super::radiance::Radiance;
 use super::settings::{DirectLight, RadiusRule};
@@ -44,7 +44,7 @@ pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
     vec![
         feature(
             "followed paths",
-            census.followed,
+            census.specular,
             "mirrors, glass, narrow gloss or openings",
             "every surface spreads light",
             "eye rays beyond the first",
@@ -89,9 +89,9 @@ pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
         ),
         feature(
             "glossy hit points",
-            census.kept_gloss,
-            "lobes that are kept and not Lambertian",
-            "all kept lobes are Lambertian",
+            census.gathered_gloss,
+            "lobes that are earlier and not Lambertian",
+            "all earlier lobes are Lambertian",
             "a BSDF's value for each photon that counts there",
             size_of::<Option<Gloss>>(),
             0,
@@ -174,7 +174,7 @@ pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
             "asked for by --radius-rule",
             "radii shrink as photons are found",
             "five moments of each photon that counts",
-            size_of::<Evidence>(),
+            size_of::<RadiusStatistics>(),
             0,
         ),
         feature(

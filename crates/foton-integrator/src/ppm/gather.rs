@@ -61,11 +61,11 @@ pub(super) fn collect<const LAYERS: usize, const SHADED: bool, const MOMENTS: bo
                 }
             }
             let [x, y, z] = offsets(packet, photon);
-            let [sx, sy, sz] = &mut found.shape.offset;
+            let [sx, sy, sz] = &mut found.disc.offset;
             for l in 0..LANES {
                 let w = f32::from_bits((luminance * factor[l]).to_bits() & counts[l]);
-                found.shape.light[l] += w;
-                found.shape.squares[l] += w * w;
+                found.disc.light[l] += w;
+                found.disc.squares[l] += w * w;
                 sx[l] += w * x[l];
                 sy[l] += w * y[l];
                 sz[l] += w * z[l];
@@ -96,7 +96,7 @@ pub(super) fn collect_gloss<const LAYERS: usize, const MOMENTS: bool>(
         let offset = if MOMENTS { offsets(packet, photon) } else { [[0.0; LANES]; 3] };
         let layer = &mut found.flux[Found::<LAYERS>::layer(photon)];
         for l in (0..LANES).filter(|&l| counts[l] != 0) {
-            // Kept lobes weigh all photons, followed ones those alone that no eye path could bring.
+            // EarlierBatches lobes weigh all photons, followed ones those alone that no eye path could bring.
             let Some(gloss) = gloss[l].as_ref().filter(|g| !g.narrow || photon.is_lone()) else { continue };
             found.count[l] += 1;
             let geometric = face.cosine(wi, packet, (gloss.frame.normal / 127.0).to_array(), l).abs() * 127.0;
@@ -115,9 +115,9 @@ pub(super) fn collect_gloss<const LAYERS: usize, const MOMENTS: bool>(
                 if asked.is_of(photon) {
                     found.answer[l] += asked.answer(luminance, distance2[l], l);
                 }
-                found.shape.light[l] += luminance;
-                found.shape.squares[l] += luminance * luminance;
-                for (sum, offset) in found.shape.offset.iter_mut().zip(&offset) {
+                found.disc.light[l] += luminance;
+                found.disc.squares[l] += luminance * luminance;
+                for (sum, offset) in found.disc.offset.iter_mut().zip(&offset) {
                     sum[l] += luminance * offset[l];
                 }
             }

@@ -9,7 +9,7 @@ use foton_transport::camera_paths::{Gloss, HitPoint};
 use foton_transport::photon_map::{self, LANES, Packet};
 use foton_transport::{Cancel, Cancelled, LeftOut, Quantity};
 
-use super::adaptive::Evidence;
+use super::adaptive::RadiusStatistics;
 use super::statistics::Statistics;
 
 /// Light that arrives at a hit point, per path class or in all: Σ Φ/(π r²) over the photons of one pass (W·m⁻²), each
@@ -38,7 +38,7 @@ pub(crate) struct HitPoints {
     /// [`HitPoint::smallest2`].
     pub(crate) smallest2_slots: Vec<f32>,
     /// Empty unless radii adapt or the error is asked for.
-    pub(crate) evidence_slots: Vec<Evidence>,
+    pub(crate) radius_statistics_slots: Vec<RadiusStatistics>,
     /// In sample order: where the hit point is.
     pub(crate) slot_of: Vec<u32>,
     /// In sample order: [`HitPoint::weight`].
@@ -106,7 +106,7 @@ impl HitPoints {
             shadow_slots,
             statistics_slots,
             smallest2_slots,
-            evidence_slots: Vec::new(),
+            radius_statistics_slots: Vec::new(),
             slot_of,
             weights: found.iter().map(|h| h.weight).collect(),
             pixel_start,
@@ -115,8 +115,11 @@ impl HitPoints {
 
     /// Makes room for what radii that adapt go by, and the error's upper end.
     #[must_use]
-    pub(crate) fn with_evidence(self) -> Self {
-        Self { evidence_slots: vec![Evidence::default(); self.statistics_slots.len()], ..self }
+    pub(crate) fn with_radius_statistics(self) -> Self {
+        Self {
+            radius_statistics_slots: vec![RadiusStatistics::default(); self.statistics_slots.len()],
+            ..self
+        }
     }
 
     /// How a slot weighs light, where that is not Lambertian.
@@ -152,7 +155,7 @@ impl HitPoints {
             + size_of::<[[f32; LANES]; 3]>() * self.shading_normals.len()
             + size_of::<ShadowOrigin>() * self.shadow_slots.len()
             + (size_of::<Statistics>() + size_of::<f32>()) * self.statistics_slots.len()
-            + size_of::<Evidence>() * self.evidence_slots.len()
+            + size_of::<RadiusStatistics>() * self.radius_statistics_slots.len()
             + (size_of::<u32>() + size_of::<Rgb>()) * self.slot_of.len()
             + size_of::<u32>() * self.pixel_start.len()
     }

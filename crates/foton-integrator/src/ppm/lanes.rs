@@ -10,7 +10,7 @@ const MIN_NORMAL_COSINE: f32 = 0.1;
 
 /// All ones for each lane for which the photon counts: disc, slab, normal and side (the normals of both are those of the
 /// eye's and the photon's side), patch, and length of the joined path: the marks of equal patches cancel, others are above any
-/// budget.
+/// remaining_edges.
 #[inline(always)]
 pub(super) fn counting_lanes(packet: &Packet, photon: &Photon) -> [u32; LANES] {
     let p = photon.position;
@@ -29,7 +29,7 @@ pub(super) fn counting_lanes(packet: &Packet, photon: &Photon) -> [u32; LANES] {
         let counted = (distance2 <= packet.radius2[l])
             & (height * height <= packet.slab2[l] * packet.radius2[l])
             & (cosine > MIN_NORMAL_COSINE)
-            & (edges ^ packet.patch[l] <= packet.budget[l]);
+            & (edges ^ packet.patch[l] <= packet.remaining_edges[l]);
         counts[l] = u32::from(counted).wrapping_neg();
     }
     counts

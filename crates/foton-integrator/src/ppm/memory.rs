@@ -8,12 +8,12 @@ use foton_transport::camera_paths::{Gloss, HitPoint};
 use foton_transport::light_paths::{Batch, MAX_PHOTONS};
 use foton_transport::photon_map::{LANES, MAX_CELLS, Packet, Photon, PhotonMap};
 
-use super::adaptive::Evidence;
+use super::adaptive::RadiusStatistics;
 use super::eye_samples::eye_pass;
 use super::hit_points::{Irradiance, ShadowOrigin};
 use super::radiance::Radiance;
 use super::settings::{DirectLight, RadiusRule};
-use super::slots::Kept;
+use super::slots::EarlierBatches;
 use super::statistics::Statistics;
 use crate::error::ErrorSums;
 use crate::settings::RenderSettings;
@@ -112,7 +112,7 @@ impl MemoryEstimate {
             + size_of::<f32>()
             + if shadow { size_of::<ShadowOrigin>() } else { 0 }
             + if settings.error { ErrorSums::BYTES_PER_HIT_POINT } else { 0 }
-            + if adapts { size_of::<Evidence>() } else { 0 }
+            + if adapts { size_of::<RadiusStatistics>() } else { 0 }
             + if shaded { 3 * size_of::<f32>() } else { 0 };
         let slot = slot as f64 + layers * size_of::<Irradiance<1>>() as f64;
         let per_pixel =
@@ -122,7 +122,7 @@ impl MemoryEstimate {
         let pass = settings.ppm.photons_per_pass.get().into();
         let batches = Batch::all(pass, MAX_PHOTONS);
         let batch = batches.map(|b| b.photons(pass)).max().unwrap_or(0);
-        let slot = slot + if batch < pass { Kept::bytes_per_slot(adapts) as f64 } else { 0.0 };
+        let slot = slot + if batch < pass { EarlierBatches::bytes_per_slot(adapts) as f64 } else { 0.0 };
         Self {
             hit_points,
             pixels: pixels as f64,

@@ -94,7 +94,7 @@ impl Ppm {
             + self.error.as_ref().map_or(0, ErrorSums::bytes)
             + self.grid.bytes()
             + self.map.bytes()
-            + self.kept.bytes()
+            + self.earlier.bytes()
             + self.chunks.iter().map(chunk).sum::<usize>()
             + self.shapes.len() * size_of::<u32>()
     }

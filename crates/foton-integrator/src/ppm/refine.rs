@@ -18,7 +18,7 @@ pub(super) fn refine<const LAYERS: usize>(
     rule: Rule,
     tally: &mut Tally,
 ) {
-    let Slots { statistics, smallest2, irradiance, counts, evidence, .. } = slots;
+    let Slots { statistics, smallest2, irradiance, counts, radius_statistics, .. } = slots;
     for l in 0..LANES {
         let radius2 = packet.radius2[l];
         if radius2 < 0.0 {
@@ -36,7 +36,7 @@ pub(super) fn refine<const LAYERS: usize>(
         let smallest2 = f64::from(smallest2[l]);
         let floored = match rule.common {
             None => {
-                let known = evidence.get(l).filter(|_| rule.adapts);
+                let known = radius_statistics.get(l).filter(|_| rule.adapts);
                 let alpha = known.map_or(rule.alpha, |e| e.alpha(rule.alpha));
                 statistics[l].refine(count, alpha, smallest2)
             }

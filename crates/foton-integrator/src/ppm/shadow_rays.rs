@@ -33,7 +33,7 @@ pub(crate) fn add<const LAYERS: usize>(
                 let slot = block * BLOCK + i;
                 let packet = &hit_points.packets[slot / LANES];
                 // A path of two edges: one to the hit point, one to the emitter.
-                if packet.radius2[slot % LANES] < 0.0 || packet.budget[slot % LANES] < 1 {
+                if packet.radius2[slot % LANES] < 0.0 || packet.remaining_edges[slot % LANES] < 1 {
                     continue;
                 }
                 let mut stream = Stream::new(seed, Purpose::ShadowRay, pass, slot as u64);
@@ -41,9 +41,9 @@ pub(crate) fn add<const LAYERS: usize>(
                     continue;
                 }
                 let at = &hit_points.shadow_slots[slot];
-                let budget = packet.budget[slot % LANES] as u32;
+                let remaining_edges = packet.remaining_edges[slot % LANES] as u32;
                 if let Some((light, from)) =
-                    estimate(scene, (at.origin, at.shading_normal), budget, &mut stream, &mut rays)
+                    estimate(scene, (at.origin, at.shading_normal), remaining_edges, &mut stream, &mut rays)
                 {
                     let value = hit_points.gloss(slot).map_or(Rgb::WHITE, |g| g.eval(from));
                     let term = light * value * photons as f32;

@@ -6,7 +6,7 @@ use std::f32::consts::PI;
 use foton_math::Rgb;
 use foton_transport::photon_map::{LANES, Packet, Photon};
 
-use super::adaptive::{Evidence, Shape};
+use super::adaptive::{DiscMoments, RadiusStatistics};
 use super::hit_points::Irradiance;
 use super::statistics::Statistics;
 use crate::error::Question;
@@ -20,7 +20,7 @@ pub(crate) struct Found<const LAYERS: usize> {
     /// What [`Asked`] says of the photons of one class, where the error is asked for.
     pub(crate) answer: [f32; LANES],
     /// Where radii adapt.
-    pub(crate) shape: Shape,
+    pub(crate) disc: DiscMoments,
 }
 
 /// A pass's question in numbers: w (a w + b d² + c) is summed over the photons of a class, w their luminance.
@@ -59,7 +59,7 @@ impl<const LAYERS: usize> Found<LAYERS> {
         count: [0; LANES],
         moment: [0.0; LANES],
         answer: [0.0; LANES],
-        shape: Shape::NONE,
+        disc: DiscMoments::NONE,
     };
 
     #[inline(always)]
@@ -73,10 +73,11 @@ impl<const LAYERS: usize> Found<LAYERS> {
     }
 
     /// Adds what the pass has found to what radii go by.
-    pub(crate) fn add_evidence(&self, packet: &Packet, evidence: &mut [Evidence]) {
-        for (lane, evidence) in evidence.iter_mut().enumerate().filter(|(l, _)| self.shape.squares[*l] > 0.0)
+    pub(crate) fn add_radius_statistics(&self, packet: &Packet, radius_statistics: &mut [RadiusStatistics]) {
+        for (lane, radius_statistics) in
+            radius_statistics.iter_mut().enumerate().filter(|(l, _)| self.disc.squares[*l] > 0.0)
         {
-            evidence.add(packet.radius2[lane], lane, self.moment[lane], &self.shape);
+            radius_statistics.add(packet.radius2[lane], lane, self.moment[lane], &self.disc);
         }
     }
 
@@ -95,14 +96,14 @@ impl<const LAYERS: usize> Found<LAYERS> {
 
 /// What the batches of a pass leave for the last one beside what its results have room for, by slot; nothing where there is one.
 #[derive(Default)]
-pub(crate) struct Kept {
+pub(crate) struct EarlierBatches {
     /// Photons found.
     pub(crate) counts: Vec<u64>,
     /// Where radii adapt: Σ Φ, Σ Φ², Σ Φ d and Σ Φ d² (see [`Shape`]).
     pub(crate) shapes: Vec<[f32; 6]>,
 }
 
-impl Kept {
+impl EarlierBatches {
     /// Room for so many slots.
     pub(crate) fn of(slots: usize, adapts: bool) -> Self {
         Self { counts: vec![0; slots], shapes: vec![[0.0; 6]; if adapts { slots } else { 0 }] }
@@ -127,11 +128,11 @@ pub(crate) struct Slots<'a, const LAYERS: usize> {
     pub(crate) irradiance: &'a mut [Irradiance<LAYERS>],
     /// Empty unless the error is asked for.
     pub(crate) moments: &'a mut [[f32; 2]],
-    /// Of [`Kept`].
+    /// Of [`EarlierBatches`].
     pub(crate) counts: &'a mut [u64],
     pub(crate) shapes: &'a mut [[f32; 6]],
     /// Empty unless radii adapt.
-    pub(crate) evidence: &'a mut [Evidence],
+    pub(crate) radius_statistics: &'a mut [RadiusStatistics],
 }
 
 impl<const LAYERS: usize> Slots<'_, LAYERS> {
@@ -145,7 +146,7 @@ impl<const LAYERS: usize> Slots<'_, LAYERS> {
             moments: self.moments.get_mut(lanes.clone()).unwrap_or_default(),
             counts: self.counts.get_mut(lanes.clone()).unwrap_or_default(),
             shapes: self.shapes.get_mut(lanes.clone()).unwrap_or_default(),
-            evidence: self.evidence.get_mut(lanes).unwrap_or_default(),
+            radius_statistics: self.radius_statistics.get_mut(lanes).unwrap_or_default(),
         }
     }
 
@@ -163,9 +164,9 @@ impl<const LAYERS: usize> Slots<'_, LAYERS> {
             found.answer[l] += answer;
         }
         for (l, [light, squares, x, y, z, moment]) in self.shapes.iter().enumerate() {
-            found.shape.light[l] += light;
-            found.shape.squares[l] += squares;
-            for (sums, earlier) in found.shape.offset.iter_mut().zip([x, y, z]) {
+            found.disc.light[l] += light;
+            found.disc.squares[l] += squares;
+            for (sums, earlier) in found.disc.offset.iter_mut().zip([x, y, z]) {
                 sums[l] += earlier;
             }
             found.moment[l] += if self.moments.is_empty() { *moment } else { 0.0 };
@@ -174,9 +175,9 @@ impl<const LAYERS: usize> Slots<'_, LAYERS> {
 
     /// Keeps sums for the next batch: flux and moments that no area has divided yet.
     pub(crate) fn keep(&mut self, found: &Found<LAYERS>) {
-        for (l, kept) in self.irradiance.iter_mut().enumerate() {
-            for (kept, flux) in kept.iter_mut().zip(&found.flux) {
-                *kept = Rgb::new(flux[0][l], flux[1][l], flux[2][l]);
+        for (l, earlier) in self.irradiance.iter_mut().enumerate() {
+            for (earlier, flux) in earlier.iter_mut().zip(&found.flux) {
+                *earlier = Rgb::new(flux[0][l], flux[1][l], flux[2][l]);
             }
         }
         self.counts.iter_mut().zip(found.count).for_each(|(sum, count)| *sum += u64::from(count));
@@ -184,8 +185,8 @@ impl<const LAYERS: usize> Slots<'_, LAYERS> {
             *moment = [found.moment[l], found.answer[l]];
         }
         for (l, shape) in self.shapes.iter_mut().enumerate() {
-            let [x, y, z] = [0, 1, 2].map(|axis| found.shape.offset[axis][l]);
-            *shape = [found.shape.light[l], found.shape.squares[l], x, y, z, found.moment[l]];
+            let [x, y, z] = [0, 1, 2].map(|axis| found.disc.offset[axis][l]);
+            *shape = [found.disc.light[l], found.disc.squares[l], x, y, z, found.moment[l]];
         }
     }
 }

@@ -6,7 +6,7 @@ use foton_transport::codec::{Reader, StateError, Writer};
 use foton_transport::photon_map::LANES;
 use foton_transport::{Ledger, LightUse, Loss};
 
-use super::adaptive::Evidence;
+use super::adaptive::RadiusStatistics;
 use super::algorithm::Ppm;
 use super::light::Light;
 use super::settings::Alpha;
@@ -54,7 +54,7 @@ impl Ppm {
         let statistics = &self.hit_points.statistics_slots;
         out.u64(statistics.len() as u64);
         statistics.iter().for_each(|s| s.write(&mut out));
-        self.hit_points.evidence_slots.iter().for_each(|e| e.write(&mut out));
+        self.hit_points.radius_statistics_slots.iter().for_each(|e| e.write(&mut out));
         match &self.light {
             Light::Whole(sums) => sums.write(&mut out),
             Light::ByClass(sums) => sums.write(&mut out),
@@ -116,8 +116,8 @@ impl Ppm {
             *statistics = read;
             hit_points.packets[slot / LANES].radius2[slot % LANES] = statistics.radius2() as f32;
         }
-        for evidence in &mut hit_points.evidence_slots {
-            *evidence = Evidence::read(&mut input)?;
+        for radius_statistics in &mut hit_points.radius_statistics_slots {
+            *radius_statistics = RadiusStatistics::read(&mut input)?;
         }
         match &mut self.light {
             Light::Whole(sums) => sums.read(&mut input)?,

@@ -13,7 +13,7 @@ use super::settings::Alpha;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistics {
     /// N = Σ αⱼ Mⱼ.
-    kept: f64,
+    accumulated: f64,
     /// r² in square scene units.
     radius2: f64,
     /// Σ Mⱼ.
@@ -22,12 +22,12 @@ pub struct Statistics {
 
 impl Statistics {
     /// A slot without a hit point.
-    pub(crate) const EMPTY_SLOT: Self = Self { kept: 0.0, radius2: -1.0, found: 0 };
+    pub(crate) const EMPTY_SLOT: Self = Self { accumulated: 0.0, radius2: -1.0, found: 0 };
 
     /// A hit point that has seen nothing yet. `radius2` in square scene units.
     #[must_use]
     pub const fn new(radius2: f32) -> Self {
-        Self { kept: 0.0, radius2: radius2 as f64, found: 0 }
+        Self { accumulated: 0.0, radius2: radius2 as f64, found: 0 }
     }
 
     /// r² in square scene units.
@@ -49,13 +49,13 @@ impl Statistics {
     }
 
     pub(crate) fn write(&self, out: &mut Writer) {
-        out.f64(self.kept);
+        out.f64(self.accumulated);
         out.f64(self.radius2);
         out.u64(self.found);
     }
 
     pub(crate) fn read(input: &mut Reader<'_>) -> Result<Self, StateError> {
-        Ok(Self { kept: input.finite()?, radius2: input.finite()?, found: input.count()? })
+        Ok(Self { accumulated: input.finite()?, radius2: input.finite()?, found: input.count()? })
     }
 
     /// Takes a pass into account that found `photons` within the radius. `smallest2` bounds r² from below; returns whether it
@@ -64,10 +64,10 @@ impl Statistics {
         if photons == 0 {
             return false;
         }
-        let (n, m, alpha) = (self.kept, photons as f64, alpha.get());
+        let (n, m, alpha) = (self.accumulated, photons as f64, alpha.get());
         // 1 − (1−α)M/(N+M) keeps its digits when N is far larger than M; (N+αM)/(N+M) would not.
         let rho = if n == 0.0 { alpha } else { 1.0 - (1.0 - alpha) * m / (n + m) };
-        self.kept = n + alpha * m;
+        self.accumulated = n + alpha * m;
         self.shrink(photons, rho, smallest2)
     }
 
@@ -111,8 +111,8 @@ mod tests {
             let m = (stream.next_1d() * 12.0) as u64;
             sum += m as f64 / s.radius2();
             s.refine(m, alpha([0.5, 0.7, 2.0 / 3.0, 1.0, 0.9][pass % 5]), 0.0);
-            if s.kept > 0.0 {
-                assert!((s.kept / s.radius2() / sum - 1.0).abs() < 1e-9, "pass {pass}");
+            if s.accumulated > 0.0 {
+                assert!((s.accumulated / s.radius2() / sum - 1.0).abs() < 1e-9, "pass {pass}");
             }
         }
     }
@@ -187,7 +187,7 @@ mod tests {
 
     #[test]
     fn radii_still_shrink_after_two_to_the_forty_photons() {
-        let mut s = Statistics { kept: 2f64.powi(40), radius2: 1.0, found: 1 << 41 };
+        let mut s = Statistics { accumulated: 2f64.powi(40), radius2: 1.0, found: 1 << 41 };
         let before = s.radius2();
         s.refine(1, Alpha::default(), 0.0);
         assert!(s.radius2() < before && s.photons_found() == (1 << 41) + 1);

@@ -9,7 +9,7 @@ use super::light::Light;
 use super::report::PassReport;
 use super::rule::Rule;
 use super::settings::{DirectLight, RadiusRule};
-use super::slots::Kept;
+use super::slots::EarlierBatches;
 use super::sweep::{Photons, sweep};
 use super::tally::Tally;
 use crate::error::{ErrorSums, Question};
@@ -31,9 +31,9 @@ impl Ppm {
     pub(super) fn begin_pass(&mut self) -> Counts {
         let photons = u64::from(self.settings.ppm.photons_after(self.passes).get());
         let slots = self.hit_points.statistics_slots.len();
-        let adapts = !self.hit_points.evidence_slots.is_empty();
+        let adapts = !self.hit_points.radius_statistics_slots.is_empty();
         let several = self.batches(photons).nth(1).is_some();
-        self.kept = if several { Kept::of(slots, adapts) } else { Kept::default() };
+        self.earlier = if several { EarlierBatches::of(slots, adapts) } else { EarlierBatches::default() };
         Counts {
             ledger: self.ledger,
             lights: self.lights.clone(),
@@ -113,11 +113,13 @@ impl Ppm {
             arch: self.arch,
         };
         let moments = self.error.as_mut().map_or_else(Default::default, ErrorSums::moment_slots);
-        let (hit_points, kept) = (&mut self.hit_points, &mut self.kept);
+        let (hit_points, earlier) = (&mut self.hit_points, &mut self.earlier);
         let photons = Photons { map: &self.map, grid: &self.grid };
         let tally = match &mut self.light {
-            Light::Whole(sums) => sweep(hit_points, photons, rule, sums.irradiance_slots(), moments, kept),
-            Light::ByClass(sums) => sweep(hit_points, photons, rule, sums.irradiance_slots(), moments, kept),
+            Light::Whole(sums) => sweep(hit_points, photons, rule, sums.irradiance_slots(), moments, earlier),
+            Light::ByClass(sums) => {
+                sweep(hit_points, photons, rule, sums.irradiance_slots(), moments, earlier)
+            }
         };
         counts.add(&self.chunks, &tally);
     }

@@ -10,7 +10,7 @@ use super::gather::{collect, collect_gloss};
 use super::hit_points::{HitPoints, Irradiance};
 use super::refine::refine;
 use super::rule::Rule;
-use super::slots::{Asked, Found, Kept, Slots};
+use super::slots::{Asked, EarlierBatches, Found, Slots};
 use super::tally::Tally;
 
 /// What is gathered beside light: nothing, or what the error is estimated from and radii that adapt go by.
@@ -38,12 +38,12 @@ pub(super) fn sweep<const LAYERS: usize>(
     rule: Rule,
     irradiance_slots: &mut [Irradiance<LAYERS>],
     moment_slots: &mut [[f32; 2]],
-    kept: &mut Kept,
+    earlier: &mut EarlierBatches,
 ) -> Tally {
-    if hit_points.evidence_slots.is_empty() {
-        sweep_with::<LAYERS, NO_MOMENTS>(hit_points, photons, rule, irradiance_slots, moment_slots, kept)
+    if hit_points.radius_statistics_slots.is_empty() {
+        sweep_with::<LAYERS, NO_MOMENTS>(hit_points, photons, rule, irradiance_slots, moment_slots, earlier)
     } else {
-        sweep_with::<LAYERS, MOMENTS>(hit_points, photons, rule, irradiance_slots, moment_slots, kept)
+        sweep_with::<LAYERS, MOMENTS>(hit_points, photons, rule, irradiance_slots, moment_slots, earlier)
     }
 }
 
@@ -53,12 +53,12 @@ fn sweep_with<const LAYERS: usize, const MOMENTS: bool>(
     rule: Rule,
     irradiance_slots: &mut [Irradiance<LAYERS>],
     moment_slots: &mut [[f32; 2]],
-    kept: &mut Kept,
+    earlier: &mut EarlierBatches,
 ) -> Tally {
     let blocks = hit_points.packets.len().div_ceil(BLOCK);
     let moments = by_block(moment_slots, blocks);
-    let (counts, shapes) = (by_block(&mut kept.counts, blocks), by_block(&mut kept.shapes, blocks));
-    let evidence = by_block(&mut hit_points.evidence_slots, blocks);
+    let (counts, shapes) = (by_block(&mut earlier.counts, blocks), by_block(&mut earlier.shapes, blocks));
+    let radius_statistics = by_block(&mut hit_points.radius_statistics_slots, blocks);
     let shading = &hit_points.shading_normals;
     let (first_glossy, gloss_slots) = (hit_points.first_glossy, &hit_points.gloss_slots);
     let tallies: Vec<Tally> = hit_points
@@ -69,15 +69,19 @@ fn sweep_with<const LAYERS: usize, const MOMENTS: bool>(
         .zip(irradiance_slots.par_chunks_mut(BLOCK * LANES))
         .zip(moments)
         .zip(counts.into_par_iter().zip(shapes))
-        .zip(evidence)
+        .zip(radius_statistics)
         .enumerate()
         .map(
             |(
                 block,
-                ((((((packets, statistics), smallest2), irradiance), moments), (counts, shapes)), evidence),
+                (
+                    (((((packets, statistics), smallest2), irradiance), moments), (counts, shapes)),
+                    radius_statistics,
+                ),
             )| {
                 let first = block * BLOCK;
-                let slots = Slots { statistics, smallest2, irradiance, moments, counts, shapes, evidence };
+                let slots =
+                    Slots { statistics, smallest2, irradiance, moments, counts, shapes, radius_statistics };
                 let block = Block { first, first_glossy, packets, slots, shading, gloss_slots };
                 rule.arch.dispatch(OfBlock::<LAYERS, MOMENTS> { block, photons, rule })
             },
@@ -161,7 +165,7 @@ impl<const LAYERS: usize, const MOMENTS: bool> WithSimd for OfBlock<'_, LAYERS, 
                 continue;
             }
             if MOMENTS {
-                found.add_evidence(packet, slots.evidence);
+                found.add_radius_statistics(packet, slots.radius_statistics);
             }
             found.write_moments(packet, rule.question, slots.moments);
             refine(packet, &found, slots, rule, &mut tally);

@@ -31,8 +31,8 @@ fn steer(ui: &mut egui::Ui, state: &mut State, settings: &RenderSettings) {
     let response = ui.add(slider(&mut alpha, 0.01..=1.0).text("α").max_decimals(3).smart_aim(false));
     state.place("alpha", &response);
     let response = response.on_hover_text(
-        "Share of new photons that each hit point keeps, from above 0 to 1. Small: radii shrink fast, so blur goes and noise stays. \
-         Large: smooth, but the blur of the radius stays longer. 2/3 lets both fall together. Costs no time.",
+        "Share of new photons that each hit point keeps, from above 0 to 1. Small: radii shrink fast, so bias goes and noise stays. \
+         Large: smooth, but the bias of the radius stays longer. 2/3 lets both fall together. Costs no time.",
     );
     // A text that was opened and left says the old value in fewer digits: nobody asked for that one.
     let is_old = !response.dragged() && (alpha - before).abs() < 0.5e-3;
@@ -112,7 +112,7 @@ fn anew(ui: &mut egui::Ui, state: &mut State, settings: &RenderSettings, threads
         choice(
             RadiusRule::Adaptive,
             "adaptive",
-            "Each as far as blur outweighs noise there; α says how fast where they are in balance",
+            "Each as far as bias outweighs noise there; α says how fast where they are in balance",
         );
     });
     let mut samples = draft.samples_per_pixel.get();

@@ -11,23 +11,23 @@ const MIN_POINTS: usize = 6;
 const USUAL_GOAL: f64 = 0.02;
 
 const HELP: &str = "Root mean square error of the image over its mean reflected light, estimated from the passes. Noise is what more \
-                    photons take away, blur what smaller radii do. Left out: what the eye samples miss, light that no photon has \
-                    found, most of the blur right at edges";
+                    photons take away, bias what smaller radii do. Left out: what the eye samples miss, light that no photon has \
+                    found, most of the bias right at edges";
 
 /// Names and remedies of the parts of the error.
 const CLASSES: [(&str, &str); 3] = [
     (
         "of it direct",
-        "What light straight from emitters has of the error (noise, blur). Direct light by shadow rays has no blur",
+        "What light straight from emitters has of the error (noise, bias). Direct light by shadow rays has no bias",
     ),
     (
         "caustic",
-        "What light by mirrors and glass has of the error (noise, blur). Against its blur helps a smaller radius, against its noise \
+        "What light by mirrors and glass has of the error (noise, bias). Against its bias helps a smaller radius, against its noise \
          more photons",
     ),
     (
         "indirect",
-        "What light by surfaces that scatter has of the error (noise, blur). Against its noise help a larger radius and more passes",
+        "What light by surfaces that scatter has of the error (noise, bias). Against its noise help a larger radius and more passes",
     ),
 ];
 
@@ -40,7 +40,7 @@ fn percent(share: f64) -> String {
 /// The figure in the line at the bottom.
 pub(super) fn status(ui: &mut egui::Ui, error: Option<&ErrorEstimate>) {
     let Some(e) = error else { return };
-    let text = format!("error {} (noise {}, blur {})", percent(e.total), percent(e.noise), percent(e.bias));
+    let text = format!("error {} (noise {}, bias {})", percent(e.total), percent(e.noise), percent(e.bias));
     ui.label(text).on_hover_text(HELP);
     ui.separator();
 }
@@ -52,11 +52,11 @@ pub(super) fn rows(state: &State) -> Vec<(&'static str, String, &'static str)> {
     };
     let mut rows = vec![
         ("error", percent(e.total), HELP),
-        ("noise, blur", format!("{}, {}", percent(e.noise), percent(e.bias)), HELP),
+        ("noise, bias", format!("{}, {}", percent(e.noise), percent(e.bias)), HELP),
         (
             "from, to ",
             format!("{}, {}", percent(e.low), percent(e.high)),
-            "The error lies between these, nine times in ten; the upper end takes all blur to be that of edges, of which the \
+            "The error lies between these, nine times in ten; the upper end takes all bias to be that of edges, of which the \
              estimate sees a half",
         ),
     ];

@@ -74,7 +74,7 @@ fn dialog(ctx: &egui::Context, state: &mut State) {
                 DialogPurpose::OpenScene => state.open(path),
                 DialogPurpose::SaveScene => state.ask(Command::SaveScene(path)),
                 DialogPurpose::KeepCheckpoint => state.ask(Command::KeepCheckpoint(path)),
-                DialogPurpose::TakeUpCheckpoint => state.ask(Command::TakeUpCheckpoint(path)),
+                DialogPurpose::ResumeCheckpoint => state.ask(Command::ResumeCheckpoint(path)),
             }
         }
     }

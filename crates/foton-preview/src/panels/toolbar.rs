@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use foton_film::ToneMap;
-use foton_session::engine::{Activity, Command, Configuration, ErrorPart, Shown, Source};
+use foton_session::engine::{Activity, Command, Configuration, ErrorPart, Source, ViewMode};
 
 use crate::files::{CHECKPOINTS, FileDialog, SCENES};
 use crate::state::{DialogPurpose, Pinned, Placement, State};
@@ -100,13 +100,13 @@ fn checkpoints(ui: &mut egui::Ui, state: &mut State) {
         let path = beside_the_scene(state, ".checkpoint");
         state.dialog = Some((DialogPurpose::KeepCheckpoint, FileDialog::save(&path, CHECKPOINTS)));
     }
-    let take_up = ui.button("Go on from a checkpoint…").on_hover_text(
+    let resume_in = ui.button("Go on from a checkpoint…").on_hover_text(
         "Of this scene, with this radius, direct light, hit points a pixel and seed: with the bits that it would have had",
     );
-    if take_up.clicked() {
+    if resume_in.clicked() {
         let dialog =
             FileDialog::open(beside_the_scene(state, "").parent().unwrap_or("".as_ref()), CHECKPOINTS);
-        state.dialog = Some((DialogPurpose::TakeUpCheckpoint, dialog));
+        state.dialog = Some((DialogPurpose::ResumeCheckpoint, dialog));
     }
 }
 
@@ -141,15 +141,15 @@ fn run(ui: &mut egui::Ui, state: &mut State) {
 }
 
 /// What can be shown, by name.
-pub(super) const PICTURES: [(&str, Shown); 8] = [
-    ("Radiance", Shown::Radiance),
-    ("Luminance", Shown::Luminance),
-    ("Radius", Shown::Radius),
-    ("Photons found", Shown::PhotonCount),
-    ("No photon yet", Shown::Unknown),
-    ("Error", Shown::Error(ErrorPart::Total)),
-    ("Noise", Shown::Error(ErrorPart::Noise)),
-    ("Blur", Shown::Error(ErrorPart::Bias)),
+pub(super) const PICTURES: [(&str, ViewMode); 8] = [
+    ("Radiance", ViewMode::Radiance),
+    ("Luminance", ViewMode::Luminance),
+    ("Radius", ViewMode::Radius),
+    ("Photons found", ViewMode::PhotonCount),
+    ("No photon yet", ViewMode::Unknown),
+    ("Error", ViewMode::Error(ErrorPart::Total)),
+    ("Noise", ViewMode::Error(ErrorPart::Noise)),
+    ("Bias", ViewMode::Error(ErrorPart::Bias)),
 ];
 
 fn view(ui: &mut egui::Ui, state: &mut State) {
@@ -164,7 +164,7 @@ fn view(ui: &mut egui::Ui, state: &mut State) {
         }
     });
     list.response.labelled_by(label.id);
-    if matches!(state.shown, Shown::Radiance | Shown::Classes { .. }) {
+    if matches!(state.shown, ViewMode::Radiance | ViewMode::Classes { .. }) {
         let label = ui.label("Exposure");
         let exposure = ui.add(
             egui::Slider::new(&mut state.exposure_stops, -8.0..=8.0)
@@ -202,7 +202,7 @@ fn view(ui: &mut egui::Ui, state: &mut State) {
 
 fn classes(ui: &mut egui::Ui, state: &mut State) {
     let (mut reflected, mut emission) = match state.shown {
-        Shown::Classes { reflected, emission } => (reflected, emission),
+        ViewMode::Classes { reflected, emission } => (reflected, emission),
         _ => ([true; 3], true),
     };
     let before = (reflected, emission);
@@ -216,10 +216,10 @@ fn classes(ui: &mut egui::Ui, state: &mut State) {
         return;
     }
     if reflected == [true; 3] && emission {
-        state.choose_shown(Shown::Radiance);
+        state.choose_shown(ViewMode::Radiance);
         return;
     }
-    state.choose_shown(Shown::Classes { reflected, emission });
+    state.choose_shown(ViewMode::Classes { reflected, emission });
     let apart = state.frame.as_ref().map(|f| (f.settings.clone(), f.threads));
     if let Some((settings, threads)) = apart.filter(|(settings, _)| !settings.layers) {
         let configuration = Configuration { layers: true, ..Configuration::of(&settings, threads) };

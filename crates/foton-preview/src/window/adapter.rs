@@ -120,7 +120,7 @@ impl Adapter {
     /// Takes the device away once pass N is shown, where the environment variable `FOTON_FAULT` says `device:N`, so that tests
     /// see what comes of it. Programs that people get do not have this.
     #[cfg(debug_assertions)]
-    pub(super) fn strike(&self, pass: u64) {
+    pub(super) fn inject_fault(&self, pass: u64) {
         let is_due = |fault: String| fault.strip_prefix("device:")?.parse().ok().map(|due: u64| pass >= due);
         if self.number == 0 && std::env::var("FOTON_FAULT").ok().and_then(is_due) == Some(true) {
             self.device.destroy();
@@ -128,5 +128,5 @@ impl Adapter {
     }
 
     #[cfg(not(debug_assertions))]
-    pub(super) const fn strike(&self, _: u64) {}
+    pub(super) const fn inject_fault(&self, _: u64) {}
 }

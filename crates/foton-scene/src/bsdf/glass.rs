@@ -4,7 +4,7 @@ use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Frame, Rgb};
 
 use super::fresnel;
-use super::lobe::{FollowedLobe, LOBES, Transport};
+use super::lobe::{LOBES, SpecularLobe, Transport};
 use super::reflect::mirrored;
 use crate::description::Microfacets;
 
@@ -16,7 +16,7 @@ pub(super) fn glass_lobes(
     [int_ior, ext_ior]: [f32; 2],
     [reflected, refracted]: [Rgb; 2],
     roughness: Option<Microfacets>,
-) -> [Option<FollowedLobe>; LOBES] {
+) -> [Option<SpecularLobe>; LOBES] {
     let side = 1f32.copysign(wo.z);
     let h = roughness.map_or(Vec3::Z, |r| r.sample(wo * side, u)) * side;
     // The boundary in the facet's own frame, whose z is the facet's normal on the outside.
@@ -36,7 +36,7 @@ pub(super) fn glass_lobes(
     };
     let lobe = |wi: Vec3, chance: f32, tint: Rgb, same_side: bool| {
         let weight = tint * (chance * visible(wi, same_side));
-        (!weight.is_black()).then_some(FollowedLobe { wi, weight, probability: chance })
+        (!weight.is_black()).then_some(SpecularLobe { wi, weight, probability: chance })
     };
     let reflection = (f > 0.0).then(|| lobe(back(mirrored(local)), f, reflected, true)).flatten();
     let refraction = boundary

@@ -12,9 +12,9 @@ pub enum Transport {
     Importance,
 }
 
-/// A direction in which a followed lobe continues.
+/// A direction in which a specular lobe continues.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FollowedLobe {
+pub struct SpecularLobe {
     /// Unit direction.
     pub wi: Vec3,
     /// What the path's weight is multiplied with when every lobe is followed.
@@ -23,14 +23,14 @@ pub struct FollowedLobe {
     pub probability: f32,
 }
 
-/// Lobes that can be followed at once: reflection, refraction, straight on.
+/// Specular lobes of one surface: reflection, refraction, straight on.
 pub const LOBES: usize = 3;
 
 /// The kind of a lobe that a path took. Eye paths follow all but the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lobe {
-    /// One that hit points keep.
-    Kept,
+    /// One for which hit points gather photons.
+    Gathered,
     /// A single direction: that of a mirror or of smooth glass.
     Single,
     /// A narrow one, or that of rough glass.

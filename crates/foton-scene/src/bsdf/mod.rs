@@ -3,7 +3,7 @@
 //! Directions are local: z is the shading normal on the outside, `wo` points to where the path came from, `wi` to where it
 //! goes. No texture lookups, no geometry: correcting for shading normals is the path's business.
 //!
-//! A lobe is *followed* if it is a single direction or narrower than [`FOLLOWED_ROUGHNESS`]: a hit point there would find
+//! A lobe is *followed* if it is a single direction or narrower than [`MAX_SPECULAR_ROUGHNESS`]: a hit point there would find
 //! photons in a sliver of directions only. All others are *kept*: hit points weigh photons with them. Light refracted by
 //! rough glass is always followed, since photons would have to be looked for on both sides.
 
@@ -23,12 +23,12 @@ use foton_math::{Rgb, warp};
 use crate::description::{Bsdf, Microfacets};
 pub use coat::Coat;
 use glass::{glass_lobes, rough_glass, rough_glass_pdf};
-pub use lobe::{BsdfSample, FollowedLobe, LOBES, Lobe, Transport};
+pub use lobe::{BsdfSample, LOBES, Lobe, SpecularLobe, Transport};
 use reflect::{cosine, facet_density, mirrored, rough_metal, single};
 
 /// Lobes of at most this roughness α are followed by eye paths. Below it a lobe is narrower than about 6° and a hit point
 /// would weigh a few photons very much and most not at all.
-pub const FOLLOWED_ROUGHNESS: f32 = 0.1;
+pub const MAX_SPECULAR_ROUGHNESS: f32 = 0.1;
 
 /// A BSDF at a point of a surface: colours looked up, and how much of the surface is there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,29 +43,29 @@ pub struct Scattering {
 
 impl Microfacets {
     /// Whether eye paths follow a lobe of this roughness.
-    const fn is_followed(&self) -> bool {
-        self.widest() <= FOLLOWED_ROUGHNESS
+    const fn is_specular(&self) -> bool {
+        self.widest() <= MAX_SPECULAR_ROUGHNESS
     }
 }
 
 impl<C: Copy> Bsdf<C> {
     /// Whether hit points keep any of its lobes.
     #[must_use]
-    pub fn keeps(&self) -> bool {
+    pub fn gathers(&self) -> bool {
         match self {
             Self::Diffuse { .. } | Self::Plastic { .. } => true,
-            Self::Conductor { roughness, .. } => roughness.is_some_and(|r| !r.is_followed()),
+            Self::Conductor { roughness, .. } => roughness.is_some_and(|r| !r.is_specular()),
             Self::Dielectric { .. } | Self::ThinDielectric { .. } | Self::Mirror { .. } | Self::Null => false,
         }
     }
 
     /// Whether eye paths follow any of its lobes.
     #[must_use]
-    pub fn follows(&self) -> bool {
+    pub fn has_specular(&self) -> bool {
         match self {
             Self::Diffuse { .. } => false,
             Self::Conductor { roughness, .. } | Self::Plastic { roughness, .. } => {
-                roughness.is_none_or(|r| r.is_followed())
+                roughness.is_none_or(|r| r.is_specular())
             }
             Self::Dielectric { .. } | Self::ThinDielectric { .. } | Self::Mirror { .. } | Self::Null => true,
         }
@@ -150,8 +150,8 @@ impl Scattering {
 
     /// The value `f(wo, wi)` of the kept lobes, without the cosine (sr⁻¹).
     #[must_use]
-    pub fn eval_kept(&self, wo: Vec3, wi: Vec3) -> Rgb {
-        self.eval_where(wo, wi, |roughness| !roughness.is_followed())
+    pub fn eval_gathered(&self, wo: Vec3, wi: Vec3) -> Rgb {
+        self.eval_where(wo, wi, |roughness| !roughness.is_specular())
     }
 
     /// The value `f(wo, wi)` of all lobes but delta ones, without the cosine (sr⁻¹).
@@ -162,14 +162,14 @@ impl Scattering {
 
     /// The value `f(wo, wi)` of the followed lobes, without the cosine (sr⁻¹): 0 for those that are a single direction.
     #[must_use]
-    pub fn eval_followed(&self, wo: Vec3, wi: Vec3) -> Rgb {
+    pub fn eval_specular(&self, wo: Vec3, wi: Vec3) -> Rgb {
         let up = |w: Vec3| w * 1f32.copysign(w.z);
         match self.bsdf {
-            Bsdf::Plastic { roughness: Some(r), .. } if r.is_followed() && wo.z * wi.z > 0.0 => {
+            Bsdf::Plastic { roughness: Some(r), .. } if r.is_specular() && wo.z * wi.z > 0.0 => {
                 self.coat(&r, up(wo), up(wi)) * self.opacity
             }
             Bsdf::Plastic { .. } => Rgb::BLACK,
-            _ if self.bsdf.follows() => self.eval(wo, wi),
+            _ if self.bsdf.has_specular() => self.eval(wo, wi),
             _ => Rgb::BLACK,
         }
     }
@@ -177,10 +177,10 @@ impl Scattering {
     /// Density (sr⁻¹) with which the followed lobe of rough metal or of a rough coat takes the direction `wi`; 0 for lobes
     /// that are a single direction, and for rough glass.
     #[must_use]
-    pub fn density_followed(&self, wo: Vec3, wi: Vec3) -> f32 {
+    pub fn pdf_specular(&self, wo: Vec3, wi: Vec3) -> f32 {
         match self.bsdf {
             Bsdf::Conductor { roughness: Some(r), .. } | Bsdf::Plastic { roughness: Some(r), .. }
-                if r.is_followed() && wo.z * wi.z > 0.0 =>
+                if r.is_specular() && wo.z * wi.z > 0.0 =>
             {
                 facet_density(&r, wo * 1f32.copysign(wo.z), wi * 1f32.copysign(wi.z))
             }
@@ -223,9 +223,9 @@ impl Scattering {
     /// The followed lobes: reflection, refraction, straight on; absent ones are `None`. Rough ones are followed in one
     /// direction, chosen by `u`.
     #[must_use]
-    pub fn followed_lobes(&self, wo: Vec3, transport: Transport, u: Vec2) -> [Option<FollowedLobe>; LOBES] {
+    pub fn specular_lobes(&self, wo: Vec3, transport: Transport, u: Vec2) -> [Option<SpecularLobe>; LOBES] {
         let straight = |chance: f32, tint: Rgb| {
-            (chance > 0.0).then(|| FollowedLobe { wi: -wo, weight: tint * chance, probability: chance })
+            (chance > 0.0).then(|| SpecularLobe { wi: -wo, weight: tint * chance, probability: chance })
         };
         let mut lobes = match self.bsdf {
             Bsdf::Diffuse { .. } => [None; LOBES],
@@ -237,7 +237,7 @@ impl Scattering {
                     None,
                     None,
                 ],
-                Some(r) if r.is_followed() => {
+                Some(r) if r.is_specular() => {
                     [rough_metal(&r, wo, u, eta, k, specular_reflectance), None, None]
                 }
                 Some(_) => [None; LOBES],
@@ -247,7 +247,7 @@ impl Scattering {
                 // R + T R T + T R³ T + … = 2R/(1 + R).
                 let f = if once < 1.0 { 2.0 * once / (1.0 + once) } else { 1.0 };
                 let reflected =
-                    FollowedLobe { wi: mirrored(wo), weight: specular_reflectance * f, probability: f };
+                    SpecularLobe { wi: mirrored(wo), weight: specular_reflectance * f, probability: f };
                 [Some(reflected), None, straight(1.0 - f, specular_transmittance)]
             }
             Bsdf::Dielectric {
@@ -264,7 +264,7 @@ impl Scattering {
                 let f = Rgb::splat(fresnel::reflectance(wo.z.abs(), ext_ior, int_ior));
                 match roughness {
                     None => [single(mirrored(wo), f * specular_reflectance), None, None],
-                    Some(r) if r.is_followed() => [self.rough_coat_lobe(&r, wo, u), None, None],
+                    Some(r) if r.is_specular() => [self.rough_coat_lobe(&r, wo, u), None, None],
                     Some(_) => [None; LOBES],
                 }
             }
@@ -276,7 +276,7 @@ impl Scattering {
             }
             let before = lobes[2].map_or((Rgb::BLACK, 0.0), |l| (l.weight, l.probability));
             let through = 1.0 - self.opacity;
-            lobes[2] = Some(FollowedLobe {
+            lobes[2] = Some(SpecularLobe {
                 wi: -wo,
                 weight: before.0 + Rgb::splat(through),
                 probability: before.1 + through,
@@ -288,40 +288,40 @@ impl Scattering {
     /// The share of light from `wo` that passes straight on, as if there were no surface.
     #[must_use]
     pub fn straight(&self, wo: Vec3) -> Rgb {
-        let [_, _, straight] = self.followed_lobes(wo, Transport::Importance, Vec2::ZERO);
+        let [_, _, straight] = self.specular_lobes(wo, Transport::Importance, Vec2::ZERO);
         straight.map_or(Rgb::BLACK, |lobe| lobe.weight)
     }
 
     /// Whether a followed lobe is rough.
     #[must_use]
-    pub fn follows_narrow_lobes(&self) -> bool {
-        self.bsdf.follows() && self.bsdf.roughness().is_some()
+    pub fn has_narrow_specular(&self) -> bool {
+        self.bsdf.has_specular() && self.bsdf.roughness().is_some()
     }
 
     /// One followed lobe, chosen by `u_lobe` in [0, 1) with the lobes' chances; its weight is not divided by its chance.
     /// `None` with the chance of lobes that are absent: rough ones that would leave below the surface.
     #[must_use]
-    pub fn choose_followed(
+    pub fn choose_specular(
         &self,
         wo: Vec3,
         transport: Transport,
         u_lobe: f32,
         u: Vec2,
-    ) -> Option<FollowedLobe> {
-        self.choose_among_followed(wo, transport, u_lobe, u).map(|(_, lobe)| lobe)
+    ) -> Option<SpecularLobe> {
+        self.choose_among_specular(wo, transport, u_lobe, u).map(|(_, lobe)| lobe)
     }
 
     /// The same with its kind.
-    fn choose_among_followed(
+    fn choose_among_specular(
         &self,
         wo: Vec3,
         transport: Transport,
         u_lobe: f32,
         u: Vec2,
-    ) -> Option<(Lobe, FollowedLobe)> {
+    ) -> Option<(Lobe, SpecularLobe)> {
         // Chances that sum to 1 but for rounding leave no gap at the end.
         const ROUNDING: f32 = 1e-6;
-        let lobes = self.followed_lobes(wo, transport, u);
+        let lobes = self.specular_lobes(wo, transport, u);
         let bent = if self.bsdf.roughness().is_some() { Lobe::Narrow } else { Lobe::Single };
         let mut left = u_lobe;
         for (kind, lobe) in [bent, bent, Lobe::Straight].into_iter().zip(&lobes) {
@@ -352,15 +352,15 @@ impl Scattering {
     fn sample_surface(&self, wo: Vec3, transport: Transport, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
         match self.bsdf {
             Bsdf::Diffuse { reflectance } => {
-                Some(BsdfSample { wi: cosine(wo, u), weight: reflectance, lobe: Lobe::Kept })
+                Some(BsdfSample { wi: cosine(wo, u), weight: reflectance, lobe: Lobe::Gathered })
             }
-            Bsdf::Conductor { eta, k, specular_reflectance, roughness: Some(r) } if !r.is_followed() => {
+            Bsdf::Conductor { eta, k, specular_reflectance, roughness: Some(r) } if !r.is_specular() => {
                 let lobe = rough_metal(&r, wo, u, eta, k, specular_reflectance)?;
-                Some(BsdfSample { wi: lobe.wi, weight: lobe.weight, lobe: Lobe::Kept })
+                Some(BsdfSample { wi: lobe.wi, weight: lobe.weight, lobe: Lobe::Gathered })
             }
             Bsdf::Plastic { roughness, .. } => self.sample_plastic(wo, transport, u_lobe, u, roughness),
             _ => {
-                let (kind, lobe) = self.choose_among_followed(wo, transport, u_lobe, u)?;
+                let (kind, lobe) = self.choose_among_specular(wo, transport, u_lobe, u)?;
                 Some(BsdfSample { wi: lobe.wi, weight: lobe.weight / lobe.probability, lobe: kind })
             }
         }

@@ -5,7 +5,7 @@ use std::f32::consts::FRAC_1_PI;
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Rgb, warp};
 
-use super::lobe::{BsdfSample, FollowedLobe, Lobe, Transport};
+use super::lobe::{BsdfSample, Lobe, SpecularLobe, Transport};
 use super::reflect::{cosine, reflect_by_facet};
 use super::{Scattering, fresnel};
 use crate::description::{Bsdf, Microfacets};
@@ -72,7 +72,7 @@ impl Scattering {
         if coat + base > 0.0 { coat / (coat + base) } else { 0.0 }
     }
 
-    pub(super) fn rough_coat_lobe(&self, r: &Microfacets, wo: Vec3, u: Vec2) -> Option<FollowedLobe> {
+    pub(super) fn rough_coat_lobe(&self, r: &Microfacets, wo: Vec3, u: Vec2) -> Option<SpecularLobe> {
         let Bsdf::Plastic { int_ior, ext_ior, specular_reflectance, .. } = self.bsdf else { return None };
         reflect_by_facet(r, wo, u, |cos| {
             Rgb::splat(fresnel::reflectance(cos, ext_ior, int_ior)) * specular_reflectance
@@ -93,7 +93,7 @@ impl Scattering {
         let up = |w: Vec3| w * 1f32.copysign(wo.z);
         match roughness {
             // Lobes that overlap are weighed together.
-            Some(r) if !r.is_followed() => {
+            Some(r) if !r.is_specular() => {
                 let wi = if coat { self.rough_coat_lobe(&r, wo, u)?.wi } else { cosine(wo, u) };
                 if wi.z * wo.z <= 0.0 {
                     return None;
@@ -102,10 +102,10 @@ impl Scattering {
                 let cosine = up(wi).z;
                 let pdf = chance * density + (1.0 - chance) * warp::square_to_cosine_hemisphere_pdf(up(wi));
                 let weight = (self.spread(enters, self.enters(cosine)) + value) * (cosine / pdf);
-                (pdf > 0.0).then_some(BsdfSample { wi, weight, lobe: Lobe::Kept })
+                (pdf > 0.0).then_some(BsdfSample { wi, weight, lobe: Lobe::Gathered })
             }
             _ if coat => {
-                let [lobe, ..] = self.followed_lobes(wo, transport, u);
+                let [lobe, ..] = self.specular_lobes(wo, transport, u);
                 let kind = if roughness.is_some() { Lobe::Narrow } else { Lobe::Single };
                 lobe.map(|l| BsdfSample { wi: l.wi, weight: l.weight / chance, lobe: kind })
             }
@@ -113,7 +113,7 @@ impl Scattering {
                 let wi = cosine(wo, u);
                 let weight =
                     self.spread(enters, self.enters(wi.z.abs())) * (std::f32::consts::PI / (1.0 - chance));
-                Some(BsdfSample { wi, weight, lobe: Lobe::Kept })
+                Some(BsdfSample { wi, weight, lobe: Lobe::Gathered })
             }
         }
     }

@@ -4,7 +4,7 @@ use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Rgb, warp};
 
 use super::fresnel;
-use super::lobe::FollowedLobe;
+use super::lobe::SpecularLobe;
 use crate::description::Microfacets;
 
 /// Density (sr⁻¹) of reflecting `wo` into `wi` by a facet that is seen; both above.
@@ -16,8 +16,8 @@ pub(super) fn mirrored(wo: Vec3) -> Vec3 {
     Vec3::new(-wo.x, -wo.y, wo.z)
 }
 
-pub(super) fn single(wi: Vec3, weight: Rgb) -> Option<FollowedLobe> {
-    Some(FollowedLobe { wi, weight, probability: 1.0 })
+pub(super) fn single(wi: Vec3, weight: Rgb) -> Option<SpecularLobe> {
+    Some(SpecularLobe { wi, weight, probability: 1.0 })
 }
 
 /// Cosine-distributed on `wo`'s side.
@@ -33,12 +33,12 @@ pub(super) fn reflect_by_facet(
     wo: Vec3,
     u: Vec2,
     fresnel: impl FnOnce(f32) -> Rgb,
-) -> Option<FollowedLobe> {
+) -> Option<SpecularLobe> {
     let side = 1f32.copysign(wo.z);
     let up = wo * side;
     let h = r.sample(up, u);
     let wi = h * (2.0 * up.dot(h)) - up;
-    (wi.z > 0.0).then(|| FollowedLobe {
+    (wi.z > 0.0).then(|| SpecularLobe {
         wi: wi * side,
         weight: fresnel(up.dot(h)) * r.visible(wi, h),
         probability: 1.0,
@@ -52,6 +52,6 @@ pub(super) fn rough_metal(
     eta: Rgb,
     k: Rgb,
     tint: Rgb,
-) -> Option<FollowedLobe> {
+) -> Option<SpecularLobe> {
     reflect_by_facet(r, wo, u, |cos| fresnel::conductor(cos, eta, k) * tint)
 }

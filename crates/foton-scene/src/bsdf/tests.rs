@@ -90,12 +90,12 @@ fn weights_are_value_times_cosine_over_density() {
                 let Some(sample) = sample else { continue };
                 assert!((sample.wi.length() - 1.0).abs() < 1e-4 && sample.weight.is_finite(), "{s:?} {wo}");
                 let rough_lobe = s.bsdf.roughness().is_some();
-                let delta = sample.lobe != Lobe::Kept && !rough_lobe;
+                let delta = sample.lobe != Lobe::Gathered && !rough_lobe;
                 // Lobes of a smooth coat and its base are weighed apart, and so are those of a thin layer of opacity.
                 if delta || s.opacity < 1.0 || matches!(s.bsdf, Bsdf::Plastic { roughness: None, .. }) {
                     continue;
                 }
-                if matches!(s.bsdf, Bsdf::Plastic { .. }) && s.bsdf.follows() {
+                if matches!(s.bsdf, Bsdf::Plastic { .. }) && s.bsdf.has_specular() {
                     continue;
                 }
                 if sample.wi.z.abs() < 1e-3 {
@@ -135,7 +135,7 @@ fn sampling_brings_the_light_that_the_value_says() {
             }
             let count = f64::from(n);
             if s.bsdf.roughness().is_none() {
-                let lobes = s.followed_lobes(wo, Transport::Radiance, Vec2::splat(0.5));
+                let lobes = s.specular_lobes(wo, Transport::Radiance, Vec2::splat(0.5));
                 b += lobes.iter().flatten().map(|l| f64::from(l.weight.g * g(l.wi))).sum::<f64>() * count;
             }
             let sigma = ((a2 + b2) / count).sqrt() / count.sqrt();
@@ -203,14 +203,14 @@ fn glass_loses_no_power_and_radiance_through_both_faces_is_unscaled() {
     for _ in 0..2000 {
         let wo = warp::square_to_sphere(stream.next_2d());
         let sum: f32 = s
-            .followed_lobes(wo, Transport::Importance, Vec2::ZERO)
+            .specular_lobes(wo, Transport::Importance, Vec2::ZERO)
             .iter()
             .flatten()
             .map(|l| l.weight.r)
             .sum();
         assert!((sum - 1.0).abs() < 1e-6, "{wo}");
-        let [_, Some(entry), _] = s.followed_lobes(wo, Transport::Radiance, Vec2::ZERO) else { continue };
-        let [_, back, _] = s.followed_lobes(entry.wi, Transport::Radiance, Vec2::ZERO);
+        let [_, Some(entry), _] = s.specular_lobes(wo, Transport::Radiance, Vec2::ZERO) else { continue };
+        let [_, back, _] = s.specular_lobes(entry.wi, Transport::Radiance, Vec2::ZERO);
         let back = back.expect("what came in can go out");
         assert!(back.wi.distance(wo) < 2e-4 / wo.z.abs().max(1e-2), "{wo}: {}", back.wi);
         // (1−F)·(η₁/η₂)² on the way in times (1−F)·(η₂/η₁)² on the way out.
@@ -223,7 +223,7 @@ fn glass_loses_no_power_and_radiance_through_both_faces_is_unscaled() {
 fn photons_choose_glass_lobes_in_proportion_to_fresnel() {
     let s = at(glass(None));
     let wo = Vec3::new(0.9, 0.0, 0.19f32.sqrt());
-    let [Some(reflection), ..] = s.followed_lobes(wo, Transport::Importance, Vec2::ZERO) else {
+    let [Some(reflection), ..] = s.specular_lobes(wo, Transport::Importance, Vec2::ZERO) else {
         panic!("reflects")
     };
     let mut stream = Stream::new(9, Purpose::Test, 0, 0);
@@ -245,8 +245,8 @@ fn rough_lobes_become_smooth_ones_as_roughness_vanishes() {
     for (smooth, nearly) in
         [(glass(None), glass(rough(Ggx, 1e-4))), (gold(None), gold(rough(Beckmann, 1e-4)))]
     {
-        let a = at(smooth).followed_lobes(wo, Transport::Radiance, Vec2::splat(0.4));
-        let b = at(nearly).followed_lobes(wo, Transport::Radiance, Vec2::splat(0.4));
+        let a = at(smooth).specular_lobes(wo, Transport::Radiance, Vec2::splat(0.4));
+        let b = at(nearly).specular_lobes(wo, Transport::Radiance, Vec2::splat(0.4));
         for (a, b) in a.iter().zip(&b) {
             match (a, b) {
                 (Some(a), Some(b)) => {
@@ -291,7 +291,7 @@ fn rough_metal_reflects_no_more_than_arrives_whatever_its_shading_normal() {
                             if wo.dot(h) <= 0.0 || wi.z <= 0.0 || wi.dot(true_normal) <= 0.0 {
                                 continue;
                             }
-                            let value = scattering.eval_kept(wo, wi).g * wi.z * 4.0 * wo.dot(h);
+                            let value = scattering.eval_gathered(wo, wi).g * wi.z * 4.0 * wo.dot(h);
                             // dω of a normal is cos³ of its slopes' area.
                             let solid = f64::from(h.z).powi(3) * ring * 2.0 * std::f64::consts::PI;
                             sum += f64::from(value) * solid / f64::from(sectors);

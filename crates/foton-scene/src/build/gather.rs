@@ -76,9 +76,9 @@ impl Gathered {
                 let [from, to] = [from, to].map(|&p| to_scene.point(shape.to_world.transform_point3(p)));
                 let radius = to_scene.length(radius * scale);
                 if radius > 0.0 && from != to {
-                    self.census.tubes += 1;
+                    self.census.cylinders += 1;
                     let radius = if shape.flip_normals { -radius } else { radius };
-                    self.push(index, Primitive::Tube { from, axis: to - from, radius }, None);
+                    self.push(index, Primitive::Cylinder { from, axis: to - from, radius }, None);
                 }
                 Ok(())
             }
@@ -175,7 +175,7 @@ impl Gathered {
             lambertian: Vec::new(),
             emitters: Arc::default(),
             environments: Arc::default(),
-            without_extent: Arc::default(),
+            delta_emitters: Arc::default(),
             emitter_choice: Discrete::default(),
             casters: None,
             sensors: Vec::new(),

@@ -45,16 +45,16 @@ impl Census {
     /// Notes what a material with or without interpolated normals asks for.
     pub(super) fn count(&mut self, material: &Material, smooth: bool) {
         for bsdf in material.bsdfs() {
-            self.shading_normals |= bsdf.keeps() && smooth;
-            self.followed |= bsdf.follows() || material.opacity.is_some();
+            self.shading_normals |= bsdf.gathers() && smooth;
+            self.specular |= bsdf.has_specular() || material.opacity.is_some();
             self.refraction |= bsdf.transmits();
-            self.narrow_gloss |= bsdf.follows() && bsdf.roughness().is_some();
+            self.narrow_gloss |= bsdf.has_specular() && bsdf.roughness().is_some();
             self.single_directions |=
-                bsdf.follows() && bsdf.roughness().is_none() && !matches!(bsdf, Bsdf::Null);
+                bsdf.has_specular() && bsdf.roughness().is_none() && !matches!(bsdf, Bsdf::Null);
             self.straight |=
                 material.opacity.is_some() || matches!(bsdf, Bsdf::Null | Bsdf::ThinDielectric { .. });
             self.rough_coats |= matches!(bsdf, Bsdf::Plastic { roughness: Some(_), .. });
-            self.kept_gloss |= bsdf.keeps() && !matches!(bsdf, Bsdf::Diffuse { .. });
+            self.gathered_gloss |= bsdf.gathers() && !matches!(bsdf, Bsdf::Diffuse { .. });
         }
     }
 }

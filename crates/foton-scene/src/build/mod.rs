@@ -78,7 +78,7 @@ impl Scene {
             let material = material.ok_or_else(|| BuildError::NoMaterial(shape.name.clone()))?;
             let smooth = gathered.vertex_normals[first..].iter().any(|n| n[0] != Vec3::ZERO);
             gathered.census.count(material, smooth);
-            if material.bsdfs().any(Bsdf::follows) {
+            if material.bsdfs().any(Bsdf::has_specular) {
                 casters = gathered.primitives[first..].iter().fold(casters, |b, p| b.union(p.bounds()));
             }
             let emitter = shape.radiance.filter(|r| !r.is_black()).map(|radiance| {
@@ -120,7 +120,7 @@ impl Scene {
         let keeps: Vec<bool> = scene
             .shapes
             .iter()
-            .map(|s| scene.material_of(s).bsdfs().any(|b| b.keeps() || b.roughness().is_some()))
+            .map(|s| scene.material_of(s).bsdfs().any(|b| b.gathers() || b.roughness().is_some()))
             .collect();
         let patches = patches::find(&scene.accel, |i| keeps[scene.shape_of(i) as usize], options)?;
         let coincidences = Coincidences::find(&scene, options)?;
@@ -139,10 +139,10 @@ impl Scene {
         let which = |is_it: &dyn Fn(&Emitter) -> bool| {
             (0u32..).zip(&emitters).filter(|(_, e)| is_it(e)).map(|(i, _)| i).collect()
         };
-        scene.without_extent = which(&Emitter::is_without_extent);
+        scene.delta_emitters = which(&Emitter::is_delta);
         scene.environments = which(&|e| e.is_environment() && !e.power().is_black());
-        scene.census.lights_without_extent |= !scene.without_extent.is_empty();
-        scene.census.lamps |= emitters.iter().any(Emitter::is_lamp);
+        scene.census.delta_emitters |= !scene.delta_emitters.is_empty();
+        scene.census.area_emitters |= emitters.iter().any(Emitter::is_area);
         scene.census.environment |= !scene.environments.is_empty();
         scene.emitter_choice = emitter_choice(&emitters);
         scene.census.emitters = emitters.iter().filter(|e| !e.power().is_black()).count() as u64;

@@ -242,7 +242,7 @@ fn probed(
                 }
             }
         }
-        Primitive::Tube { from, axis, radius } => {
+        Primitive::Cylinder { from, axis, radius } => {
             let Some(unit) = axis.try_normalize() else { return found };
             let frame = Frame::from_normal(unit);
             let step = step_at(from.abs().max((from + axis).abs()).max_element() + radius.abs());
@@ -355,7 +355,7 @@ fn number(
     let normal = |i: usize| match primitives[i] {
         Primitive::Triangle(corners) => crate::plane::triangle_normal(corners),
         Primitive::Disc { normal, .. } => Some(normal),
-        Primitive::Sphere { .. } | Primitive::Tube { .. } => None,
+        Primitive::Sphere { .. } | Primitive::Cylinder { .. } => None,
     };
     let mut patches: Vec<u32> = Vec::new();
     for (i, &(root, _)) in roots.iter().enumerate().filter(|(i, _)| keeps(*i)) {

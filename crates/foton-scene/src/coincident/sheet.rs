@@ -33,7 +33,7 @@ impl Sheet {
                 Self { normal, distance: (p - centre.as_dvec3()).dot(normal) }
             }
             Primitive::Sphere { centre, radius, inward } => around(p - centre.as_dvec3(), radius, inward),
-            Primitive::Tube { from, axis, radius } => {
+            Primitive::Cylinder { from, axis, radius } => {
                 let (from, axis) = (p - from.as_dvec3(), axis.as_dvec3().normalize());
                 around(from - axis * from.dot(axis), radius.abs(), radius < 0.0)
             }
@@ -53,7 +53,7 @@ impl<'a> Face<'a> {
     pub(super) fn of(primitive: &'a Primitive) -> Self {
         let point = match *primitive {
             Primitive::Triangle([point, ..]) | Primitive::Disc { centre: point, .. } => Some(point),
-            Primitive::Sphere { .. } | Primitive::Tube { .. } => None,
+            Primitive::Sphere { .. } | Primitive::Cylinder { .. } => None,
         };
         let plane = point.map(|p| [p.as_dvec3(), Sheet::of(primitive, DVec3::ZERO).normal]);
         Self { primitive, plane }
@@ -74,7 +74,7 @@ impl<'a> Face<'a> {
                 normal.dot(centre.as_dvec3().abs()) + tilt + turned(centre)
             }
             Primitive::Sphere { centre, radius, .. } => f64::from(centre.abs().max_element() + radius),
-            Primitive::Tube { from, axis, radius } => {
+            Primitive::Cylinder { from, axis, radius } => {
                 f64::from(from.abs().max((from + axis).abs()).max_element() + radius.abs())
             }
         }
@@ -106,7 +106,7 @@ pub(super) fn coincide(a: &Face<'_>, b: &Face<'_>) -> bool {
             f64::from(centre.distance(*other)) <= tolerance
                 && f64::from((radius - its_radius).abs()) <= tolerance
         }
-        (Primitive::Tube { axis, .. }, Primitive::Tube { from, axis: other, radius }) => {
+        (Primitive::Cylinder { axis, .. }, Primitive::Cylinder { from, axis: other, radius }) => {
             let across = other.any_orthogonal_vector().normalize() * radius.abs();
             let beside = other.cross(across).normalize() * radius.abs();
             let parallel = axis.normalize().dot(other.normalize()).abs() > PARALLEL as f32;
@@ -151,7 +151,7 @@ fn room(primitive: &Primitive, p: DVec3) -> f64 {
         }),
         Primitive::Disc { centre, radius, .. } => f64::from(radius) - p.distance(centre.as_dvec3()),
         Primitive::Sphere { .. } => f64::INFINITY,
-        Primitive::Tube { from, axis, .. } => {
+        Primitive::Cylinder { from, axis, .. } => {
             let (axis, length) = (axis.as_dvec3().normalize(), f64::from(axis.length()));
             let along = (p - from.as_dvec3()).dot(axis);
             along.min(length - along)
@@ -190,7 +190,7 @@ fn overlap(a: &Face<'_>, b: &Face<'_>) -> bool {
             Primitive::Disc { centre, radius, .. },
             Primitive::Disc { centre: other, radius: its_radius, .. },
         ) => f64::from(centre.distance(other)) + margin >= f64::from(radius) + f64::from(its_radius),
-        (Primitive::Tube { from, axis, .. }, Primitive::Tube { from: start, axis: other, .. }) => {
+        (Primitive::Cylinder { from, axis, .. }, Primitive::Cylinder { from: start, axis: other, .. }) => {
             let (unit, length) = (axis.as_dvec3().normalize(), f64::from(axis.length()));
             let ends = [start, start + other].map(|end| (end - from).as_dvec3().dot(unit));
             ends.iter().all(|&e| e <= margin) || ends.iter().all(|&e| e >= length - margin)

@@ -54,7 +54,7 @@ impl Area {
                 let d = warp::square_to_disc(u) * radius;
                 locate(primitive, Vec2::ZERO, centre + frame.tangent * d.x + frame.bitangent * d.y)
             }
-            Primitive::Tube { from, axis, radius } => {
+            Primitive::Cylinder { from, axis, radius } => {
                 let frame = Frame::from_normal(axis.normalize());
                 let (sin, cos) = (2.0 * PI * u.y).sin_cos();
                 let across = (frame.tangent * cos + frame.bitangent * sin) * radius.abs();

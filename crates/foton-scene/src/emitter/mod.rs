@@ -203,15 +203,9 @@ impl Emitter {
         }
     }
 
-    /// Whether it shines from one point or in one direction, where no path arrives by chance.
-    #[must_use]
-    pub const fn is_without_extent(&self) -> bool {
-        matches!(self.kind, Kind::Point { .. } | Kind::Spot(_) | Kind::Directional { .. })
-    }
-
     /// Whether it is a surface.
     #[must_use]
-    pub const fn is_lamp(&self) -> bool {
+    pub const fn is_area(&self) -> bool {
         matches!(self.kind, Kind::Area(_))
     }
 

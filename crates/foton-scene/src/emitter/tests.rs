@@ -56,7 +56,7 @@ fn as_they_shine() -> Vec<Emitter> {
             scene,
         }),
         emitter(Kind::Environment { map: Box::new(map), scene }),
-        area(vec![Primitive::Tube { from: Vec3::new(-1.0, 0.0, 3.0), axis: Vec3::X * 2.0, radius: 0.4 }]),
+        area(vec![Primitive::Cylinder { from: Vec3::new(-1.0, 0.0, 3.0), axis: Vec3::X * 2.0, radius: 0.4 }]),
     ]
 }
 

@@ -154,7 +154,7 @@ pub enum Change {
 
 /// The picture that frames carry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shown {
+pub enum ViewMode {
     /// All radiance.
     Radiance,
     /// Reflected light of some path classes, in their order, and emitters; the render must keep classes apart.
@@ -224,7 +224,7 @@ pub enum Command {
     /// Changes the scene.
     Edit(Change),
     /// What frames carry.
-    Show(Shown),
+    Show(ViewMode),
     /// Whether frames carry the photons of the last pass.
     ShowPhotons(bool),
     /// The pixel that a person points at.
@@ -238,7 +238,7 @@ pub enum Command {
     /// Writes the render to a checkpoint, and again every half minute and at the end, until it starts anew.
     KeepCheckpoint(PathBuf),
     /// Goes on from a checkpoint of this scene and configuration, whole or by `foton render`.
-    TakeUpCheckpoint(PathBuf),
+    ResumeCheckpoint(PathBuf),
     /// Ends the engine's thread.
     Quit,
 }
@@ -255,7 +255,7 @@ impl Command {
             self,
             Self::Configure(_)
                 | Self::Restart
-                | Self::TakeUpCheckpoint(_)
+                | Self::ResumeCheckpoint(_)
                 | Self::Camera { .. }
                 | Self::ResetCamera
                 | Self::Choose(_)

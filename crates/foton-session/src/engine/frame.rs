@@ -8,7 +8,7 @@ use foton_integrator::{ErrorEstimate, Ledger, PathClass, Radii, RenderSettings};
 use foton_math::Rgb;
 use foton_scene::BuildStep;
 
-use super::command::Shown;
+use super::command::ViewMode;
 use crate::clock::StageTimes;
 use crate::edit::{Inspection, Segment, Target};
 use crate::stop::StopRule;
@@ -184,7 +184,7 @@ pub struct Frame {
     /// The picture; smaller than `size` while things move.
     pub picture: Option<Picture>,
     /// What the picture shows.
-    pub shown: Shown,
+    pub shown: ViewMode,
     /// The numbers.
     pub numbers: Numbers,
     /// The settings as they are now.

@@ -76,8 +76,8 @@ impl Worker {
 
     /// Takes up the checkpoint that was asked for in a render that has just started whole. One that does not fit is not taken:
     /// the render then begins at its first pass.
-    pub(super) fn take_up(&mut self, mut render: LevelRender) -> Option<LevelRender> {
-        let Some(path) = self.taking_up.take() else { return Some(render) };
+    pub(super) fn resume_in(&mut self, mut render: LevelRender) -> Option<LevelRender> {
+        let Some(path) = self.resuming.take() else { return Some(render) };
         let taken = self.named_by_its_file().and_then(|scene| {
             checkpoint::resume(&path, render.session_mut(), &scene).map_err(|error| error.to_string())
         });

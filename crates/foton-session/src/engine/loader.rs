@@ -13,7 +13,7 @@ use foton_scene::{BuildError, BuildOptions, BuildStep, Scene};
 
 use super::command::Source;
 use crate::metadata::SceneIdentity;
-use crate::panic::contained;
+use crate::panic::catch_panic;
 
 /// A scene and what its file asks for.
 #[derive(Clone, Debug)]
@@ -113,7 +113,7 @@ fn open(
     let name = source.to_string();
     let work = || open_and_build(loader, source, at, cancel);
     let result =
-        contained(work).unwrap_or_else(|message| Err(format!("{name}: foton has a fault: {message}")));
+        catch_panic(work).unwrap_or_else(|message| Err(format!("{name}: foton has a fault: {message}")));
     // Nobody listens any more when opening was cancelled.
     let _ = sender.send(result);
 }

@@ -25,7 +25,7 @@ use std::time::{Duration, Instant};
 use crossbeam_channel::{Receiver, Sender, bounded};
 use foton_integrator::Cancel;
 
-pub use command::{Change, Command, Configuration, ErrorPart, Event, Gesture, Shown, Source};
+pub use command::{Change, Command, Configuration, ErrorPart, Event, Gesture, Source, ViewMode};
 pub use foton_scene::BuildStep;
 pub use frame::{Activity, Dot, Frame, Numbers, Picture, Probe, SceneFacts, Selection, SensorFacts};
 pub use loader::{Loaded, Loader};

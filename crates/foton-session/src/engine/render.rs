@@ -11,7 +11,7 @@ use foton_scene::Scene;
 use foton_scene::description::SensorDescription;
 use rayon::ThreadPool;
 
-use super::command::{ErrorPart, Shown};
+use super::command::{ErrorPart, ViewMode};
 use super::frame::{Numbers, Picture};
 use super::rates::{Mark, Rates};
 use crate::session::{PassError, Session, StartError};
@@ -190,7 +190,7 @@ impl LevelRender {
     }
 
     /// The picture as it stands; radiance where what is asked for is not kept.
-    pub(super) fn picture(&self, shown: Shown) -> Picture {
+    pub(super) fn picture(&self, shown: ViewMode) -> Picture {
         let render = self.render();
         let measure = |label, values: Vec<f32>| {
             let image = &render.scene().sensors()[render.settings().sensor];
@@ -198,22 +198,22 @@ impl LevelRender {
             Picture::Measure { label, plane: Arc::new(plane) }
         };
         match shown {
-            Shown::Radiance => Picture::Colour(Arc::new(render.image())),
-            Shown::Classes { reflected, emission } => {
+            ViewMode::Radiance => Picture::Colour(Arc::new(render.image())),
+            ViewMode::Classes { reflected, emission } => {
                 Picture::Colour(Arc::new(classes(render, reflected, emission)))
             }
-            Shown::Radius => measure("radius (world units)", render.mean_radii()),
-            Shown::PhotonCount => {
+            ViewMode::Radius => measure("radius (world units)", render.mean_radii()),
+            ViewMode::PhotonCount => {
                 measure("photons found", render.photons_found().into_iter().map(|n| n as f32).collect())
             }
-            Shown::Luminance => {
+            ViewMode::Luminance => {
                 measure("luminance (W/m²/sr)", render.image().pixels.iter().map(|c| c.luminance()).collect())
             }
-            Shown::Unknown => measure("hit points without a photon", render.unknown_share()),
-            Shown::Error(part) => {
+            ViewMode::Unknown => measure("hit points without a photon", render.unknown_share()),
+            ViewMode::Error(part) => {
                 let (label, kind) = match part {
                     ErrorPart::Noise => ("noise (W/m²/sr)", LayerKind::ErrorNoise),
-                    ErrorPart::Bias => ("blur (W/m²/sr)", LayerKind::ErrorBias),
+                    ErrorPart::Bias => ("bias (W/m²/sr)", LayerKind::ErrorBias),
                     ErrorPart::Total => ("error (W/m²/sr)", LayerKind::ErrorTotal),
                 };
                 render

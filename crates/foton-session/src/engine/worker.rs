@@ -12,7 +12,7 @@ use foton_integrator::{Cancel, RenderSettings};
 use foton_scene::Scene;
 use rayon::ThreadPool;
 
-use super::command::{Change, Command, Configuration, Event, Shown};
+use super::command::{Change, Command, Configuration, Event, ViewMode};
 use super::frame::{Frame, Picture};
 use super::kept::Kept;
 use super::loader::{Opening, Ready};
@@ -20,7 +20,7 @@ use super::render::{Level, LevelRender};
 use super::setup::Setup;
 use super::slot::NewestSender;
 use super::stage::{Effect, Stage};
-use crate::panic::{Panic, contained};
+use crate::panic::{Panic, catch_panic};
 use crate::session::{PassError, Session, StartError};
 use crate::stop::StopRule;
 use crate::threads::{self, Rank};
@@ -69,13 +69,13 @@ pub(super) struct Worker {
     /// A render that cannot start is not tried again until something changes.
     refused: bool,
     last_pass: Duration,
-    shown: Shown,
+    shown: ViewMode,
     show_photons: bool,
     probed: Option<[u32; 2]>,
     auto_snapshots: Option<PathBuf>,
     pub(super) kept: Option<Kept>,
     /// The checkpoint that the next whole render goes on from.
-    pub(super) taking_up: Option<PathBuf>,
+    pub(super) resuming: Option<PathBuf>,
     frames: u64,
     /// The whole picture as it last was: kept while the next render has none.
     picture: Option<Picture>,
@@ -111,12 +111,12 @@ impl Worker {
             moving: false,
             refused: false,
             last_pass: Duration::ZERO,
-            shown: Shown::Radiance,
+            shown: ViewMode::Radiance,
             show_photons: false,
             probed: None,
             auto_snapshots: None,
             kept: None,
-            taking_up: None,
+            resuming: None,
             frames: 0,
             picture: None,
             pictured: 0,
@@ -152,7 +152,7 @@ impl Worker {
 
     /// Does work; a fault of our own in it ends the render, not the window, which keeps its last picture and says why.
     fn guarded(&mut self, work: impl FnOnce(&mut Self)) {
-        if let Err(message) = contained(|| work(self)) {
+        if let Err(message) = catch_panic(|| work(self)) {
             self.render = None;
             self.refuse(Panic { stage: None, message }.to_string());
         }
@@ -237,9 +237,9 @@ impl Worker {
             Command::AutoSnapshots(folder) => self.auto_snapshots = folder,
             Command::SaveScene(path) => self.save_scene(&path),
             Command::KeepCheckpoint(path) => self.keep(&path),
-            Command::TakeUpCheckpoint(path) => {
+            Command::ResumeCheckpoint(path) => {
                 self.restart();
-                self.taking_up = Some(path);
+                self.resuming = Some(path);
             }
             Command::Quit => {}
         }
@@ -259,7 +259,7 @@ impl Worker {
 
     fn restart(&mut self) {
         self.let_go();
-        self.taking_up = None;
+        self.resuming = None;
         self.render = None;
         self.render_number += 1;
         self.refused = false;
@@ -391,7 +391,7 @@ impl Worker {
         match started {
             Some(Ok(Some(render))) => {
                 self.unseen = true;
-                self.render = if render.is_whole() { self.take_up(render) } else { Some(render) };
+                self.render = if render.is_whole() { self.resume_in(render) } else { Some(render) };
             }
             Some(Ok(None)) => return,
             Some(Err(message)) => return self.refuse(message),

@@ -39,7 +39,7 @@ fn what_is_kept_is_taken_up_with_the_same_bits_and_written_at_the_end() {
     let (other, first) = Rig::at_pass(1);
     other.send(Command::StopAt(StopRule::passes(5)));
     other.done(5);
-    other.send(Command::TakeUpCheckpoint(path));
+    other.send(Command::ResumeCheckpoint(path));
     let after = other.until("the rest", |f: &Frame| f.render != first.render && f.numbers.passes == 5);
     let straight = headless(5, settings(), |_, _| ());
     assert_eq!(*image(&after), straight.render().image());
@@ -56,7 +56,7 @@ fn a_checkpoint_of_any_age_is_resumed() {
         checkpoint::write(&path, two.render(), elapsed, 0, &identity()).expect("written");
         let (rig, first) = Rig::at_pass(1);
         rig.send(Command::StopAt(StopRule::passes(9)));
-        rig.send(Command::TakeUpCheckpoint(path.clone()));
+        rig.send(Command::ResumeCheckpoint(path.clone()));
         let after = rig.until("the rest", |f| f.render != first.render && f.numbers.passes == 9);
         assert_eq!(*image(&after), headless(9, settings(), |_, _| ()).render().image());
         // What the checkpoint brings was not made in this window.
@@ -91,7 +91,7 @@ fn edited_scenes_and_other_files_are_refused_and_the_render_goes_on() {
     let path = folder.0.join("room.checkpoint");
     std::fs::write(&path, "not one").expect("written");
     let (rig, before) = Rig::at_pass(2);
-    rig.send(Command::TakeUpCheckpoint(path.clone()));
+    rig.send(Command::ResumeCheckpoint(path.clone()));
     assert!(failure(&rig).contains("this is no checkpoint"));
     let after = rig.until("a render all the same", |f| f.render != before.render && f.numbers.passes == 2);
     assert_eq!(image(&after), image(&before));

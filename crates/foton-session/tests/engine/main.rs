@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use foton_integrator::PpmSettings;
-use foton_session::engine::{Activity, Command, Configuration, Event, Picture, Shown};
+use foton_session::engine::{Activity, Command, Configuration, Event, Picture, ViewMode};
 use foton_session::snapshot::{self, Format};
 use foton_session::{Alpha, DirectLight, RenderSettings, SettingChange, StopRule};
 use rig::{Folder, Rig, SIZE, headless, identity, image, settings};
@@ -228,7 +228,7 @@ fn an_image_of_32768_by_32768_is_refused_with_the_numbers() {
 #[test]
 fn measures_and_kinds_of_light_are_shown_instead_of_radiance() {
     let (rig, before) = Rig::at_pass(2);
-    for shown in [Shown::Radius, Shown::PhotonCount, Shown::Luminance, Shown::Unknown] {
+    for shown in [ViewMode::Radius, ViewMode::PhotonCount, ViewMode::Luminance, ViewMode::Unknown] {
         rig.send(Command::Show(shown));
         let frame = rig.until("a measure", |f| f.shown == shown);
         let Some(Picture::Measure { plane, .. }) = &frame.picture else { panic!("{shown:?} in colours") };
@@ -237,7 +237,7 @@ fn measures_and_kinds_of_light_are_shown_instead_of_radiance() {
     }
     let layers = Configuration { layers: true, ..Configuration::of(&before.settings, before.threads) };
     rig.send(Command::Configure(layers));
-    let one = |i: usize| Shown::Classes { reflected: std::array::from_fn(|k| k == i), emission: false };
+    let one = |i: usize| ViewMode::Classes { reflected: std::array::from_fn(|k| k == i), emission: false };
     let mut sum = vec![0.0; image(&before).pixels.len()];
     for i in 0..3 {
         rig.send(Command::Show(one(i)));

@@ -38,10 +38,10 @@ impl Glossy<'_> {
     pub(super) fn looked_up(&self, u: (f32, f32, Vec2), stream: &mut Stream, rays: &mut u64) -> Rgb {
         let census = self.scene.census();
         let mut sum = Rgb::BLACK;
-        if census.lights_without_extent {
-            sum += self.without_extent(stream, rays);
+        if census.delta_emitters {
+            sum += self.delta_emitters(stream, rays);
         }
-        if census.lamps {
+        if census.area_emitters {
             sum += self.lamp(u, rays);
         }
         sum
@@ -49,19 +49,19 @@ impl Glossy<'_> {
 
     /// Of two ways to find a lamp, the share of following a lobe with the given density (sr⁻¹) into it from `position`.
     pub(super) fn share_of_following(scene: &Scene, lamp: &Surface, position: Vec3, density: f32) -> f32 {
-        let looking = scene.lamp_density(lamp, position);
+        let looking = scene.area_emitter_pdf(lamp, position);
         if looking > 0.0 { density / (density + looking) } else { 1.0 }
     }
 
-    fn without_extent(&self, stream: &mut Stream, rays: &mut u64) -> Rgb {
-        let (emitters, found) = (self.scene.emitters(), self.scene.emitters_without_extent());
+    fn delta_emitters(&self, stream: &mut Stream, rays: &mut u64) -> Rgb {
+        let (emitters, found) = (self.scene.emitters(), self.scene.delta_emitters());
         if found.len() <= MAX {
             return found.iter().map(|&i| self.look_at(i as usize, (0.0, Vec2::ZERO), |_| 1.0, rays)).sum();
         }
         let mut sum = Rgb::BLACK;
         for _ in 0..MAX {
             if let Some((i, chance)) = self.scene.choose_emitter(f64::from(stream.next_1d()))
-                && emitters[i].is_without_extent()
+                && emitters[i].is_delta()
             {
                 sum += self.look_at(i, (0.0, Vec2::ZERO), |_| 1.0, rays) / (MAX as f32 * chance as f32);
             }
@@ -71,7 +71,7 @@ impl Glossy<'_> {
 
     fn lamp(&self, (u_emitter, u_part, u): (f32, f32, Vec2), rays: &mut u64) -> Rgb {
         let Some((i, chance)) = self.scene.choose_emitter(f64::from(u_emitter)) else { return Rgb::BLACK };
-        if !self.scene.emitters()[i].is_lamp() {
+        if !self.scene.emitters()[i].is_area() {
             return Rgb::BLACK;
         }
         let chance = chance as f32;
@@ -92,12 +92,12 @@ impl Glossy<'_> {
         let at = emitter.illuminate(self.surface.position, self.surface.normal, u_part, u);
         let Some(light) = at else { return Rgb::BLACK };
         let wi = self.frame.to_local(light.direction);
-        let following = self.scattering.density_followed(self.wo, wi);
-        if emitter.is_lamp() && following <= 0.0 {
+        let following = self.scattering.pdf_specular(self.wo, wi);
+        if emitter.is_area() && following <= 0.0 {
             // Glass: its lobes find lamps by following alone.
             return Rgb::BLACK;
         }
-        let value = self.scattering.eval_followed(self.wo, wi) * wi.z.abs();
+        let value = self.scattering.eval_specular(self.wo, wi) * wi.z.abs();
         let reflects = wi.z * self.wo.z > 0.0;
         if value.is_black()
             || leaves_wrongly(self.surface, self.frame.to_outer(self.wo), light.direction, reflects)
@@ -107,7 +107,7 @@ impl Glossy<'_> {
         let origin = self.surface.ray_origin(light.direction);
         let t_max = light.distance * (1.0 - SHORTENED);
         let ray = Ray { origin, direction: light.direction, t_min: 0.0, t_max };
-        let passed = if emitter.is_lamp() {
+        let passed = if emitter.is_area() {
             // Followed paths find it behind what they pass straight through, and weigh it there by itself.
             *rays += 1;
             if self.scene.occluded(ray) { Rgb::BLACK } else { Rgb::WHITE }

@@ -26,7 +26,7 @@ pub struct HitPoint {
     /// The squared radius below which it does not shrink.
     pub smallest2: f32,
     /// The most edges that a photon's path may have here.
-    pub budget: u8,
+    pub remaining_edges: u8,
     /// See [`Surface::patch_towards`](foton_scene::Surface::patch_towards).
     pub patch: u8,
 }
@@ -49,9 +49,9 @@ impl Gloss {
     pub fn eval(&self, wi: Vec3) -> Rgb {
         let wi = self.frame.to_local(wi);
         if self.narrow {
-            self.scattering.eval_followed(self.wo, wi)
+            self.scattering.eval_specular(self.wo, wi)
         } else {
-            self.scattering.eval_kept(self.wo, wi)
+            self.scattering.eval_gathered(self.wo, wi)
         }
     }
 }

@@ -25,11 +25,11 @@ const SURVIVAL: f32 = 0.9;
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Part {
     /// The lobes that spread light.
-    Kept,
+    Gathered,
     /// Narrow lobes that the path follows as well, lit from its own side: for photons that it cannot find the light of.
-    Followed,
+    Specular,
     /// The same, lit from the other side, through rough glass.
-    FollowedBehind,
+    SpecularBehind,
 }
 
 /// An eye path that goes on.
@@ -141,10 +141,10 @@ impl<'a, 'b> Walk<'a, 'b> {
             return;
         }
         let distance = branch.distance + (surface.position - branch.ray.origin).length();
-        if scattering.bsdf.keeps() {
-            self.store(&branch, &surface, &scattering, distance, Part::Kept);
+        if scattering.bsdf.gathers() {
+            self.store(&branch, &surface, &scattering, distance, Part::Gathered);
         }
-        if scattering.bsdf.follows() || scattering.opacity < 1.0 {
+        if scattering.bsdf.has_specular() || scattering.opacity < 1.0 {
             self.follow_lobes(&branch, &surface, &scattering, distance);
         }
     }
@@ -163,7 +163,7 @@ impl<'a, 'b> Walk<'a, 'b> {
             None => {
                 let normal = shading_normal_towards(surface, wo);
                 let frame = self.pass.scene.shading_frame(surface, normal);
-                let narrow = part != Part::Kept;
+                let narrow = part != Part::Gathered;
                 let gloss = Gloss { scattering: *scattering, frame, wo: frame.to_local(wo), narrow };
                 self.paths.gloss.push(gloss);
                 (branch.weight, Some(self.paths.gloss.len() as u32 - 1))
@@ -172,7 +172,7 @@ impl<'a, 'b> Walk<'a, 'b> {
         if weight.is_black() || !self.is_finite(weight, surface) {
             return;
         }
-        let behind = if part == Part::FollowedBehind { -1.0 } else { 1.0 };
+        let behind = if part == Part::SpecularBehind { -1.0 } else { 1.0 };
         let side = behind * 1f32.copysign(wo.dot(surface.normal));
         let normal = surface.normal * side;
         let (radius2, smallest2) = self.pass.radius.first_and_smallest2(
@@ -192,7 +192,7 @@ impl<'a, 'b> Walk<'a, 'b> {
             smallest2,
             patch: surface.patch_towards(side > 0.0),
             slab2: slab2(surface),
-            budget: (self.pass.max_depth - branch.edges).min(255) as u8,
+            remaining_edges: (self.pass.max_depth - branch.edges).min(255) as u8,
         });
     }
 
@@ -236,11 +236,11 @@ impl<'a, 'b> Walk<'a, 'b> {
             Some(_) => Some(self.facet.take().unwrap_or_else(|| self.stream.next_2d())),
             None => None,
         };
-        if self.pass.scene.census().has_narrow_caustics() && scattering.follows_narrow_lobes() {
+        if self.pass.scene.census().has_narrow_caustics() && scattering.has_narrow_specular() {
             let lit = Branch { weight, ..*branch };
-            self.store(&lit, surface, scattering, distance, Part::Followed);
+            self.store(&lit, surface, scattering, distance, Part::Specular);
             if scattering.bsdf.transmits() {
-                self.store(&lit, surface, scattering, distance, Part::FollowedBehind);
+                self.store(&lit, surface, scattering, distance, Part::SpecularBehind);
             }
         }
         let looks = self.pass.scene.census().has_narrow_highlights() && facet.is_some();
@@ -253,7 +253,7 @@ impl<'a, 'b> Walk<'a, 'b> {
             self.see(highlight, surface.position, Some(surface.shape));
         }
         let facet = facet.unwrap_or_default();
-        let lobes = scattering.followed_lobes(local, Transport::Radiance, facet);
+        let lobes = scattering.specular_lobes(local, Transport::Radiance, facet);
         let count = lobes.iter().flatten().count() as u32;
         let split = branch.edges <= SPLIT_EDGES
             && weight.max_component() > SPLIT_WEIGHT
@@ -261,10 +261,10 @@ impl<'a, 'b> Walk<'a, 'b> {
         let single;
         let chosen: &[_] = if split || count < 2 {
             // What is kept here and each lobe beyond the first is one more end.
-            self.leaves += (count + u32::from(scattering.bsdf.keeps())).saturating_sub(1);
+            self.leaves += (count + u32::from(scattering.bsdf.gathers())).saturating_sub(1);
             &lobes
         } else {
-            let lobe = scattering.choose_followed(local, Transport::Radiance, self.stream.next_1d(), facet);
+            let lobe = scattering.choose_specular(local, Transport::Radiance, self.stream.next_1d(), facet);
             single = [lobe.map(|mut l| {
                 l.weight = l.weight / l.probability;
                 l
@@ -284,7 +284,7 @@ impl<'a, 'b> Walk<'a, 'b> {
                 weight,
                 edges: branch.edges + 1,
                 distance,
-                density: if is_sampled { scattering.density_followed(local, lobe.wi) } else { 0.0 },
+                density: if is_sampled { scattering.pdf_specular(local, lobe.wi) } else { 0.0 },
             });
         }
     }

@@ -46,7 +46,7 @@ impl PhotonPass<'_> {
             direction: Frame::from_normal(normal).to_outer(wi).normalize(),
             weight: reflectance,
             normal,
-            lobe: Lobe::Kept,
+            lobe: Lobe::Gathered,
             reflects: true,
         };
         self.send_on(path, stored, surface, &leaving, draw.survival, chunk, next);
@@ -68,7 +68,7 @@ impl PhotonPass<'_> {
             chunk.ledger.absorbed += energy(path.power);
             return path.stored;
         };
-        let counts = scattering.bsdf.keeps() || path.lone && scattering.follows_narrow_lobes();
+        let counts = scattering.bsdf.gathers() || path.lone && scattering.has_narrow_specular();
         let stored = if counts { self.store(path, surface, wo, chunk) } else { path.stored };
         let normal = shading_normal_towards(surface, wo);
         let frame = self.scene.shading_frame(surface, normal);
@@ -107,7 +107,7 @@ impl PhotonPass<'_> {
     ) {
         let wo = -path.ray.direction;
         let &Leaving { direction, weight, normal, lobe, reflects } = leaving;
-        let followed = lobe != Lobe::Kept;
+        let followed = lobe != Lobe::Gathered;
         let scattered = path.power * weight;
         let correction = if !followed && leaves_wrongly(surface, wo, direction, reflects) {
             0.0
@@ -162,12 +162,12 @@ impl PhotonPass<'_> {
     /// Whether the photon is one that [`Photon::is_lone`] means after one more lobe.
     fn stays_lone(&self, path: &Path, lobe: Lobe) -> bool {
         match lobe {
-            Lobe::Kept | Lobe::Narrow => false,
+            Lobe::Gathered | Lobe::Narrow => false,
             Lobe::Straight => path.lone,
             Lobe::Single => {
                 path.lone
                     || path.class == PathClass::Direct
-                        && self.scene.emitters()[path.emitter as usize].is_without_extent()
+                        && self.scene.emitters()[path.emitter as usize].is_delta()
             }
         }
     }

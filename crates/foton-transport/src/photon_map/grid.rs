@@ -269,7 +269,7 @@ mod tests {
             radius2: radius * radius,
             slab2: 1.0,
             smallest2: 0.0,
-            budget: 9,
+            remaining_edges: 9,
             patch: 0,
         }
     }

@@ -26,9 +26,9 @@ pub struct Packet {
     pub radius2: [f32; LANES],
     /// See [`HitPoint::slab2`].
     pub slab2: [f32; LANES],
-    /// See [`HitPoint::budget`].
-    pub budget: [i32; LANES],
-    /// [`HitPoint::patch`], above the bits of the budget.
+    /// See [`HitPoint::remaining_edges`].
+    pub remaining_edges: [i32; LANES],
+    /// [`HitPoint::patch`], above the bits of the remaining_edges.
     pub patch: [i32; LANES],
 }
 
@@ -51,13 +51,13 @@ impl Packet {
             normal: rows(members.clone().map(|h| h.normal / 127.0)),
             radius2: [-1.0; LANES],
             slab2: [0.0; LANES],
-            budget: [0; LANES],
+            remaining_edges: [0; LANES],
             patch: [0; LANES],
         };
         for (lane, h) in members.enumerate() {
             packet.radius2[lane] = h.radius2;
             packet.slab2[lane] = h.slab2;
-            packet.budget[lane] = i32::from(h.budget);
+            packet.remaining_edges[lane] = i32::from(h.remaining_edges);
             packet.patch[lane] = patch_mark(h.patch);
         }
         packet
@@ -183,7 +183,7 @@ mod tests {
                     gloss: None,
                     radius2: 4.0,
                     slab2: 1.0,
-                    budget: 9,
+                    remaining_edges: 9,
                     patch: 0,
                     smallest2: 0.0,
                 }

@@ -149,11 +149,11 @@ mod tests {
     #[test]
     fn classes_follow_the_path() {
         use PathClass::{Caustic, Direct, Indirect};
-        use foton_scene::Lobe::{Kept, Narrow, Single, Straight};
+        use foton_scene::Lobe::{Gathered, Narrow, Single, Straight};
         assert_eq!(Direct.scattered(Single), Caustic);
         assert_eq!(Caustic.scattered(Narrow), Caustic);
-        assert_eq!(Caustic.scattered(Kept), Indirect);
-        assert_eq!(Direct.scattered(Kept).scattered(Single), Indirect);
+        assert_eq!(Caustic.scattered(Gathered), Indirect);
+        assert_eq!(Direct.scattered(Gathered).scattered(Single), Indirect);
         for class in PathClass::ALL {
             assert_eq!(class.scattered(Straight), class);
         }

@@ -200,8 +200,8 @@ fn memory_does_not_grow_with_photons_beyond_a_batch() {
 fn batches_end_when_passes_are_small_again() {
     let mut ppm = start(settings(), MAX);
     advance(&mut ppm);
-    assert!(!ppm.kept.counts.is_empty());
+    assert!(!ppm.earlier.counts.is_empty());
     let ppm = &mut ppm.with_batches_of(u64::MAX);
     advance(ppm);
-    assert!(ppm.kept.bytes() == 0, "what one batch needs is no more than before");
+    assert!(ppm.earlier.bytes() == 0, "what one batch needs is no more than before");
 }

@@ -17,7 +17,7 @@ use foton_math::Rgb;
 use foton_session::edit::{Control, Field, FieldId, Inspection, MaterialUse, Property, Side, Target, Value};
 use foton_session::engine::{
     Activity, BuildStep, Command, Configuration, Event, Frame, Numbers, Picture, SceneFacts, Selection,
-    SensorFacts, Shown, Source,
+    SensorFacts, Source, ViewMode,
 };
 use foton_session::{
     Alpha, DirectLight, Ledger, RadiusFloor, RadiusRule, RenderSettings, SettingChange, StopRule,
@@ -48,7 +48,7 @@ fn frame() -> Frame {
         building: None,
         size: SIZE,
         picture: Some(Picture::Colour(Arc::new(image))),
-        shown: Shown::Radiance,
+        shown: ViewMode::Radiance,
         numbers: Numbers {
             passes: 12,
             photons: 3_000_000,
@@ -334,7 +334,7 @@ fn lists_choose_what_is_shown_and_how() {
     assert_eq!(asked(&mut harness), [""; 0], "nothing is rendered anew");
     assert_eq!(harness.state().tone_map, ToneMap::AgX);
     choose(&mut harness, "Show", "Radius");
-    assert_asked(&mut harness, &Command::Show(Shown::Radius));
+    assert_asked(&mut harness, &Command::Show(ViewMode::Radius));
     assert!(harness.query_by_role_and_label(Role::Slider, "Exposure").is_none(), "measures are not exposed");
 }
 
@@ -343,12 +343,12 @@ fn kinds_of_light_are_switched_and_kept_apart_from_then_on() {
     let mut harness = window(|_| ());
     click(&mut harness, Role::Button, "Light");
     click(&mut harness, Role::CheckBox, "Caustic");
-    let shown = Shown::Classes { reflected: [true, false, true], emission: true };
+    let shown = ViewMode::Classes { reflected: [true, false, true], emission: true };
     let layers = Configuration { layers: true, ..Configuration::of(&RenderSettings::default(), None) };
     let expected = [Command::Show(shown), Command::Configure(layers)].map(|c| format!("{c:?}"));
     assert_eq!(asked(&mut harness), expected);
     click(&mut harness, Role::CheckBox, "Caustic");
-    assert_asked(&mut harness, &Command::Show(Shown::Radiance));
+    assert_asked(&mut harness, &Command::Show(ViewMode::Radiance));
 }
 
 #[test]
@@ -419,7 +419,7 @@ fn checkpoints_are_kept_and_taken_up_by_the_file_dialog() {
     harness.event(egui::Event::Text(path.display().to_string()));
     settle(&mut harness);
     click(&mut harness, Role::Button, "Open");
-    assert_asked(&mut harness, &Command::TakeUpCheckpoint(path));
+    assert_asked(&mut harness, &Command::ResumeCheckpoint(path));
     std::fs::remove_dir_all(folder).expect("removed");
 }
 

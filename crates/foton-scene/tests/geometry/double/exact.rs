@@ -13,7 +13,7 @@ pub(super) enum Exact {
     Triangle([DVec3; 3]),
     Sphere { centre: DVec3, radius: f64 },
     Disc { centre: DVec3, normal: DVec3, radius: f64 },
-    Tube { from: DVec3, axis: DVec3, radius: f64 },
+    Cylinder { from: DVec3, axis: DVec3, radius: f64 },
 }
 
 pub(super) const KINDS: [&str; 4] = ["triangle", "sphere", "disc", "tube"];
@@ -62,7 +62,7 @@ impl Exact {
             Geometry::Cylinder { from, to, radius } => {
                 let [from, to] = [from, to].map(|&p| units.point(shape.to_world.transform_point3(p)));
                 let radius = length(radius * m.x_axis.length());
-                Self::Tube { from: from.as_dvec3(), axis: (to - from).as_dvec3(), radius }
+                Self::Cylinder { from: from.as_dvec3(), axis: (to - from).as_dvec3(), radius }
             }
         }
     }
@@ -92,7 +92,7 @@ impl Exact {
                 let r = radius * if outermost { 1.0 } else { v.sqrt() };
                 centre + (across.0 * angle.cos() + across.1 * angle.sin()) * r
             }
-            Self::Tube { from, axis, radius } => {
+            Self::Cylinder { from, axis, radius } => {
                 let across = axis.normalize().any_orthonormal_pair();
                 let angle = u * std::f64::consts::TAU;
                 let along = if outermost { v.round() } else { v };
@@ -107,7 +107,7 @@ impl Exact {
         let middle = match *self {
             Self::Triangle([a, b, c]) => (a + b + c) / 3.0,
             Self::Sphere { centre, .. } | Self::Disc { centre, .. } => centre,
-            Self::Tube { from, axis, .. } => from + axis * 0.5,
+            Self::Cylinder { from, axis, .. } => from + axis * 0.5,
         };
         let side = if stream.next_1d() < 0.3 { 1.0 } else { -1.0 };
         middle + (point - middle) * (1.0 + side * log_uniform([1e-6, 0.1], stream))
@@ -119,7 +119,7 @@ impl Exact {
             Self::Triangle([a, b, c]) => (b - a).cross(c - a).normalize(),
             Self::Sphere { centre, .. } => (point - centre).normalize(),
             Self::Disc { normal, .. } => normal.normalize(),
-            Self::Tube { from, axis, .. } => {
+            Self::Cylinder { from, axis, .. } => {
                 let unit = axis.normalize();
                 let p = point - from;
                 (p - unit * p.dot(unit)).normalize()
@@ -133,7 +133,7 @@ impl Exact {
             Self::Triangle([a, ..]) => (point - a).dot(self.normal(point)),
             Self::Sphere { centre, radius } => point.distance(centre) - radius,
             Self::Disc { centre, normal, .. } => (point - centre).dot(normal.normalize()),
-            Self::Tube { from, axis, radius } => {
+            Self::Cylinder { from, axis, radius } => {
                 let unit = axis.normalize();
                 let p = point - from;
                 (p - unit * p.dot(unit)).length() - radius
@@ -169,7 +169,7 @@ impl Exact {
                 let t = (centre - origin).dot(normal) / d.dot(normal);
                 add(t, 1.0 - (origin + d * t).distance(centre) / radius, d.dot(normal.normalize()));
             }
-            Self::Tube { from, axis, radius } => {
+            Self::Cylinder { from, axis, radius } => {
                 let unit = axis.normalize();
                 let across = |v: DVec3| v - unit * v.dot(unit);
                 let (p, q) = (across(origin - from), across(d));

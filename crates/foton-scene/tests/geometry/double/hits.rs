@@ -65,7 +65,7 @@ fn compare(Pair { exact, scene }: &Pair, ray: Ray, found: &mut Found) {
     // A step at the origin moves the line by as much.
     let size = match *exact {
         Exact::Triangle([a, b, c]) => a.distance(b).max(b.distance(c)).max(c.distance(a)),
-        Exact::Sphere { radius, .. } | Exact::Disc { radius, .. } | Exact::Tube { radius, .. } => radius,
+        Exact::Sphere { radius, .. } | Exact::Disc { radius, .. } | Exact::Cylinder { radius, .. } => radius,
     };
     let reach = crossings.first().map_or(0.0, |c| c.t);
     // Seen edge-on, an outline moves by the step over the cosine.

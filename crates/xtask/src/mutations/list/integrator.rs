@@ -23,7 +23,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "of narrow lobes photons bring nothing that followed paths find",
         file: "crates/foton-transport/src/light_paths/scatter.rs",
-        from: "&& self.scene.emitters()[path.emitter as usize].is_without_extent()",
+        from: "&& self.scene.emitters()[path.emitter as usize].is_delta()",
         to: "",
         target: SURFACES,
         test: "photons_in_narrow_gloss_bring_only_what_followed_paths_cannot",
@@ -47,8 +47,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "N is double precision",
         file: "crates/foton-integrator/src/ppm/statistics.rs",
-        from: "self.kept = n + alpha * m;",
-        to: "self.kept = f64::from((n + alpha * m) as f32);",
+        from: "self.accumulated = n + alpha * m;",
+        to: "self.accumulated = f64::from((n + alpha * m) as f32);",
         target: INTEGRATOR,
         test: "constant_counts_follow_their_gamma_formula_over_a_million_passes",
     },
@@ -63,7 +63,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "what earlier batches say of radii is added",
         file: "crates/foton-integrator/src/ppm/slots.rs",
-        from: "found.shape.squares[l] += squares;",
+        from: "found.disc.squares[l] += squares;",
         to: "",
         target: INTEGRATOR,
         test: "radii_that_adapt_do_so_by_all_batches_of_a_pass",
@@ -167,8 +167,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "photons of another surface do not count",
         file: "crates/foton-integrator/src/ppm/lanes.rs",
-        from: "edges ^ packet.patch[l] <= packet.budget[l]",
-        to: "(edges & 255) <= packet.budget[l]",
+        from: "edges ^ packet.patch[l] <= packet.remaining_edges[l]",
+        to: "(edges & 255) <= packet.remaining_edges[l]",
         target: ANALYTIC,
         test: "a_card_above_a_floor_has_its_own_light_and_so_has_the_floor",
     },
