@@ -1,15 +1,14 @@
 //! `foton render`: one scene to one image, and to more on the way.
 
-use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
 use foton_film::{check_writable, write_spare};
-use foton_format::{Opened, Options, Severity, Suggested};
+use foton_format::{Opened, Options, Severity};
 use foton_input::quoted;
 use foton_integrator::{
-    Alpha, Cancel, LayerKind, MemoryEstimate, PpmSettings, Render, RenderSettings, SettingChange,
+    Cancel, LayerKind, MemoryEstimate, PpmSettings, Render, RenderSettings, SettingChange,
 };
 use foton_scene::description::SceneDescription;
 use foton_scene::{BuildOptions, Scene};
@@ -20,6 +19,7 @@ use crate::args::{ErrorWish, Radius, RenderArgs, Size};
 use crate::console::{Console, Failure};
 use crate::memory;
 use crate::roles::Roles;
+use crate::settings;
 use crate::signals;
 
 /// How long a render without a stop rule takes.
@@ -45,16 +45,8 @@ pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Fai
     let suggested = opened.suggested;
     let bounds = (args.size, args.memory);
     let (scene, identity) = build(opened, &name, sensor, bounds, console, interrupt.cancel())?;
-    let (defaults, suggested) = match args.preset {
-        Some(preset) => (
-            Preset::from(preset).apply(RenderSettings::default()),
-            Suggested { passes: suggested.passes, ..Suggested::default() },
-        ),
-        None => (RenderSettings::default(), suggested),
-    };
-    let suggested_alpha = suggested.alpha.and_then(Alpha::new);
-    let suggested_photons = suggested.photons_per_pass.and_then(NonZeroU32::new);
-    let (radius, radius_scale) = Radius::split(args.radius, suggested.radius, defaults.ppm.radius_scale);
+    let base = settings::base(&suggested, args.preset.map(Preset::from));
+    let (radius, radius_scale) = Radius::split(args.radius, base.ppm.radius, base.ppm.radius_scale);
     let settings = RenderSettings {
         samples_per_pixel: args.spp,
         max_depth: args.max_depth,
@@ -63,16 +55,16 @@ pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Fai
         layers: args.layers.iter().any(|l| l.needs_classes()),
         error: args.error != Some(ErrorWish::Off) || args.layers.iter().any(|l| l.needs_error()),
         ppm: PpmSettings {
-            alpha: args.alpha.or(suggested_alpha).unwrap_or(defaults.ppm.alpha),
-            photons_per_pass: args.photons.or(suggested_photons).unwrap_or(defaults.ppm.photons_per_pass),
+            alpha: args.alpha.unwrap_or(base.ppm.alpha),
+            photons_per_pass: args.photons.unwrap_or(base.ppm.photons_per_pass),
             radius,
             radius_scale,
             radius_floor: args.radius_floor,
             radius_rule: args.radius_rule.into(),
             direct_light: args.direct.into(),
-            ..PpmSettings::default()
+            ..base.ppm
         },
-        ..RenderSettings::default()
+        ..base
     };
     let error = match args.error {
         Some(ErrorWish::Below(share)) => Some(share),

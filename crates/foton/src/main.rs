@@ -15,6 +15,7 @@ mod measure;
 mod memory;
 mod quick;
 mod roles;
+mod settings;
 mod signals;
 #[cfg(feature = "window")]
 mod window;

@@ -1,9 +1,7 @@
 //! `foton measure`: what accuracy costs in a scene, as tables and a page in a folder.
 
-use std::num::NonZeroU32;
-
 use foton_film::read_exr_within;
-use foton_integrator::{Alpha, PpmSettings, RenderSettings};
+use foton_integrator::{PpmSettings, RenderSettings};
 use foton_measure::sweep::{Event, Outcome, Sweep};
 use foton_session::{Session, StartError, StopCause};
 use serde_json::json;
@@ -11,7 +9,7 @@ use serde_json::json;
 use crate::args::{Measure, Radius};
 use crate::console::{Console, Failure};
 use crate::job::{build, choose_sensor, interrupt_on_signals, open, refuse_two_roles, say_limit};
-use crate::memory;
+use crate::{memory, settings};
 
 /// Runs `foton measure`.
 pub(crate) fn run(args: &Measure, console: &mut Console) -> Result<(), Failure> {
@@ -25,26 +23,24 @@ pub(crate) fn run(args: &Measure, console: &mut Console) -> Result<(), Failure> 
     let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
     let suggested = opened.suggested;
     let (scene, identity) = build(opened, &name, sensor, (args.size, None), console, interrupt.cancel())?;
-    let defaults = RenderSettings::default();
-    let suggested_alpha = suggested.alpha.and_then(Alpha::new);
-    let suggested_photons = suggested.photons_per_pass.and_then(NonZeroU32::new);
-    let (radius, radius_scale) = Radius::split(args.radius, suggested.radius, defaults.ppm.radius_scale);
+    let base = settings::base(&suggested, None);
+    let (radius, radius_scale) = Radius::split(args.radius, base.ppm.radius, base.ppm.radius_scale);
     let centre = RenderSettings {
         samples_per_pixel: args.spp,
         max_depth: args.max_depth,
         seed: args.seed,
         sensor,
         ppm: PpmSettings {
-            alpha: args.alpha.or(suggested_alpha).unwrap_or(defaults.ppm.alpha),
-            photons_per_pass: args.photons.or(suggested_photons).unwrap_or(defaults.ppm.photons_per_pass),
+            alpha: args.alpha.unwrap_or(base.ppm.alpha),
+            photons_per_pass: args.photons.unwrap_or(base.ppm.photons_per_pass),
             radius,
             radius_scale,
             radius_floor: args.radius_floor,
             radius_rule: args.radius_rule.into(),
             direct_light: args.direct.into(),
-            ..defaults.ppm
+            ..base.ppm
         },
-        ..defaults
+        ..base
     };
     let given = given.map(|(image, _)| {
         let path = args.reference.as_deref().unwrap_or(&args.scene);

@@ -13,6 +13,7 @@ use crate::console::{Console, Failure};
 use crate::embedded::ALL;
 use crate::job::{build, finish, interrupt_on_signals, refuse_beyond_memory, say_limit};
 use crate::memory::limit;
+use crate::settings;
 
 /// When to stop, writing included.
 const TIME: Duration = Duration::from_secs(55);
@@ -34,8 +35,9 @@ pub(crate) fn render(scene: Option<&Path>, console: &mut Console) -> Result<(), 
         None => (ALL[0].open(&options), ALL[0].name.into()),
     };
     let opened = opened.map_err(Failure::of_open)?;
+    let suggested = opened.suggested;
     let (scene, identity) = build(opened, &name, 0, (None, None), console, cancel)?;
-    let settings = RenderSettings { error: true, ..RenderSettings::default() };
+    let settings = RenderSettings { error: true, ..settings::base(&suggested, None) };
     refuse_beyond_memory(&scene, &settings, None, None)?;
     let stem = snapshot::next_free(Path::new(""));
     let (png, exr) = (stem.with_extension("png"), stem.with_extension("exr"));

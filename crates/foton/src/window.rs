@@ -1,14 +1,13 @@
 //! `foton [SCENE]` with a window: what the window needs of scene files is handed in from here.
 
 use std::any::Any;
-use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use foton_format::{Opened, Options, Saved, Severity, Suggested, save_edited};
+use foton_format::{Opened, Options, Saved, Severity, save_edited};
 use foton_input::printable;
-use foton_integrator::{Alpha, Cancel, PpmSettings, RenderSettings};
+use foton_integrator::{Cancel, RenderSettings};
 use foton_preview::{Close, WindowError};
 use foton_scene::BuildError;
 use foton_scene::description::SceneDescription;
@@ -17,8 +16,7 @@ use foton_session::engine::{Loaded, Loader, Source};
 
 use crate::embedded::{self, Embedded};
 use crate::job::refuse_to_build;
-use crate::memory;
-use crate::signals;
+use crate::{memory, settings, signals};
 
 /// Opens the window on `scene`, or the first of the embedded ones, and stays until it is closed.
 pub(crate) fn show(scene: Option<&Path>, frame_log: Option<&Path>) -> Result<(), WindowError> {
@@ -82,7 +80,7 @@ impl Loader for Files {
         Ok(Loaded {
             description: opened.description.clone(),
             identity: SceneIdentity { name, hash: opened.source_hash },
-            settings: settings(&opened.suggested),
+            settings: RenderSettings { error: true, ..settings::base(&opened.suggested, None) },
             files: opened.files.clone(),
             warnings: opened.warnings.iter().map(ToString::to_string).collect(),
             origin: Arc::new(opened),
@@ -111,21 +109,5 @@ impl Loader for Files {
                 Ok(format!("The whole scene was written anew, with its meshes beside it: {why}"))
             }
         }
-    }
-}
-
-/// The settings of `foton render`, with what a file asks for.
-fn settings(suggested: &Suggested) -> RenderSettings {
-    let defaults = RenderSettings::default();
-    let photons = suggested.photons_per_pass.and_then(NonZeroU32::new);
-    RenderSettings {
-        error: true,
-        ppm: PpmSettings {
-            alpha: suggested.alpha.and_then(Alpha::new).unwrap_or(defaults.ppm.alpha),
-            photons_per_pass: photons.unwrap_or(defaults.ppm.photons_per_pass),
-            radius: suggested.radius,
-            ..defaults.ppm
-        },
-        ..defaults
     }
 }
