@@ -7,7 +7,8 @@ use std::time::Duration;
 use clap::Args as ClapArgs;
 use foton_integrator::{Alpha, RadiusFloor, RenderSettings};
 
-use super::{Direct, Radius, Rule, Size, alpha, define, duration, exr, name, radius, radius_floor};
+use super::parse::{alpha, define, duration, exr, name, radius, radius_floor};
+use super::values::{Direct, Radius, Rule, Size};
 
 /// `foton measure`.
 #[derive(Debug, ClapArgs)]

@@ -1,0 +1,33 @@
+//! A scene as a person or a file states it: world units, double precision, nothing derived.
+//!
+//! An editor changes a description and builds the next [`Scene`](crate::Scene) from it. Meanings follow Mitsuba 3, so
+//! that one file renders alike in both. Nothing is validated here: building a scene does that.
+
+mod emitter;
+mod material;
+mod sensor;
+mod shape;
+mod texture;
+
+pub use emitter::{EmitterDescription, EmitterKind};
+pub use material::{Bsdf, Material, MicrofacetDistribution, Microfacets};
+pub use sensor::{Crop, Filter, FovAxis, SensorDescription};
+pub use shape::{Geometry, Mesh, ShapeDescription};
+pub use texture::{Bitmap, Colour, Texture, TextureKind, Wrap};
+
+/// Everything that a scene consists of.
+#[derive(Clone, Debug, Default)]
+pub struct SceneDescription {
+    /// Cameras; the first is used unless another is asked for by name.
+    pub sensors: Vec<SensorDescription>,
+    /// Materials, referred to by index.
+    pub materials: Vec<Material>,
+    /// Textures, referred to by index.
+    pub textures: Vec<Texture>,
+    /// Surfaces, in the order of the file. The index is the shape's identity in every output.
+    pub shapes: Vec<ShapeDescription>,
+    /// Emitters that are not surfaces.
+    pub emitters: Vec<EmitterDescription>,
+    /// The longest path in edges, as Mitsuba counts them (1: emitters seen directly, 2: one bounce); `None`: no bound.
+    pub max_depth: Option<u32>,
+}

@@ -1,0 +1,95 @@
+//! Cameras: where they are, what they see, how their pixels are filtered.
+
+use foton_math::glam::DAffine3;
+
+/// A camera.
+#[derive(Clone, Debug)]
+pub struct SensorDescription {
+    /// The id in the file, or `sensor`, `sensor-2`, …
+    pub name: String,
+    /// Camera to world. The camera looks along its +z; +y is up in the image and +x points to the image's *left*.
+    pub to_world: DAffine3,
+    /// Field of view in degrees along `fov_axis`, in (0, 180).
+    pub fov_degrees: f64,
+    /// What `fov_degrees` spans.
+    pub fov_axis: FovAxis,
+    /// Image width in pixels, at least 1.
+    pub width: u32,
+    /// Image height in pixels, at least 1.
+    pub height: u32,
+    /// The part of the image that is rendered; `None`: all of it.
+    pub crop: Option<Crop>,
+    /// How eye samples spread around a pixel's centre.
+    pub filter: Filter,
+    /// Nothing nearer than this depth along the camera's z is seen, in world units. `None`: no bound.
+    pub near_clip: Option<f64>,
+    /// Nothing farther than this depth along the camera's z is seen, in world units. `None`: no bound.
+    pub far_clip: Option<f64>,
+}
+
+impl SensorDescription {
+    /// The same view at another size in pixels, a crop in proportion.
+    pub fn resize(&mut self, width: u32, height: u32) {
+        if let Some(crop) = &mut self.crop {
+            // Rounded outwards, which keeps it inside and not empty.
+            let scaled = |first: &mut u32, count: &mut u32, old: u32, new: u32| {
+                let (old, new) = (u64::from(old.max(1)), u64::from(new));
+                let end = (u64::from(*first) + u64::from(*count)) * new;
+                let begin = u64::from(*first) * new / old;
+                (*first, *count) = (begin as u32, (end.div_ceil(old) - begin) as u32);
+            };
+            scaled(&mut crop.x, &mut crop.width, self.width, width);
+            scaled(&mut crop.y, &mut crop.height, self.height, height);
+        }
+        (self.width, self.height) = (width, height);
+    }
+}
+
+/// A window of an image, in pixels from its top left. It must lie inside and hold a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Crop {
+    /// First column.
+    pub x: u32,
+    /// First row.
+    pub y: u32,
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+/// The image axis that a field of view spans.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FovAxis {
+    /// Horizontal.
+    #[default]
+    X,
+    /// Vertical.
+    Y,
+    /// Corner to corner.
+    Diagonal,
+    /// The shorter side.
+    Smaller,
+    /// The longer side.
+    Larger,
+}
+
+/// A separable reconstruction filter, sampled in proportion to its height. Widths in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Filter {
+    /// Constant over `|x| ≤ radius`; 0.5 covers the pixel exactly.
+    Box {
+        /// Half the width.
+        radius: f64,
+    },
+    /// A triangle that falls to zero at `radius`.
+    Tent {
+        /// Half the base.
+        radius: f64,
+    },
+    /// A Gaussian cut off, and lowered to zero, at four standard deviations.
+    Gaussian {
+        /// Standard deviation.
+        stddev: f64,
+    },
+}

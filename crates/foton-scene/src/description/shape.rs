@@ -1,0 +1,122 @@
+//! Surfaces: where they are and of which shape.
+
+use std::sync::Arc;
+
+use foton_math::Rgb;
+use foton_math::glam::{DAffine3, DVec2, DVec3};
+
+/// A surface with its material.
+#[derive(Clone, Debug)]
+pub struct ShapeDescription {
+    /// The id in the file, or `shape-N` with its number in the file, from 1.
+    pub name: String,
+    /// The surface in object space.
+    pub geometry: Geometry,
+    /// Object to world.
+    pub to_world: DAffine3,
+    /// Turns all normals around: what was outside is inside.
+    pub flip_normals: bool,
+    /// Index into [`SceneDescription::materials`].
+    pub material: usize,
+    /// Emitted radiance on the side that the normal points to (W·m⁻²·sr⁻¹), where the surface is an area emitter.
+    pub radiance: Option<Rgb>,
+}
+
+/// A surface in object space.
+#[derive(Clone, Debug)]
+pub enum Geometry {
+    /// Triangles.
+    Mesh(Arc<Mesh>),
+    /// A sphere, its normal outwards. A transform may turn, move and scale it evenly, nothing else.
+    Sphere {
+        /// The centre.
+        centre: DVec3,
+        /// The radius, above zero.
+        radius: f64,
+    },
+    /// The unit disc in the xy plane, its normal +z. A transform must keep it circular.
+    Disc,
+    /// An open tube between two points, its normal away from the axis. A transform must keep it round.
+    Cylinder {
+        /// Middle of one end.
+        from: DVec3,
+        /// Middle of the other end.
+        to: DVec3,
+        /// The radius, above zero.
+        radius: f64,
+    },
+}
+
+/// Triangles over shared vertices.
+///
+/// Where there are vertex normals, they say which side of a triangle is outside; without them the winding does
+/// (counter-clockwise seen from outside).
+#[derive(Clone, Debug, Default)]
+pub struct Mesh {
+    /// Vertex positions.
+    pub positions: Vec<DVec3>,
+    /// Vertex normals, need not be of unit length: one a position, or none for flat faces.
+    pub normals: Vec<DVec3>,
+    /// Texture coordinates: one a position, or none.
+    pub texture_coordinates: Vec<DVec2>,
+    /// Vertex indices of each triangle.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl Mesh {
+    /// Whether a triangle has an area that double precision can tell, its corners being there. Others are left out of scenes, and
+    /// nothing goes by where their corners are.
+    #[must_use]
+    pub fn has_area(&self, triangle: [u32; 3]) -> bool {
+        let [Some(&a), Some(&b), Some(&c)] = triangle.map(|i| self.positions.get(i as usize)) else {
+            return false;
+        };
+        let (u, v, w) = (b - a, c - a, c - b);
+        let longest = u.abs().max(v.abs()).max(w.abs()).max_element();
+        longest > 0.0 && (u / longest).cross(v / longest).length_squared() > FLATTEST * FLATTEST
+    }
+
+    /// The square [−1, 1]² in the xy plane, its normal +z.
+    #[must_use]
+    pub fn rectangle() -> Self {
+        let corner = |x, y| DVec3::new(x, y, 0.0);
+        Self {
+            positions: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)],
+            normals: Vec::new(),
+            texture_coordinates: [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from).to_vec(),
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+        }
+    }
+
+    /// The cube [−1, 1]³ with flat faces, normals outwards.
+    #[must_use]
+    pub fn cube() -> Self {
+        let positions = (0..8)
+            .map(|i| {
+                let side = |bit: i32| if i & bit == 0 { -1.0 } else { 1.0 };
+                DVec3::new(side(1), side(2), side(4))
+            })
+            .collect();
+        let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+        let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        Self { positions, normals: Vec::new(), texture_coordinates: Vec::new(), triangles }
+    }
+}
+
+/// The height of a triangle of no area, by its longest side: rounding.
+const FLATTEST: f64 = 1e-12;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faces_of_the_cube_point_outwards() {
+        let cube = Mesh::cube();
+        for t in &cube.triangles {
+            let [a, b, c] = t.map(|i| cube.positions[i as usize]);
+            assert!((b - a).cross(c - a).dot(a + b + c) > 0.0, "{t:?}");
+        }
+        assert_eq!(cube.triangles.len(), 12);
+    }
+}

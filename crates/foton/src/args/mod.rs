@@ -1,0 +1,97 @@
+//! The command line. Its words are stable: scripts rely on them.
+
+mod measure;
+mod parse;
+mod render;
+#[cfg(test)]
+mod tests;
+mod together;
+mod values;
+
+use std::path::PathBuf;
+
+use clap::{Args as ClapArgs, Parser, Subcommand};
+use foton_session::snapshot::Format;
+
+pub(crate) use measure::Measure;
+use parse::{bytes, define, image, name, xml};
+pub(crate) use render::RenderArgs;
+pub(crate) use values::{ErrorWish, Every, Radius, Size};
+
+/// Progressive photon mapping that a person can watch, steer and trust.
+#[derive(Debug, Parser)]
+#[command(version, args_conflicts_with_subcommands = true)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+    /// Scene to open in the window: Mitsuba XML, OBJ, PLY or STL; without one, the scene that ships with foton. Where there can
+    /// be no window, it is rendered for a minute
+    pub(crate) scene: Option<PathBuf>,
+    /// Write a line of JSON for each frame that the window draws
+    #[arg(long, value_name = "FILE")]
+    pub(crate) frame_log: Option<PathBuf>,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Render a scene to an image file
+    Render(Box<RenderArgs>),
+    /// Write any readable scene as Mitsuba 3 XML with PLY meshes
+    Convert(Convert),
+    /// Say what a scene contains, what that switches on, and what a render of it would take
+    Info(Info),
+    /// Say how far an image is from a reference: RMSE, relMSE, means, FLIP
+    Compare(Compare),
+    /// Measure what accuracy costs in a scene: sweeps over α, photons, radii and direct light, as tables and a page
+    Measure(Box<Measure>),
+}
+
+/// `foton compare`.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Compare {
+    /// Image to judge, .exr or .png
+    #[arg(value_parser = name(image))]
+    pub(crate) a: (PathBuf, Format),
+    /// Its reference, .exr or .png
+    #[arg(value_parser = name(image))]
+    pub(crate) b: (PathBuf, Format),
+    /// Picture of where they differ, .png (relative error as colours) or .exr (the numbers)
+    #[arg(short, value_name = "DIFF.{exr,png}", value_parser = name(image))]
+    pub(crate) output: Option<(PathBuf, Format)>,
+    /// Print one JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// `foton convert`.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Convert {
+    /// Scene file to read: Mitsuba XML, OBJ, PLY or STL
+    pub(crate) scene: PathBuf,
+    /// Scene file to write; meshes and textures go into folders beside it
+    #[arg(value_name = "OUT.xml", value_parser = name(xml))]
+    pub(crate) output: PathBuf,
+    /// Set a parameter of the scene file
+    #[arg(short = 'D', value_name = "name=value", value_parser = define)]
+    pub(crate) defines: Vec<(String, String)>,
+}
+
+/// `foton info`.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Info {
+    /// Scene file (Mitsuba 3 XML)
+    pub(crate) scene: PathBuf,
+    /// The sensor to look through, by its id [the first]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) sensor: Option<String>,
+    /// Refuse to read or build beyond this much memory, e.g. 800M, 8G [80 % of what is free]
+    #[arg(long, value_name = "SIZE", value_parser = bytes)]
+    pub(crate) memory: Option<u64>,
+    /// Set a parameter of the scene file
+    #[arg(short = 'D', value_name = "name=value", value_parser = define)]
+    pub(crate) defines: Vec<(String, String)>,
+    /// Print one JSON object on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+}

@@ -1,0 +1,174 @@
+//! What options may say.
+
+use std::str::FromStr;
+
+use clap::ValueEnum;
+use foton_integrator::{DirectLight, RadiusRule, RadiusScale};
+use foton_session::Preset;
+
+/// `--error`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum ErrorWish {
+    /// Not estimated.
+    Off,
+    /// Stop below this.
+    Below(f64),
+}
+
+/// `--direct`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Direct {
+    /// By photons, like all other light
+    Photons,
+    /// By shadow rays: sharp shadows from the first pass on
+    ShadowRays,
+}
+
+/// `--radius`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Radius {
+    /// In world units.
+    World(f64),
+    /// Times what the pixel's footprint gives.
+    Footprint(RadiusScale),
+}
+
+impl Radius {
+    /// What settings say of it; without one, what the scene suggests, times `scale`.
+    pub(crate) fn split(
+        wish: Option<Self>,
+        suggested: Option<f64>,
+        scale: RadiusScale,
+    ) -> (Option<f64>, RadiusScale) {
+        match wish {
+            None => (suggested, scale),
+            Some(Self::World(radius)) => (Some(radius), RadiusScale::default()),
+            Some(Self::Footprint(scale)) => (None, scale),
+        }
+    }
+}
+
+/// `--preset`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum PresetName {
+    /// Small passes: the next picture comes sooner
+    Preview,
+    /// The defaults
+    Balanced,
+    /// A larger α: less noise after minutes
+    Final,
+}
+
+impl From<PresetName> for Preset {
+    fn from(name: PresetName) -> Self {
+        match name {
+            PresetName::Preview => Self::Preview,
+            PresetName::Balanced => Self::Balanced,
+            PresetName::Final => Self::Final,
+        }
+    }
+}
+
+/// `--radius-rule`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Rule {
+    /// Each by the photons that it finds
+    Local,
+    /// All by one factor, by the photons emitted
+    Global,
+    /// Each by the photons that it finds, as far as blur outweighs noise there
+    Adaptive,
+}
+
+impl From<Rule> for RadiusRule {
+    fn from(rule: Rule) -> Self {
+        match rule {
+            Rule::Local => Self::Local,
+            Rule::Global => Self::Global,
+            Rule::Adaptive => Self::Adaptive,
+        }
+    }
+}
+
+impl From<RadiusRule> for Rule {
+    fn from(rule: RadiusRule) -> Self {
+        match rule {
+            RadiusRule::Local => Self::Local,
+            RadiusRule::Global => Self::Global,
+            RadiusRule::Adaptive => Self::Adaptive,
+        }
+    }
+}
+
+/// `--integrator`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Integrator {
+    /// Progressive photon mapping
+    Render,
+}
+
+impl From<Direct> for DirectLight {
+    fn from(direct: Direct) -> Self {
+        match direct {
+            Direct::Photons => Self::Photons,
+            Direct::ShadowRays => Self::ShadowRays,
+        }
+    }
+}
+
+/// Image size in pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Size {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+}
+
+impl FromStr for Size {
+    type Err = String;
+
+    fn from_str(s: &str) -> Result<Self, String> {
+        let side = |s: &str| s.parse::<u32>().ok().filter(|n| (1..=1 << 16).contains(n));
+        s.split_once(['x', 'X', '×'])
+            .and_then(|(w, h)| Some(Self { width: side(w)?, height: side(h)? }))
+            .ok_or_else(|| {
+                "expected WIDTHxHEIGHT in pixels, such as 640x480, each from 1 to 65536".to_owned()
+            })
+    }
+}
+
+/// `--every`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Every {
+    PowersOfTwo,
+    Nth(u64),
+}
+
+impl Every {
+    /// The first pass after which an image is due.
+    pub(crate) const fn first(self) -> u64 {
+        match self {
+            Self::PowersOfTwo => 1,
+            Self::Nth(n) => n,
+        }
+    }
+
+    /// Whether an image is due after `pass` passes.
+    pub(crate) const fn is_due(self, pass: u64) -> bool {
+        match self {
+            Self::PowersOfTwo => pass.is_power_of_two(),
+            Self::Nth(n) => pass.is_multiple_of(n),
+        }
+    }
+}
+
+impl FromStr for Every {
+    type Err = String;
+
+    fn from_str(s: &str) -> Result<Self, String> {
+        match (s, s.parse::<u64>()) {
+            ("pow2", _) => Ok(Self::PowersOfTwo),
+            (_, Ok(n)) if n > 0 => Ok(Self::Nth(n)),
+            _ => Err("expected pow2 or a number of passes above 0".to_owned()),
+        }
+    }
+}
