@@ -92,7 +92,7 @@ impl RadiusStatistics {
         }
     }
 
-    /// R: blur² over half the noise², at most [`MOST`]; 1 while nothing is known.
+    /// R: blur² over half the noise², at most [`MAX`]; 1 while nothing is known.
     fn balance(&self) -> f64 {
         if self.light <= 0.0 || self.variance <= 0.0 {
             return 1.0;

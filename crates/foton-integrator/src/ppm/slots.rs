@@ -99,7 +99,7 @@ impl<const LAYERS: usize> Found<LAYERS> {
 pub(crate) struct EarlierBatches {
     /// Photons found.
     pub(crate) counts: Vec<u64>,
-    /// Where radii adapt: Σ Φ, Σ Φ², Σ Φ d and Σ Φ d² (see [`Shape`]).
+    /// Where radii adapt: Σ Φ, Σ Φ², Σ Φ d and Σ Φ d² (see [`DiscMoments`]).
     pub(crate) shapes: Vec<[f32; 6]>,
 }
 

@@ -16,7 +16,7 @@ pub struct ShapeDescription {
     pub to_world: DAffine3,
     /// Turns all normals around: what was outside is inside.
     pub flip_normals: bool,
-    /// Index into [`SceneDescription::materials`].
+    /// Index into [`SceneDescription::materials`](super::SceneDescription::materials).
     pub material: usize,
     /// Emitted radiance on the side that the normal points to (W·m⁻²·sr⁻¹), where the surface is an area emitter.
     pub radiance: Option<Rgb>,

@@ -10,7 +10,7 @@ use foton_math::glam::DAffine2;
 pub enum Colour {
     /// The same everywhere.
     Constant(Rgb),
-    /// Index into [`SceneDescription::textures`].
+    /// Index into [`SceneDescription::textures`](super::SceneDescription::textures).
     Texture(usize),
 }
 
