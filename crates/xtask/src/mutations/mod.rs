@@ -69,12 +69,17 @@ fn outcome(tree: &Path, target: &str, test: &str) -> Outcome {
     }
 }
 
-/// Copies what git knows or would add; files that are the same already keep their time, so that cargo does not build them again.
+/// Copies what git knows or would add; files that are the same already keep their time, so that cargo does not build them again. What
+/// the repository no longer has goes: a module that became a folder would otherwise be there twice.
 fn copy_to(tree: &Path) -> std::io::Result<()> {
     let mut git = std::process::Command::new("git");
     git.args(["ls-files", "-z", "--cached", "--others", "--exclude-standard"]).current_dir(tools::root());
     let names = git.output()?.stdout;
     let names = String::from_utf8_lossy(&names);
+    let known: BTreeSet<PathBuf> = names.split_terminator('\0').map(|name| tree.join(name)).collect();
+    if tree.exists() {
+        remove_unknown(tree, &known, &tree.join("target"))?;
+    }
     for name in names.split_terminator('\0') {
         let (from, to): (PathBuf, PathBuf) = (tools::root().join(name), tree.join(name));
         let Ok(bytes) = fs::read(&from) else { continue };
@@ -83,6 +88,22 @@ fn copy_to(tree: &Path) -> std::io::Result<()> {
         }
         fs::create_dir_all(to.parent().unwrap_or(tree))?;
         fs::write(to, bytes)?;
+    }
+    Ok(())
+}
+
+/// Removes all files under `folder` that are not `known`, except those of the folder `spared`.
+fn remove_unknown(folder: &Path, known: &BTreeSet<PathBuf>, spared: &Path) -> std::io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path == spared {
+            continue;
+        }
+        if path.is_dir() && !path.is_symlink() {
+            remove_unknown(&path, known, spared)?;
+        } else if !known.contains(&path) {
+            fs::remove_file(&path)?;
+        }
     }
     Ok(())
 }
@@ -107,5 +128,23 @@ mod tests {
             assert_ne!(changed, text, "{}", mutation.what);
         }
         assert!(list::all().count() >= 10);
+    }
+
+    #[test]
+    fn a_module_that_became_a_folder_is_not_left_in_the_copy() {
+        let tree = tools::target_dir().join("mutations-copy-test");
+        let _ = fs::remove_dir_all(&tree);
+        for name in ["src/stage.rs", "src/stage/mod.rs", "target/built"] {
+            fs::create_dir_all(tree.join(name).parent().expect("a folder")).expect("created");
+            fs::write(tree.join(name), "").expect("written");
+        }
+        let known = BTreeSet::from([tree.join("src/stage/mod.rs")]);
+        remove_unknown(&tree, &known, &tree.join("target")).expect("removed");
+        let there = |name: &str| tree.join(name).exists();
+        assert_eq!(
+            [there("src/stage.rs"), there("src/stage/mod.rs"), there("target/built")],
+            [false, true, true]
+        );
+        let _ = fs::remove_dir_all(&tree);
     }
 }
