@@ -210,6 +210,14 @@ mod tests {
     }
 
     #[test]
+    fn grouping_that_is_cancelled_gives_no_groups_wherever_that_comes() {
+        let found = scattered(2_000);
+        let grouped = |questions| group(&found, |_| true, &Cancel::after(questions));
+        let needed = (0..10_000).find(|&n| grouped(n).is_ok()).expect("in the end");
+        assert!(needed > found.len() as u64 / LANES as u64, "{needed}");
+    }
+
+    #[test]
     fn coinciding_hit_points_are_grouped_too() {
         let mut found = scattered(100);
         for h in &mut found {

@@ -225,8 +225,8 @@ pub(super) const LIST: &[Mutation] = &[
         file: "crates/foton-transport/src/photon_map/packet.rs",
         from: "    cancel.check()?;\n    let bounds",
         to: "    let bounds",
-        target: INTEGRATOR,
-        test: "a_start_that_is_cancelled_ends_in_that_wherever_it_comes",
+        target: TRANSPORT,
+        test: "grouping_that_is_cancelled_gives_no_groups_wherever_that_comes",
     },
     Mutation {
         what: "marking cells can be cancelled",
