@@ -29,7 +29,7 @@ const COMPRESSION: i32 = 3;
 /// Bytes of a checkpoint beside its state, at most: its text, and what packing adds where nothing can be packed.
 const BESIDE: u64 = 1 << 20;
 
-/// Why a checkpoint cannot be taken up.
+/// Why a checkpoint cannot be resumed.
 #[derive(Debug, Error)]
 pub enum ResumeError {
     /// The file cannot be read.

@@ -127,7 +127,7 @@ pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Fai
 }
 
 /// Says where a render goes on from. Of what is asked for by name, that which may change between passes changes with the next one;
-/// all else is as in the checkpoint, or it would not have been taken up.
+/// all else is as in the checkpoint, or it would not have been resumed.
 fn go_on(args: &RenderArgs, path: &Path, session: &mut Session, rule: &StopRule, console: &Console) {
     let passes = session.render().passes();
     console.line(&format!("going on from {} after {passes} passes", path.display()));

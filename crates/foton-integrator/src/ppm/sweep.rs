@@ -31,7 +31,7 @@ pub(super) struct Photons<'a> {
 /// hold the pass's estimates; before, they and the other slots hold sums.
 ///
 /// `LAYERS` is 3 to keep path classes apart, or 1. `moment_slots` get what the bias is estimated from, where there are any.
-/// `kept` has room where a pass has more than one batch.
+/// `earlier` has room where a pass has more than one batch.
 pub(super) fn sweep<const LAYERS: usize>(
     hit_points: &mut HitPoints,
     photons: Photons<'_>,

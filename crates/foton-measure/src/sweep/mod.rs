@@ -2,7 +2,7 @@
 //!
 //! A star around one configuration, and the plane of α and photons a pass. Runs that emit the same photons share them
 //! (`foton_integrator::Variants`). All see the same eye samples; seeds differ in their photons. Everything lies in a folder: a
-//! sweep that is started again takes up what is finished, and its tables and page are made from what is there. Not here: reading
+//! sweep that is started again resumes after what is finished, and its tables and page are made from what is there. Not here: reading
 //! scenes, threads, arguments.
 
 mod clock;

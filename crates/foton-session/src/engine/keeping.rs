@@ -1,4 +1,4 @@
-//! Checkpoints of the engine: one file, kept up to date while its render goes on, and taken up again.
+//! Checkpoints of the engine: one file, kept up to date while its render goes on, and resumed.
 
 use std::path::Path;
 use std::sync::atomic::Ordering;

@@ -74,7 +74,7 @@ pub(crate) struct RenderArgs {
     /// How light straight from emitters is estimated
     #[arg(long, value_name = "HOW", value_enum, default_value_t = Direct::Photons)]
     pub(crate) direct: Direct,
-    /// How light is transported; more than progressive photon mapping is to come
+    /// Light transport method
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Integrator::Render)]
     pub(crate) integrator: Integrator,
     /// The sensor to look through, by its id [the first]

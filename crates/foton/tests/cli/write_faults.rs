@@ -69,7 +69,7 @@ fn a_full_disk_costs_a_checkpoint_but_not_the_render() {
     let said = "no checkpoint: cannot write x.ck: File too large (os error 27)";
     assert!(warnings.len() >= 3 && warnings.iter().all(|w| w == said), "{warnings:?}");
     assert!(folder.bytes("x.ck") == before, "the checkpoint before is whole");
-    // It is still one that can be taken up.
+    // It is still one that can be resumed.
     folder.done(&format!("{RENDER} --passes 3 -o resumed.exr --resume x.ck"));
     assert!(folder.exr("resumed.exr").0 == folder.exr("whole.exr").0);
     symlink("/dev/full", folder.file("device.ck")).expect("a link");
