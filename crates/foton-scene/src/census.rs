@@ -9,7 +9,7 @@ pub struct Census {
     pub spheres: u64,
     /// Discs.
     pub discs: u64,
-    /// Open tubes.
+    /// Cylinders, open at both ends.
     pub cylinders: u64,
     /// Triangles without area, left out.
     pub degenerate_triangles: u64,

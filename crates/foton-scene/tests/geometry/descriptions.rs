@@ -150,6 +150,11 @@ fn coordinates_are_finite() {
             // One of the eight faces has that corner.
             assert_eq!(hit.shading_normal != hit.normal, ray.direction.min_element() < 0.0, "{hit:?}");
         }
+        // Where none is a direction there is nothing to interpolate, nor to correct photons for.
+        let mut barren = smooth_geodesic(1);
+        barren.normals.iter_mut().for_each(|n| n.x = value);
+        assert!(!build(vec![mesh(barren, DAffine3::IDENTITY)]).census().shading_normals);
+        assert!(build(vec![mesh(smooth_geodesic(1), DAffine3::IDENTITY)]).census().shading_normals);
     }
 }
 
