@@ -16,8 +16,8 @@ use foton_format::Options;
 use foton_integrator::{Cancel, PpmSettings, Render, RenderSettings, Stage};
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Purpose, Ray, Rgb, Stream};
-use foton_scene::description::{Bsdf, MicrofacetDistribution, Microfacets};
-use foton_scene::{Scattering, Scene, Transport};
+use foton_scene::description::{Bsdf, Conductor, Dielectric, Diffuse, MicrofacetDistribution, Microfacets, Plastic};
+use foton_scene::{LobeFlags, Scattering, Scene, Transport};
 
 const SIDE: u32 = 512;
 const PHOTONS: u32 = 1 << 18;
@@ -85,36 +85,36 @@ fn of_rays(criterion: &mut Criterion) {
 fn of_bsdfs(criterion: &mut Criterion) {
     let rough = Some(Microfacets { distribution: MicrofacetDistribution::Ggx, alpha_u: 0.3, alpha_v: 0.3 });
     let white = Rgb::splat(0.8);
-    let glass = |roughness| Bsdf::Dielectric {
+    let glass = |roughness| Bsdf::Dielectric(Dielectric {
         int_ior: 1.5,
         ext_ior: 1.0,
         specular_reflectance: white,
         specular_transmittance: white,
         roughness,
-    };
+    });
     let bsdfs = [
-        ("diffuse", Bsdf::Diffuse { reflectance: white }),
+        ("diffuse", Bsdf::Diffuse(Diffuse { reflectance: white })),
         ("glass", glass(None)),
         ("rough glass", glass(rough)),
         (
             "rough metal",
-            Bsdf::Conductor {
+            Bsdf::Conductor(Conductor {
                 eta: Rgb::splat(0.2),
                 k: Rgb::splat(3.9),
                 specular_reflectance: white,
                 roughness: rough,
-            },
+            }),
         ),
         (
             "plastic",
-            Bsdf::Plastic {
+            Bsdf::Plastic(Plastic {
                 int_ior: 1.5,
                 ext_ior: 1.0,
                 diffuse_reflectance: white,
                 specular_reflectance: white,
                 nonlinear: false,
                 roughness: None,
-            },
+            }),
         ),
     ];
     let mut numbers = Stream::new(1, Purpose::Test, 0, 0);
@@ -131,7 +131,7 @@ fn of_bsdfs(criterion: &mut Criterion) {
         group.bench_function(name, |b| {
             b.iter(|| {
                 for &(wo, u_lobe, u) in &drawn {
-                    black_box(scattering.sample(wo, Transport::Importance, u_lobe, u));
+                    black_box(scattering.sample(wo, Transport::Importance, u_lobe, u, LobeFlags::NONE));
                 }
             });
         });

@@ -12,7 +12,7 @@ use std::time::Instant;
 use foton_format::Options;
 use foton_integrator::{Cancel, DirectLight, PpmSettings, Render, RenderSettings};
 use foton_scene::description::SceneDescription;
-use foton_scene::{BuildOptions, Census, Scene};
+use foton_scene::{BsdfKind, BuildOptions, Census, LobeFlags, Scene};
 
 const PASSES: u32 = 6;
 const RENDERS: u32 = 5;
@@ -32,6 +32,15 @@ fn main() {
         (sensor.width, sensor.height) = (256, 256);
     }
     let none = Census::default();
+    let kind = |flags, roughness, interpolated_normals| BsdfKind {
+        flags,
+        roughness,
+        interpolated_normals,
+        lambertian: true,
+        masked: false,
+    };
+    let diffuse = LobeFlags::DIFFUSE | LobeFlags::REFLECTION;
+    let smooth = vec![kind(diffuse, None, true)];
     let settings = || RenderSettings {
         ppm: PpmSettings {
             photons_per_pass: NonZeroU32::new(1 << 17).expect("above 0"),
@@ -47,22 +56,22 @@ fn main() {
     let error = RenderSettings { error: true, ..settings() };
     let layers = RenderSettings { layers: true, ..settings() };
     let rows = [
-        ("nothing", none, &plain),
-        ("shading normals' correction", Census { shading_normals: true, ..none }, &plain),
-        ("textures", Census { textures: true, ..none }, &plain),
-        ("anisotropic frames", Census { anisotropy: true, ..none }, &plain),
-        ("environment", Census { environment: true, ..none }, &plain),
-        ("rough coats", Census { rough_coats: true, ..none }, &plain),
-        ("shadow rays", none, &shadow_rays),
-        ("light by path class", none, &layers),
-        ("live error", none, &error),
+        ("nothing", none.clone(), &plain),
+        ("shading normals' correction", Census { bsdfs: smooth, ..none.clone() }, &plain),
+        ("textures", Census { textures: true, ..none.clone() }, &plain),
+        ("anisotropic frames", Census { anisotropy: true, ..none.clone() }, &plain),
+        ("environment", Census { environment: true, ..none.clone() }, &plain),
+        ("rough coats", Census { rough_coats: true, ..none.clone() }, &plain),
+        ("shadow rays", none.clone(), &shadow_rays),
+        ("light by path class", none.clone(), &layers),
+        ("live error", none.clone(), &error),
     ];
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let mut best: Vec<Option<Cost>> = rows.iter().map(|_| None).collect();
     // In turns, so that a slow minute of the machine falls on all alike.
     for _ in 0..RENDERS {
         for ((_, forced, settings), best) in rows.iter().zip(&mut best) {
-            let cost = pool.install(|| render(&description, *forced, settings));
+            let cost = pool.install(|| render(&description, forced.clone(), settings));
             *best = Some(match best.take() {
                 None => cost,
                 Some(b) => Cost {

@@ -11,8 +11,8 @@ use foton_integrator::{Cancel, Render, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{
-    Bsdf, Colour, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh,
-    SceneDescription, SensorDescription, ShapeDescription,
+    Bsdf, Colour, Dielectric, Diffuse, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material,
+    Mesh, SceneDescription, SensorDescription, ShapeDescription,
 };
 use foton_scene::{BuildError, Scene};
 
@@ -139,19 +139,19 @@ impl Sketch {
 /// A grey Lambertian reflector.
 #[must_use]
 pub const fn grey(reflectance: f32) -> Bsdf {
-    Bsdf::Diffuse { reflectance: Colour::Constant(Rgb::splat(reflectance)) }
+    Bsdf::Diffuse(Diffuse { reflectance: Colour::Constant(Rgb::splat(reflectance)) })
 }
 
 /// Clear glass in air.
 #[must_use]
 pub const fn glass(ior: f32) -> Bsdf {
-    Bsdf::Dielectric {
+    Bsdf::Dielectric(Dielectric {
         int_ior: ior,
         ext_ior: 1.0,
         specular_reflectance: Colour::Constant(Rgb::WHITE),
         specular_transmittance: Colour::Constant(Rgb::WHITE),
         roughness: None,
-    }
+    })
 }
 
 /// The mean of an image's green channel.

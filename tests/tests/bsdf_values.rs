@@ -8,7 +8,7 @@
 use foton_format::Options;
 use foton_math::Ray;
 use foton_math::glam::{Vec2, Vec3};
-use foton_scene::{Scattering, Scene, Transport};
+use foton_scene::{LobeFlags, Scattering, Scene, Transport};
 
 const GOLDEN: &str = include_str!("../golden/bsdf-values.txt");
 
@@ -49,13 +49,13 @@ fn compare(s: &Scattering, lines: &[&str]) -> [f64; 3] {
         let deviation =
             |ours: f32, theirs: f64, least: f64| (f64::from(ours) - theirs).abs() / theirs.abs().max(least);
         if line.starts_with("value") {
-            let value = s.eval(wo, wi).to_array();
+            let value = s.eval(wo, wi, LobeFlags::ALL).to_array();
             for (ours, theirs) in value.into_iter().zip(&n[4..7]) {
                 worst[0] = worst[0].max(deviation(ours, *theirs, 1e-3));
             }
             worst[1] = worst[1].max(deviation(s.pdf(wo, wi), n[7], 1e-3));
         } else {
-            let lobes = s.specular_lobes(wo, Transport::Radiance, Vec2::splat(0.5));
+            let lobes = s.lobes(wo, Transport::Radiance, Vec2::splat(0.5), LobeFlags::ALL);
             let near = lobes.iter().flatten().find(|l| l.wi.distance(wi) < 1e-3);
             let Some(lobe) = near else { return [f64::INFINITY; 3] };
             for (ours, theirs) in lobe.weight.to_array().into_iter().zip(&n[4..7]) {

@@ -7,7 +7,7 @@ use foton_film::Image;
 use foton_integrator::{Cancel, LightUse, PpmSettings, Render, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
-use foton_scene::{BuildOptions, Census, Scene};
+use foton_scene::{BsdfKind, BuildOptions, Census, LobeFlags, Scene};
 use foton_tests::{Sketch, grey};
 
 /// A lit room of plain walls with a ball in it, and no more.
@@ -48,13 +48,26 @@ fn modelling_what_a_scene_does_not_need_gives_the_same_bits() {
     let room = room();
     let plain = render(&room, Census::default());
     let none = Census::default();
+    let kind = |flags, roughness, interpolated_normals| BsdfKind {
+        flags,
+        roughness,
+        interpolated_normals,
+        lambertian: true,
+        masked: false,
+    };
+    let diffuse = LobeFlags::DIFFUSE | LobeFlags::REFLECTION;
+    let smooth = vec![kind(diffuse, None, true)];
+    let narrow = vec![kind(LobeFlags::GLOSSY | LobeFlags::REFLECTION, Some(0.05), false)];
     for (name, forced) in [
-        ("textures", Census { textures: true, ..none }),
-        ("anisotropic frames", Census { anisotropy: true, ..none }),
-        ("environment", Census { environment: true, ..none }),
-        ("shading normals' correction", Census { shading_normals: true, ..none }),
-        ("rough coats", Census { rough_coats: true, ..none }),
-        ("looking at lights from narrow gloss", Census { narrow_gloss: true, delta_emitters: true, ..none }),
+        ("textures", Census { textures: true, ..none.clone() }),
+        ("anisotropic frames", Census { anisotropy: true, ..none.clone() }),
+        ("environment", Census { environment: true, ..none.clone() }),
+        ("shading normals' correction", Census { bsdfs: smooth, ..none.clone() }),
+        ("rough coats", Census { rough_coats: true, ..none.clone() }),
+        (
+            "looking at lights from narrow gloss",
+            Census { bsdfs: narrow, delta_emitters: true, ..none.clone() },
+        ),
     ] {
         assert!(render(&room, forced).pixels == plain.pixels, "{name}");
     }

@@ -8,31 +8,31 @@ use foton_integrator::{DirectLight, PpmSettings, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{
-    Bitmap, Bsdf, Colour, EmitterDescription, EmitterKind, Geometry, Mesh, MicrofacetDistribution,
-    Microfacets,
+    Bitmap, Bsdf, Colour, Conductor, EmitterDescription, EmitterKind, Geometry, Mesh, MicrofacetDistribution,
+    Microfacets, Mirror, Plastic,
 };
 use foton_tests::{Sketch, grey, seeds};
 
 const WHITE: Colour = Colour::Constant(Rgb::WHITE);
 
 fn metal(alpha: f32) -> Bsdf {
-    Bsdf::Conductor {
+    Bsdf::Conductor(Conductor {
         eta: Rgb::new(0.2, 0.9, 1.1),
         k: Rgb::new(3.9, 2.5, 2.1),
         specular_reflectance: WHITE,
         roughness: Some(Microfacets::isotropic(MicrofacetDistribution::Ggx, alpha)),
-    }
+    })
 }
 
 fn plastic(roughness: Option<f32>) -> Bsdf {
-    Bsdf::Plastic {
+    Bsdf::Plastic(Plastic {
         int_ior: 1.5,
         ext_ior: 1.0,
         diffuse_reflectance: Colour::Constant(Rgb::splat(0.5)),
         specular_reflectance: WHITE,
         nonlinear: true,
         roughness: roughness.map(|a| Microfacets::isotropic(MicrofacetDistribution::Beckmann, a)),
-    }
+    })
 }
 
 fn settings(photons: u32) -> RenderSettings {
@@ -269,7 +269,7 @@ fn a_mirror_whose_normals_lean_too_far_swallows_no_light() {
         .shape(
             Geometry::Mesh(Arc::new(plane)),
             DAffine3::IDENTITY,
-            Bsdf::Mirror { reflectance: WHITE },
+            Bsdf::Mirror(Mirror { reflectance: WHITE }),
             None,
         );
     let lit_by = |kind: EmitterKind| {

@@ -8,7 +8,8 @@ use foton_integrator::{DirectLight, PpmSettings, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{
-    Bsdf, Colour, EmitterDescription, EmitterKind, Geometry, Mesh, MicrofacetDistribution, Microfacets,
+    Bsdf, Colour, Conductor, Dielectric, EmitterDescription, EmitterKind, Geometry, Mesh,
+    MicrofacetDistribution, Microfacets, Mirror, Null, Plastic, ThinDielectric,
 };
 use foton_tests::{Sketch, glass, grey, mean, seeds};
 
@@ -28,23 +29,23 @@ fn settings(photons: u32, samples: u32) -> RenderSettings {
 
 /// A metal that reflects all light, in lobes of this roughness.
 fn white_metal(alpha: f32) -> Bsdf {
-    Bsdf::Conductor {
+    Bsdf::Conductor(Conductor {
         eta: Rgb::BLACK,
         k: Rgb::WHITE,
         specular_reflectance: WHITE,
         roughness: Some(Microfacets::isotropic(MicrofacetDistribution::Ggx, alpha)),
-    }
+    })
 }
 
-const MIRROR: Bsdf = Bsdf::Mirror { reflectance: WHITE };
+const MIRROR: Bsdf = Bsdf::Mirror(Mirror { reflectance: WHITE });
 
 fn pane() -> Bsdf {
-    Bsdf::ThinDielectric {
+    Bsdf::ThinDielectric(ThinDielectric {
         int_ior: 1.5,
         ext_ior: 1.0,
         specular_reflectance: WHITE,
         specular_transmittance: WHITE,
-    }
+    })
 }
 
 /// Makes a mask of the last material.
@@ -137,12 +138,14 @@ fn glass_that_stands_in_the_plane_of_a_floor_is_one_with_it() {
 /// Water on glass: the face between them stated once, by its two indices, or twice, each in air.
 #[test]
 fn a_face_between_water_and_glass_may_be_stated_once_or_twice() {
-    let between = |int_ior, ext_ior| Bsdf::Dielectric {
-        int_ior,
-        ext_ior,
-        specular_reflectance: WHITE,
-        specular_transmittance: WHITE,
-        roughness: None,
+    let between = |int_ior, ext_ior| {
+        Bsdf::Dielectric(Dielectric {
+            int_ior,
+            ext_ior,
+            specular_reflectance: WHITE,
+            specular_transmittance: WHITE,
+            roughness: None,
+        })
     };
     let layer = |s: Sketch, height: f64, up: bool, bsdf| {
         let y = if up { DVec3::NEG_Z } else { DVec3::Z };
@@ -196,14 +199,14 @@ fn coarse_ball() -> Geometry {
 /// Nothing reflects more light than arrives: under a sky of radiance 1 nothing is brighter than 1, by three standard errors.
 #[test]
 fn interpolated_normals_reflect_no_more_than_arrives() {
-    let coat = Bsdf::Plastic {
+    let coat = Bsdf::Plastic(Plastic {
         int_ior: 1.5,
         ext_ior: 1.0,
         diffuse_reflectance: WHITE,
         specular_reflectance: WHITE,
         nonlinear: true,
         roughness: Some(Microfacets::isotropic(MicrofacetDistribution::Beckmann, 0.2)),
-    };
+    });
     for material in [grey(1.0), white_metal(0.11), white_metal(0.3), coat] {
         let mut sketch = Sketch::default().camera(DVec3::new(0.0, 0.3, 4.0), DVec3::ZERO, 13.0, 10).shape(
             coarse_ball(),
@@ -238,12 +241,12 @@ fn shadow_rays_see_through_what_photons_pass_straight() {
     let sheet = |s: Sketch, height: f64, bsdf| {
         s.rectangle(DVec3::Y * height, DVec3::X * 0.8, DVec3::NEG_Z * 0.8, bsdf, None)
     };
-    let nothing = |s: Sketch| sheet(s, 1.0, Bsdf::Null);
+    let nothing = |s: Sketch| sheet(s, 1.0, Bsdf::Null(Null));
     let half = |s: Sketch| masked(sheet(s, 1.0, grey(0.5)), 0.5, true);
     let one_sided = |s: Sketch| masked(sheet(s, 1.0, grey(0.0)), 0.25, false);
     let glazed = |s: Sketch| sheet(sheet(s, 1.0, pane()), 1.2, pane());
     let mirrored = |s: Sketch| masked(sheet(s, 1.0, MIRROR), 0.5, true);
-    let all = |s: Sketch| sheet(half(sheet(s, 1.1, pane())), 0.9, Bsdf::Null);
+    let all = |s: Sketch| sheet(half(sheet(s, 1.1, pane())), 0.9, Bsdf::Null(Null));
     let betweens: [&dyn Fn(Sketch) -> Sketch; 6] = [&nothing, &half, &one_sided, &glazed, &mirrored, &all];
     for (i, between) in betweens.into_iter().enumerate() {
         for (ground, by_point) in [(grey(0.5), false), (white_metal(0.3), false), (grey(0.5), true)] {
@@ -271,14 +274,14 @@ type Way<'a> = (&'a str, &'a dyn Fn(Sketch) -> Sketch, bool, bool);
 fn light_by_mirrors_and_through_clear_things_shows_on_both_sides_of_the_followed_roughness() {
     let lit = |by: &dyn Fn(Sketch) -> Sketch, sun: bool, alpha: f32, coated: bool| {
         let material = if coated {
-            Bsdf::Plastic {
+            Bsdf::Plastic(Plastic {
                 int_ior: 1.5,
                 ext_ior: 1.0,
                 diffuse_reflectance: Colour::Constant(Rgb::BLACK),
                 specular_reflectance: WHITE,
                 nonlinear: false,
                 roughness: Some(Microfacets::isotropic(MicrofacetDistribution::Ggx, alpha)),
-            }
+            })
         } else {
             white_metal(alpha)
         };
@@ -316,7 +319,7 @@ fn light_by_mirrors_and_through_clear_things_shows_on_both_sides_of_the_followed
     let by_mirror = |s: Sketch| wall(s, MIRROR);
     let by_pane = |s: Sketch| wall(sheet(s, pane()), pane());
     let by_mask = |s: Sketch| masked(sheet(s, grey(0.0)), 0.5, true);
-    let by_nothing = |s: Sketch| wall(sheet(s, Bsdf::Null), MIRROR);
+    let by_nothing = |s: Sketch| wall(sheet(s, Bsdf::Null(Null)), MIRROR);
     let ways: [Way<'_>; 7] = [
         ("mirror", &by_mirror, false, false),
         ("coat by a mirror", &by_mirror, false, true),
@@ -367,12 +370,14 @@ fn photons_in_narrow_gloss_bring_only_what_followed_paths_cannot() {
 /// among them, add nothing to it, and a true point in its place gives the same light.
 #[test]
 fn photons_in_narrow_gloss_bring_what_followed_paths_would_of_a_lamp_of_some_size() {
-    let rough_glass = |alpha: f32| Bsdf::Dielectric {
-        int_ior: 1.5,
-        ext_ior: 1.0,
-        specular_reflectance: WHITE,
-        specular_transmittance: WHITE,
-        roughness: Some(Microfacets::isotropic(MicrofacetDistribution::Ggx, alpha)),
+    let rough_glass = |alpha: f32| {
+        Bsdf::Dielectric(Dielectric {
+            int_ior: 1.5,
+            ext_ior: 1.0,
+            specular_reflectance: WHITE,
+            specular_transmittance: WHITE,
+            roughness: Some(Microfacets::isotropic(MicrofacetDistribution::Ggx, alpha)),
+        })
     };
     let scene = |material, below: bool, point: bool| {
         let s = Sketch::default()

@@ -2,7 +2,10 @@
 
 use foton_input::quoted;
 use foton_math::Rgb;
-use foton_scene::description::{Bsdf, MicrofacetDistribution, Microfacets};
+use foton_scene::description::{
+    Bsdf, Conductor, Dielectric, Diffuse, MicrofacetDistribution, Microfacets, Mirror, Null, Plastic,
+    ThinDielectric,
+};
 
 use crate::metals;
 use crate::names::{REFRACTION, did_you_mean};
@@ -16,8 +19,8 @@ impl Reader<'_> {
     /// The BSDF of a plugin that has no others inside.
     pub(crate) fn bsdf(&mut self, plugin: &str, p: &mut Properties<'_>) -> Option<Bsdf> {
         match plugin {
-            "diffuse" => Some(Bsdf::Diffuse { reflectance: self.share(p, "reflectance", 0.5) }),
-            "null" => Some(Bsdf::Null),
+            "diffuse" => Some(Bsdf::Diffuse(Diffuse { reflectance: self.share(p, "reflectance", 0.5) })),
+            "null" => Some(Bsdf::Null(Null)),
             "conductor" => self.conductor(p, false),
             "roughconductor" => self.conductor(p, true),
             "plastic" => self.plastic(p, false),
@@ -34,7 +37,13 @@ impl Reader<'_> {
         let specular_reflectance = self.share(p, "specular_reflectance", 1.0);
         let specular_transmittance = self.share(p, "specular_transmittance", 1.0);
         let ((int_ior, ext_ior), roughness) = iors.zip(roughness)?;
-        Some(Bsdf::Dielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance, roughness })
+        Some(Bsdf::Dielectric(Dielectric {
+            int_ior,
+            ext_ior,
+            specular_reflectance,
+            specular_transmittance,
+            roughness,
+        }))
     }
 
     fn thin_dielectric(&mut self, p: &mut Properties<'_>) -> Option<Bsdf> {
@@ -42,7 +51,12 @@ impl Reader<'_> {
         let specular_reflectance = self.share(p, "specular_reflectance", 1.0);
         let specular_transmittance = self.share(p, "specular_transmittance", 1.0);
         let (int_ior, ext_ior) = iors?;
-        Some(Bsdf::ThinDielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance })
+        Some(Bsdf::ThinDielectric(ThinDielectric {
+            int_ior,
+            ext_ior,
+            specular_reflectance,
+            specular_transmittance,
+        }))
     }
 
     fn plastic(&mut self, p: &mut Properties<'_>, rough: bool) -> Option<Bsdf> {
@@ -52,14 +66,14 @@ impl Reader<'_> {
         let specular_reflectance = self.share(p, "specular_reflectance", 1.0);
         let nonlinear = p.boolean("nonlinear", &mut self.report).is_some_and(|n| n.value);
         let ((int_ior, ext_ior), roughness) = iors.zip(roughness)?;
-        Some(Bsdf::Plastic {
+        Some(Bsdf::Plastic(Plastic {
             int_ior,
             ext_ior,
             diffuse_reflectance,
             specular_reflectance,
             nonlinear,
             roughness,
-        })
+        }))
     }
 
     /// A metal by name, or by its indices of refraction; without either a mirror.
@@ -83,9 +97,14 @@ impl Reader<'_> {
         let relative = 1.0 / outside.unwrap_or(Some(1.0))?;
         let roughness = roughness?;
         if !indices && eta == Rgb::BLACK && roughness.is_none() {
-            return Some(Bsdf::Mirror { reflectance: specular_reflectance });
+            return Some(Bsdf::Mirror(Mirror { reflectance: specular_reflectance }));
         }
-        Some(Bsdf::Conductor { eta: eta * relative, k: k * relative, specular_reflectance, roughness })
+        Some(Bsdf::Conductor(Conductor {
+            eta: eta * relative,
+            k: k * relative,
+            specular_reflectance,
+            roughness,
+        }))
     }
 
     /// `int_ior` and `ext_ior`, which is air by default.

@@ -3,7 +3,7 @@
 //! A material that several shapes refer to is read once and stands once in the description.
 
 use foton_math::Rgb;
-use foton_scene::description::{Bsdf, Colour, Material};
+use foton_scene::description::{Bsdf, Colour, Diffuse, Material};
 
 use crate::diagnostic::Place;
 use crate::document::NodeId;
@@ -41,7 +41,7 @@ impl Reader<'_> {
         let index = self.description.materials.len();
         let (name, reflectance) =
             if emits { ("default-black", Rgb::BLACK) } else { ("default-grey", Rgb::splat(0.5)) };
-        let front = Bsdf::Diffuse { reflectance: reflectance.into() };
+        let front = Bsdf::Diffuse(Diffuse { reflectance: reflectance.into() });
         self.nodes.materials.push(None);
         self.description.materials.push(Material { name: name.to_owned(), front, back: None, opacity: None });
         self.materials.defaults[slot] = Some(index);

@@ -6,7 +6,7 @@ use std::path::Path;
 use foton_format::{Opened, Options, Suggested, read_str};
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
-use foton_scene::description::{Bsdf, EmitterKind, Geometry};
+use foton_scene::description::{Bsdf, Diffuse, EmitterKind, Geometry, Plastic};
 
 fn files(path: &Path) -> io::Result<Vec<u8>> {
     let text = |text: &str| Ok(text.as_bytes().to_vec());
@@ -57,14 +57,16 @@ fn names_of_old_files_are_renewed() {
     assert_eq!(description.max_depth, Some(4));
     let camera = &description.sensors[1];
     assert_eq!((camera.to_world.translation, camera.width), (DVec3::new(0.0, 0.0, 4.0), 7));
-    let Bsdf::Plastic { int_ior, diffuse_reflectance, .. } = description.materials[0].front else { panic!() };
+    let Bsdf::Plastic(Plastic { int_ior, diffuse_reflectance, .. }) = description.materials[0].front else {
+        panic!()
+    };
     let foton_scene::description::Colour::Constant(orange) = diffuse_reflectance else { panic!() };
     assert_eq!((int_ior, orange.r, orange.b), (1.6, 1.0, 0.0));
     assert!((orange.g - 0.215_86).abs() < 1e-5, "sRGB is made linear: {orange:?}");
     let half = 128.0 / 255.0;
     assert_eq!(
         description.materials[1].front,
-        Bsdf::Diffuse { reflectance: Rgb::new(1.0, half, 0.0).into() }
+        Bsdf::Diffuse(Diffuse { reflectance: Rgb::new(1.0, half, 0.0).into() })
     );
     assert_eq!(description.shapes[1].to_world.translation, DVec3::X);
     assert!(matches!(description.emitters[0].kind, EmitterKind::Spot { cutoff_degrees: 30.0, .. }));
@@ -115,7 +117,10 @@ fn included_files_stand_where_they_are_named() {
 #[test]
 fn a_plugin_may_be_a_file() {
     let opened = read("<shape type='cube'><include filename='grey.xml'/></shape>");
-    assert_eq!(opened.description.materials[0].front, Bsdf::Diffuse { reflectance: Rgb::splat(0.25).into() });
+    assert_eq!(
+        opened.description.materials[0].front,
+        Bsdf::Diffuse(Diffuse { reflectance: Rgb::splat(0.25).into() })
+    );
 }
 
 #[test]

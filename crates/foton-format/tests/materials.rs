@@ -8,8 +8,8 @@ use foton_format::{Opened, Options, open, read_str};
 use foton_math::Rgb;
 use foton_math::glam::DVec2;
 use foton_scene::description::{
-    Bitmap, Bsdf, Colour, EmitterKind, Material, MicrofacetDistribution, Microfacets, Texture, TextureKind,
-    Wrap,
+    Bitmap, Bsdf, Colour, Conductor, Dielectric, Diffuse, EmitterKind, Material, MicrofacetDistribution,
+    Microfacets, Mirror, Null, Plastic, Texture, TextureKind, ThinDielectric, Wrap,
 };
 use image::ImageFormat;
 
@@ -90,8 +90,12 @@ fn metals_have_the_indices_of_mitsuba() {
         ("Hg_palik", [2.398_939, 1.440_028, 0.909_57], [6.327_587, 4.371_925, 3.421_764]),
     ] {
         let smooth = bsdf("conductor", &format!("<string name='material' value='{name}'/>"));
-        let Bsdf::Conductor { eta: found_eta, k: found_k, specular_reflectance: WHITE, roughness: None } =
-            smooth
+        let Bsdf::Conductor(Conductor {
+            eta: found_eta,
+            k: found_k,
+            specular_reflectance: WHITE,
+            roughness: None,
+        }) = smooth
         else {
             panic!("{smooth:?}")
         };
@@ -102,12 +106,14 @@ fn metals_have_the_indices_of_mitsuba() {
 
 #[test]
 fn conductors_are_mirrors_only_without_indices() {
-    assert_eq!(bsdf("conductor", ""), Bsdf::Mirror { reflectance: WHITE });
-    let conductor = |eta: f32, k: f32, roughness| Bsdf::Conductor {
-        eta: Rgb::splat(eta),
-        k: Rgb::splat(k),
-        specular_reflectance: WHITE,
-        roughness,
+    assert_eq!(bsdf("conductor", ""), Bsdf::Mirror(Mirror { reflectance: WHITE }));
+    let conductor = |eta: f32, k: f32, roughness| {
+        Bsdf::Conductor(Conductor {
+            eta: Rgb::splat(eta),
+            k: Rgb::splat(k),
+            specular_reflectance: WHITE,
+            roughness,
+        })
     };
     assert_eq!(bsdf("conductor", "<float name='eta' value='1.5'/>"), conductor(1.5, 1.0, None));
     assert_eq!(
@@ -126,7 +132,7 @@ fn conductors_are_mirrors_only_without_indices() {
 #[test]
 fn roughness_is_one_alpha_or_two() {
     let of = |inside: &str| match bsdf("roughconductor", inside) {
-        Bsdf::Conductor { roughness: Some(roughness), .. } => roughness,
+        Bsdf::Conductor(Conductor { roughness: Some(roughness), .. }) => roughness,
         other => panic!("{other:?}"),
     };
     assert_eq!(
@@ -145,34 +151,36 @@ fn roughness_is_one_alpha_or_two() {
 fn glass_may_be_rough_or_thin() {
     let rough =
         bsdf("roughdielectric", "<string name='int_ior' value='water'/><float name='alpha' value='0.2'/>");
-    let rough_water = Bsdf::Dielectric {
+    let rough_water = Bsdf::Dielectric(Dielectric {
         int_ior: 1.333,
         ext_ior: 1.000_277,
         specular_reflectance: WHITE,
         specular_transmittance: WHITE,
         roughness: Some(beckmann(0.2)),
-    };
+    });
     assert_eq!(rough, rough_water);
     let thin = bsdf("thindielectric", "<rgb name='specular_transmittance' value='0.5'/>");
-    let pane = Bsdf::ThinDielectric {
+    let pane = Bsdf::ThinDielectric(ThinDielectric {
         int_ior: 1.5046,
         ext_ior: 1.000_277,
         specular_reflectance: WHITE,
         specular_transmittance: grey(0.5),
-    };
+    });
     assert_eq!(thin, pane);
-    assert_eq!(bsdf("null", ""), Bsdf::Null);
+    assert_eq!(bsdf("null", ""), Bsdf::Null(Null));
 }
 
 #[test]
 fn plastic_has_mitsubas_defaults() {
-    let plastic = |nonlinear, roughness| Bsdf::Plastic {
-        int_ior: 1.49,
-        ext_ior: 1.000_277,
-        diffuse_reflectance: grey(0.5),
-        specular_reflectance: WHITE,
-        nonlinear,
-        roughness,
+    let plastic = |nonlinear, roughness| {
+        Bsdf::Plastic(Plastic {
+            int_ior: 1.49,
+            ext_ior: 1.000_277,
+            diffuse_reflectance: grey(0.5),
+            specular_reflectance: WHITE,
+            nonlinear,
+            roughness,
+        })
     };
     assert_eq!(bsdf("plastic", ""), plastic(false, None));
     assert_eq!(
@@ -264,9 +272,9 @@ fn textures_stand_once_and_pixels_too() {
         ["wood", "bitmap-2"]
     );
     let fronts: Vec<_> = description.materials.iter().map(|m| m.front).collect();
-    assert_eq!(fronts[0], Bsdf::Diffuse { reflectance: Colour::Texture(0) });
-    assert!(matches!(fronts[1], Bsdf::Plastic { diffuse_reflectance: Colour::Texture(0), .. }));
-    assert_eq!(fronts[2], Bsdf::Diffuse { reflectance: Colour::Texture(1) });
+    assert_eq!(fronts[0], Bsdf::Diffuse(Diffuse { reflectance: Colour::Texture(0) }));
+    assert!(matches!(fronts[1], Bsdf::Plastic(Plastic { diffuse_reflectance: Colour::Texture(0), .. })));
+    assert_eq!(fronts[2], Bsdf::Diffuse(Diffuse { reflectance: Colour::Texture(1) }));
     let pixels = |texture: &Texture| match &texture.kind {
         TextureKind::Bitmap { bitmap, .. } => Arc::clone(bitmap),
         other => panic!("{other:?}"),
@@ -289,7 +297,7 @@ fn checkerboards_have_mitsubas_defaults_and_the_scales_of_old_files() {
 #[test]
 fn spectra_become_colours() {
     let reflectance = |tag: &str| match bsdf("diffuse", tag) {
-        Bsdf::Diffuse { reflectance: Colour::Constant(colour) } => colour,
+        Bsdf::Diffuse(Diffuse { reflectance: Colour::Constant(colour) }) => colour,
         other => panic!("{other:?}"),
     };
     let ramp = [0.742_853, 0.481_14, 0.208_325];

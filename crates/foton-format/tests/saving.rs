@@ -8,8 +8,8 @@ use foton_format::{Opened, Options, Saved, open, read_str, save_edited};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{
-    Bsdf, Colour, EmitterKind, FovAxis, Geometry, MicrofacetDistribution, Microfacets, SceneDescription,
-    ShapeDescription,
+    Bsdf, Colour, Conductor, Dielectric, Diffuse, EmitterKind, FovAxis, Geometry, MicrofacetDistribution,
+    Microfacets, Mirror, Plastic, SceneDescription, ShapeDescription,
 };
 
 const SCENE: &str = r#"<!-- A test scene, with a comment before it. -->
@@ -168,7 +168,7 @@ fn a_tube_that_was_brought_into_the_world_is_moved_there() {
 fn values_of_materials_change_and_textures_stay() {
     let folder = Folder::new("materials");
     let lines = changed_lines(&folder, |d| {
-        let Bsdf::Dielectric { int_ior, .. } = &mut d.materials[0].front else { panic!("glass") };
+        let Bsdf::Dielectric(Dielectric { int_ior, .. }) = &mut d.materials[0].front else { panic!("glass") };
         *int_ior = 1.77;
     });
     assert_eq!(
@@ -176,13 +176,15 @@ fn values_of_materials_change_and_textures_stay() {
         ["<bsdf type=\"dielectric\" id=\"glass\"><float name=\"int_ior\" value=\"1.77\"/></bsdf>"]
     );
     let lines = changed_lines(&folder, |d| {
-        let Bsdf::Plastic { roughness: Some(r), .. } = &mut d.materials[1].front else { panic!("plastic") };
+        let Bsdf::Plastic(Plastic { roughness: Some(r), .. }) = &mut d.materials[1].front else {
+            panic!("plastic")
+        };
         (r.alpha_u, r.alpha_v) = (0.3, 0.3);
         d.materials[1].back = Some(d.materials[1].front);
     });
     assert_eq!(lines, ["<float name=\"alpha\" value=\"0.3\"/>"]);
     let lines = changed_lines(&folder, |d| {
-        let Bsdf::Conductor { k, .. } = &mut d.materials[2].front else { panic!("a metal") };
+        let Bsdf::Conductor(Conductor { k, .. }) = &mut d.materials[2].front else { panic!("a metal") };
         k.b = 2.5;
     });
     assert!(lines[0].contains("eta") && !lines[0].contains("Au"), "{lines:?}");
@@ -192,7 +194,9 @@ fn values_of_materials_change_and_textures_stay() {
 fn smooth_becomes_rough_and_one_kind_another_in_the_same_place() {
     let folder = Folder::new("kinds");
     let lines = changed_lines(&folder, |d| {
-        let Bsdf::Dielectric { roughness, .. } = &mut d.materials[0].front else { panic!("glass") };
+        let Bsdf::Dielectric(Dielectric { roughness, .. }) = &mut d.materials[0].front else {
+            panic!("glass")
+        };
         let distribution = MicrofacetDistribution::Ggx;
         *roughness = Some(Microfacets { distribution, alpha_u: 0.1, alpha_v: 0.2 });
     });
@@ -200,7 +204,7 @@ fn smooth_becomes_rough_and_one_kind_another_in_the_same_place() {
         lines[0].contains("type=\"roughdielectric\" id=\"glass\"") && lines[0].contains("$ior"),
         "{lines:?}"
     );
-    let mirror = Bsdf::Mirror { reflectance: Colour::Constant(Rgb::new(0.9, 0.8, 0.7)) };
+    let mirror = Bsdf::Mirror(Mirror { reflectance: Colour::Constant(Rgb::new(0.9, 0.8, 0.7)) });
     let lines =
         changed_lines(&folder, |d| (d.materials[0].front, d.materials[0].back) = (mirror, Some(mirror)));
     assert!(lines.iter().any(|l| l.contains("twosided") && l.contains("id=\"glass\"")), "{lines:?}");
@@ -213,7 +217,7 @@ fn a_shape_gets_a_material_of_its_own() {
     changed_lines(&folder, |d| {
         let mut own = d.materials[0].clone();
         own.name = "glass of bead".to_owned();
-        let Bsdf::Dielectric { int_ior, .. } = &mut own.front else { panic!("glass") };
+        let Bsdf::Dielectric(Dielectric { int_ior, .. }) = &mut own.front else { panic!("glass") };
         *int_ior = 2.4;
         d.materials.push(own);
         d.shapes[1].material = d.materials.len() - 1;
@@ -325,7 +329,7 @@ fn what_has_no_place_in_the_file_is_written_anew_with_the_reason() {
     // Two materials of one element: a change of one alone cannot be said there.
     let nested = "<scene version='3.0.0'><bsdf type='diffuse' id='a'/><bsdf type='twosided' id='b'><ref id='a'/></bsdf>\
                   <shape type='sphere'><ref id='a'/></shape><shape type='cube'><ref id='b'/></shape></scene>";
-    let red = Bsdf::Diffuse { reflectance: Rgb::new(0.5, 0.1, 0.1).into() };
+    let red = Bsdf::Diffuse(Diffuse { reflectance: Rgb::new(0.5, 0.1, 0.1).into() });
     let nested = write("nested.xml", nested);
     assert_eq!(
         why(&nested, &|d| d.materials[0].front = red),

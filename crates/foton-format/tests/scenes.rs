@@ -7,7 +7,9 @@ use std::sync::Arc;
 use foton_format::{Node, Opened, Options, open, read_str};
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
-use foton_scene::description::{Bsdf, EmitterKind, Filter, FovAxis, Geometry, Mesh};
+use foton_scene::description::{
+    Bsdf, Dielectric, Diffuse, EmitterKind, Filter, FovAxis, Geometry, Mesh, Mirror,
+};
 
 const TRIANGLE: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n";
 
@@ -37,7 +39,7 @@ fn bsdf(snippet: &str) -> (Bsdf, Option<Bsdf>) {
 }
 
 fn grey(value: f32) -> Bsdf {
-    Bsdf::Diffuse { reflectance: Rgb::splat(value).into() }
+    Bsdf::Diffuse(Diffuse { reflectance: Rgb::splat(value).into() })
 }
 
 fn mesh(geometry: &Geometry) -> &Arc<Mesh> {
@@ -55,7 +57,7 @@ fn reflectance_is_read_from_every_tag() {
     }
     assert_eq!(bsdf("<bsdf type='diffuse'><spectrum name='reflectance' value='0.3'/></bsdf>").0, grey(0.3));
     let colour = bsdf("<bsdf type='diffuse'><rgb name='reflectance' value='.1 .2, .3'/></bsdf>").0;
-    assert_eq!(colour, Bsdf::Diffuse { reflectance: Rgb::new(0.1, 0.2, 0.3).into() });
+    assert_eq!(colour, Bsdf::Diffuse(Diffuse { reflectance: Rgb::new(0.1, 0.2, 0.3).into() }));
 }
 
 #[test]
@@ -67,7 +69,7 @@ fn a_shape_without_a_bsdf_is_grey_and_an_emitter_black() {
 
 #[test]
 fn two_sides_come_from_one_bsdf_or_two() {
-    let mirror = Bsdf::Mirror { reflectance: Rgb::splat(0.25).into() };
+    let mirror = Bsdf::Mirror(Mirror { reflectance: Rgb::splat(0.25).into() });
     let conductor = "<bsdf type='conductor'><string name='material' value='none'/>\
                      <rgb name='specular_reflectance' value='0.25'/></bsdf>";
     assert_eq!(bsdf(conductor), (mirror, None));
@@ -80,7 +82,7 @@ fn two_sides_come_from_one_bsdf_or_two() {
 #[test]
 fn indices_of_refraction_are_numbers_or_substances() {
     let iors = |inside: &str| match bsdf(&format!("<bsdf type='dielectric'>{inside}</bsdf>")).0 {
-        Bsdf::Dielectric { int_ior, ext_ior, .. } => (int_ior, ext_ior),
+        Bsdf::Dielectric(Dielectric { int_ior, ext_ior, .. }) => (int_ior, ext_ior),
         other => panic!("{other:?}"),
     };
     assert_eq!(iors(""), (1.5046, 1.000_277));
@@ -89,7 +91,7 @@ fn indices_of_refraction_are_numbers_or_substances() {
         (1.333, 1.0)
     );
     let tinted = bsdf("<bsdf type='dielectric'><rgb name='specular_transmittance' value='0 1 0'/></bsdf>").0;
-    let Bsdf::Dielectric { specular_reflectance, specular_transmittance, .. } = tinted else {
+    let Bsdf::Dielectric(Dielectric { specular_reflectance, specular_transmittance, .. }) = tinted else {
         panic!("{tinted:?}")
     };
     assert_eq!(

@@ -8,9 +8,9 @@ use foton_format::{Options, open, write_scene};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
-    Bitmap, Bsdf, Colour, Crop, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh,
-    MicrofacetDistribution, Microfacets, SceneDescription, SensorDescription, ShapeDescription, Texture,
-    TextureKind, Wrap,
+    Bitmap, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, EmitterDescription, EmitterKind, Filter,
+    FovAxis, Geometry, Material, Mesh, MicrofacetDistribution, Microfacets, Mirror, Null, Plastic,
+    SceneDescription, SensorDescription, ShapeDescription, Texture, TextureKind, ThinDielectric, Wrap,
 };
 
 /// A folder of a test's own, removed when the test is over.
@@ -137,29 +137,35 @@ fn everything() -> SceneDescription {
         TextureKind::Checkerboard { colours: [Rgb::new(0.1, 0.2, 0.3), Rgb::splat(0.7)] },
         TextureKind::Bitmap { bitmap: Arc::clone(&bitmap), wrap: Wrap::Clamp, bilinear: true },
     ];
-    let diffuse = Bsdf::Diffuse { reflectance: colour(0.1, 0.63, 1.0 / 3.0) };
-    let textured = Bsdf::Diffuse { reflectance: Colour::Texture(0) };
-    let plastic = |nonlinear, roughness| Bsdf::Plastic {
-        int_ior: 1.49,
-        ext_ior: 1.000_277,
-        diffuse_reflectance: Colour::Texture(1),
-        specular_reflectance: colour(0.9, 0.8, 0.7),
-        nonlinear,
-        roughness,
+    let diffuse = Bsdf::Diffuse(Diffuse { reflectance: colour(0.1, 0.63, 1.0 / 3.0) });
+    let textured = Bsdf::Diffuse(Diffuse { reflectance: Colour::Texture(0) });
+    let plastic = |nonlinear, roughness| {
+        Bsdf::Plastic(Plastic {
+            int_ior: 1.49,
+            ext_ior: 1.000_277,
+            diffuse_reflectance: Colour::Texture(1),
+            specular_reflectance: colour(0.9, 0.8, 0.7),
+            nonlinear,
+            roughness,
+        })
     };
     let (specular_reflectance, specular_transmittance) = (white, colour(0.5, 0.6, 0.7));
-    let glass = |roughness| Bsdf::Dielectric {
-        int_ior: 1.5046,
-        ext_ior: 1.000_277,
-        specular_reflectance,
-        specular_transmittance,
-        roughness,
+    let glass = |roughness| {
+        Bsdf::Dielectric(Dielectric {
+            int_ior: 1.5046,
+            ext_ior: 1.000_277,
+            specular_reflectance,
+            specular_transmittance,
+            roughness,
+        })
     };
-    let metal = |roughness| Bsdf::Conductor {
-        eta: Rgb::new(0.143_08, 0.374_95, 1.4424),
-        k: Rgb::new(3.9831, 2.3857, 1.6032),
-        specular_reflectance,
-        roughness,
+    let metal = |roughness| {
+        Bsdf::Conductor(Conductor {
+            eta: Rgb::new(0.143_08, 0.374_95, 1.4424),
+            k: Rgb::new(3.9831, 2.3857, 1.6032),
+            specular_reflectance,
+            roughness,
+        })
     };
     let sides = [
         (diffuse, None, None),
@@ -170,14 +176,19 @@ fn everything() -> SceneDescription {
         (glass(None), None, None),
         (glass(roughness(MicrofacetDistribution::Beckmann, 0.1, 0.2)), None, None),
         (
-            Bsdf::ThinDielectric { int_ior: 1.5, ext_ior: 1.0, specular_reflectance, specular_transmittance },
+            Bsdf::ThinDielectric(ThinDielectric {
+                int_ior: 1.5,
+                ext_ior: 1.0,
+                specular_reflectance,
+                specular_transmittance,
+            }),
             None,
             None,
         ),
-        (Bsdf::Mirror { reflectance: colour(0.999, 0.999, 0.999) }, None, None),
+        (Bsdf::Mirror(Mirror { reflectance: colour(0.999, 0.999, 0.999) }), None, None),
         (metal(None), None, None),
         (metal(roughness(MicrofacetDistribution::Ggx, 0.02, 0.02)), Some(diffuse), None),
-        (Bsdf::Null, None, None),
+        (Bsdf::Null(Null), None, None),
     ];
     let materials = sides.map(|(front, back, opacity)| Material {
         // One name for all: ids must become different ones.

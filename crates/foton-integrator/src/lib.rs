@@ -14,11 +14,13 @@ mod settings;
 pub use error::{ClassError, ErrorEstimate, TileError};
 pub use foton_transport::codec::StateError;
 pub use foton_transport::photon_map::PathClass;
-pub use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite, Quantity, Stage};
+pub use foton_transport::{
+    Cancel, Cancelled, Halt, Ledger, LightUse, LobeUse, Loss, NotFinite, Quantity, Stage,
+};
 pub use layers::LayerKind;
 pub use ppm::{
     Alpha, DirectLight, Disc, Feature, MemoryEstimate, PassReport, PpmSettings, Radii, RadiusFloor,
-    RadiusRule, RadiusScale, Start, Statistics, Step, StoredPhoton, Variants, features,
+    RadiusRule, RadiusScale, Start, Statistics, Step, StoredPhoton, Variants, features, lobe_use,
 };
 pub use render::Render;
 pub use settings::{Method, RenderSettings, SettingChange};

@@ -10,7 +10,7 @@ use crate::bsdf::{Coat, Scattering};
 use crate::build::Patch;
 use crate::census::Census;
 use crate::coincident::Coincidences;
-use crate::description::{Bsdf, Colour, Material};
+use crate::description::{Bsdf, Colour, Diffuse, Material};
 use crate::discrete::Discrete;
 use crate::emitter::{Ball, Emitter, Kind};
 use crate::normalise::Normalisation;
@@ -20,7 +20,7 @@ use crate::surface::{Surface, locate};
 use crate::texture::Sampler;
 
 /// The side that a material does not describe.
-const BLACK: Bsdf = Bsdf::Diffuse { reflectance: Colour::Constant(Rgb::BLACK) };
+const BLACK: Bsdf = Bsdf::Diffuse(Diffuse { reflectance: Colour::Constant(Rgb::BLACK) });
 
 /// A surface's identity in a built scene.
 #[derive(Clone, Debug)]

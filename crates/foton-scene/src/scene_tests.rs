@@ -8,12 +8,12 @@ use foton_math::{Ray, Rgb};
 use super::Scene;
 use crate::bsdf::Scattering;
 use crate::description::{
-    Bsdf, Colour, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription, SensorDescription,
-    ShapeDescription, Texture, TextureKind,
+    Bsdf, Colour, Diffuse, Filter, FovAxis, Geometry, Material, Mesh, Mirror, SceneDescription,
+    SensorDescription, ShapeDescription, Texture, TextureKind, ThinDielectric,
 };
 
 fn diffuse(reflectance: Colour) -> Bsdf {
-    Bsdf::Diffuse { reflectance }
+    Bsdf::Diffuse(Diffuse { reflectance })
 }
 
 /// Unit squares that face +z beside each other along x, one of each material.
@@ -52,19 +52,19 @@ fn squares(materials: Vec<Material>) -> Scene {
 #[test]
 fn a_lambertian_side_is_what_its_scattering_says_and_no_other_is_one() {
     let (red, blue) = (Colour::Constant(Rgb::new(0.8, 0.1, 0.1)), Colour::Constant(Rgb::new(0.1, 0.1, 0.8)));
-    let glass = Bsdf::ThinDielectric {
+    let glass = Bsdf::ThinDielectric(ThinDielectric {
         int_ior: 1.5,
         ext_ior: 1.0,
         specular_reflectance: Rgb::WHITE.into(),
         specular_transmittance: Rgb::WHITE.into(),
-    };
+    });
     let of = |front, back, opacity| Material { name: "material".into(), front, back, opacity };
     let scene = squares(vec![
         of(diffuse(red), Some(diffuse(blue)), None),
         of(diffuse(red), None, None),
         of(diffuse(Colour::Texture(0)), Some(diffuse(red)), None),
         of(diffuse(red), Some(diffuse(red)), Some(Colour::Constant(Rgb::splat(0.5)))),
-        of(Bsdf::Mirror { reflectance: red }, Some(diffuse(blue)), None),
+        of(Bsdf::Mirror(Mirror { reflectance: red }), Some(diffuse(blue)), None),
         of(glass, Some(diffuse(blue)), None),
     ]);
     let to_scene = |p: DVec3| scene.normalisation().point(p);
@@ -75,9 +75,9 @@ fn a_lambertian_side_is_what_its_scattering_says_and_no_other_is_one() {
             let surface = scene.nearest(Ray::new(origin, -Vec3::Z)).expect("a square");
             for outward in [true, false] {
                 let wanted = match scene.scattering(&surface, outward) {
-                    Some(Scattering { bsdf: Bsdf::Diffuse { reflectance }, opacity: 1.0, .. }) => {
-                        Some(reflectance)
-                    }
+                    Some(Scattering {
+                        bsdf: Bsdf::Diffuse(Diffuse { reflectance }), opacity: 1.0, ..
+                    }) => Some(reflectance),
                     _ => None,
                 };
                 assert_eq!(scene.lambertian(&surface, outward), wanted, "square {i}, outward: {outward}");

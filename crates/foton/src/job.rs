@@ -265,10 +265,11 @@ pub(crate) fn build(
             "{under} lies exactly in {over}, which hides it there: what is opaque counts before masks, then the first in the file"
         ));
     }
-    if census.narrow_gloss {
+    let lobes = lobe_use(&scene);
+    if lobes.specular_gloss {
         console.note("gloss of roughness up to 0.1 is followed in directions chosen once: its noise stays; --spp lowers it");
     }
-    if census.has_narrow_caustics() {
+    if lobes.highlights_by_photons {
         console.note(
             "light of points, spots and suns that mirrors or glass throw on such gloss comes as photons: the narrower, the noisier",
         );

@@ -6,8 +6,8 @@ use foton_integrator::{LayerKind, PpmSettings, Render, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
-    Bsdf, Colour, EmitterDescription, EmitterKind, MicrofacetDistribution, Microfacets, SceneDescription,
-    Texture, TextureKind,
+    Bsdf, Colour, Conductor, Diffuse, EmitterDescription, EmitterKind, MicrofacetDistribution, Microfacets,
+    Plastic, SceneDescription, Texture, TextureKind,
 };
 
 use crate::rig::{self, PHOTONS, WARM_UP};
@@ -80,7 +80,7 @@ fn textured(mut description: SceneDescription) -> SceneDescription {
     });
     for material in &mut description.materials {
         for bsdf in [Some(&mut material.front), material.back.as_mut()].into_iter().flatten() {
-            if let Bsdf::Diffuse { reflectance } = bsdf {
+            if let Bsdf::Diffuse(Diffuse { reflectance }) = bsdf {
                 *reflectance = Colour::Texture(0);
             }
         }
@@ -96,23 +96,23 @@ fn rough(mut description: SceneDescription) -> SceneDescription {
     for material in &mut description.materials {
         let is_chalk = material.name == "chalk";
         for bsdf in [Some(&mut material.front), material.back.as_mut()].into_iter().flatten() {
-            if let Bsdf::Diffuse { reflectance } = *bsdf {
+            if let Bsdf::Diffuse(Diffuse { reflectance }) = *bsdf {
                 *bsdf = if is_chalk {
-                    Bsdf::Conductor {
+                    Bsdf::Conductor(Conductor {
                         eta: Rgb::splat(0.2),
                         k: Rgb::splat(3.9),
                         specular_reflectance: Rgb::WHITE.into(),
                         roughness: microfacets(0.3),
-                    }
+                    })
                 } else {
-                    Bsdf::Plastic {
+                    Bsdf::Plastic(Plastic {
                         int_ior: 1.5,
                         ext_ior: 1.0,
                         diffuse_reflectance: reflectance,
                         specular_reflectance: Rgb::WHITE.into(),
                         nonlinear: false,
                         roughness: microfacets(0.2),
-                    }
+                    })
                 };
             }
         }

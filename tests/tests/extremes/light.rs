@@ -8,7 +8,7 @@ use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DVec3};
 use foton_scene::BuildError;
 use foton_scene::description::{
-    Bitmap, Bsdf, Colour, EmitterDescription, EmitterKind, Material, Texture, TextureKind, Wrap,
+    Bitmap, Bsdf, Colour, Diffuse, EmitterDescription, EmitterKind, Material, Texture, TextureKind, Wrap,
 };
 use foton_tests::{Sketch, glass, grey, mean, seeds};
 
@@ -130,7 +130,7 @@ fn refusal(spoil: impl FnOnce(&mut Sketch)) -> Option<BuildError> {
             bilinear: true,
         },
     });
-    sketch.0.materials[0].front = Bsdf::Diffuse { reflectance: Colour::Texture(0) };
+    sketch.0.materials[0].front = Bsdf::Diffuse(Diffuse { reflectance: Colour::Texture(0) });
     spoil(&mut sketch);
     sketch.build().err()
 }

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use foton_integrator::{Alpha, DirectLight, PpmSettings, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
-use foton_scene::description::{Bsdf, Colour};
+use foton_scene::description::{Bsdf, Colour, Dielectric};
 use foton_tests::{Sketch, glass, grey, mean, seeds};
 
 use super::with_radius;
@@ -14,13 +14,13 @@ use crate::settings;
 
 /// Glass between two stated indices.
 fn between(int_ior: f32, ext_ior: f32) -> Bsdf {
-    Bsdf::Dielectric {
+    Bsdf::Dielectric(Dielectric {
         int_ior,
         ext_ior,
         specular_reflectance: Colour::Constant(Rgb::WHITE),
         specular_transmittance: Colour::Constant(Rgb::WHITE),
         roughness: None,
-    }
+    })
 }
 
 /// Share that passes a boundary along its normal.

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use foton_integrator::{Cancel, DirectLight, NotFinite, PpmSettings, Quantity, Render, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
-use foton_scene::description::{Bsdf, Colour, Geometry, Mesh, MicrofacetDistribution, Microfacets};
+use foton_scene::description::{
+    Bsdf, Colour, Conductor, Geometry, Mesh, MicrofacetDistribution, Microfacets,
+};
 use foton_session::{Interrupt, PassError, Session, StopCause, StopRule};
 use foton_tests::{Sketch, grey};
 
@@ -58,12 +60,12 @@ fn first(sketch: &Sketch, settings: &RenderSettings, quantity: Quantity) -> NotF
 
 /// Metal of a roughness.
 fn metal(alpha: f32) -> Bsdf {
-    Bsdf::Conductor {
+    Bsdf::Conductor(Conductor {
         eta: Rgb::splat(0.2),
         k: Rgb::splat(3.0),
         specular_reflectance: Colour::Constant(Rgb::WHITE),
         roughness: Some(Microfacets::isotropic(MicrofacetDistribution::Ggx, alpha)),
-    }
+    })
 }
 
 /// The same from another place.

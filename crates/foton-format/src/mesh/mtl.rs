@@ -21,7 +21,9 @@
 
 use foton_input::quoted;
 use foton_math::{Cancel, Rgb};
-use foton_scene::description::{Bsdf, Colour, Material, MicrofacetDistribution, Microfacets};
+use foton_scene::description::{
+    Bsdf, Colour, Dielectric, Diffuse, Material, MicrofacetDistribution, Microfacets, Mirror, Plastic,
+};
 
 use crate::diagnostic::Place;
 use crate::mesh::words::{Problem, Word, Words, shown};
@@ -224,18 +226,18 @@ impl Statements {
         }
         let white = Colour::Constant(Rgb::WHITE);
         let front = match illum {
-            3 | 5 if is_shiny => Bsdf::Mirror { reflectance: self.ks.into() },
-            _ if is_glass => Bsdf::Dielectric {
+            3 | 5 if is_shiny => Bsdf::Mirror(Mirror { reflectance: self.ks.into() }),
+            _ if is_glass => Bsdf::Dielectric(Dielectric {
                 int_ior: self.ior().unwrap_or(1.5),
                 ext_ior: 1.0,
                 specular_reflectance: white,
                 specular_transmittance: white,
                 roughness: None,
-            },
+            }),
             2 if is_shiny => self.coated(ni.unwrap_or(1.5)),
-            _ => Bsdf::Diffuse { reflectance: self.kd.into() },
+            _ => Bsdf::Diffuse(Diffuse { reflectance: self.kd.into() }),
         };
-        let is_clear = matches!(front, Bsdf::Dielectric { .. });
+        let is_clear = matches!(front, Bsdf::Dielectric(Dielectric { .. }));
         let opacity = (!is_clear && opacity < 1.0).then(|| Colour::Constant(Rgb::splat(opacity)));
         let back = (!is_clear).then_some(front);
         let material = Material { name: self.name.clone(), front, back, opacity };
@@ -246,14 +248,14 @@ impl Statements {
         // The exponent of a Blinn highlight as the slope of Beckmann's facets (Walter et al. 2007, after eq. 33).
         let alpha = (2.0 / (self.ns + 2.0)).sqrt();
         let distribution = MicrofacetDistribution::Beckmann;
-        Bsdf::Plastic {
+        Bsdf::Plastic(Plastic {
             int_ior,
             ext_ior: 1.0,
             diffuse_reflectance: self.kd.into(),
             specular_reflectance: self.ks.into(),
             nonlinear: false,
             roughness: Some(Microfacets { distribution, alpha_u: alpha, alpha_v: alpha }),
-        }
+        })
     }
 }
 

@@ -1,6 +1,9 @@
 //! Changed materials in a document: the values that changed, or where their structure did, the whole element anew.
 
-use foton_scene::description::{Bsdf, Colour, Material, MicrofacetDistribution, Microfacets};
+use foton_scene::description::{
+    Bsdf, Colour, Conductor, Dielectric, Diffuse, Material, MicrofacetDistribution, Microfacets, Mirror,
+    Null, Plastic, ThinDielectric,
+};
 
 use super::tree::Obstacle;
 use crate::document::{Document, NodeId};
@@ -138,13 +141,13 @@ fn stated(bsdf: &Bsdf) -> Option<Vec<Stated>> {
     let mut colours = Vec::new();
     let _ = bsdf.map(|c| colours.push(c));
     let names: &[&'static str] = match bsdf {
-        Bsdf::Diffuse { .. } => &["reflectance"],
-        Bsdf::Dielectric { .. } | Bsdf::ThinDielectric { .. } => {
+        Bsdf::Diffuse(Diffuse { .. }) => &["reflectance"],
+        Bsdf::Dielectric(Dielectric { .. }) | Bsdf::ThinDielectric(ThinDielectric { .. }) => {
             &["specular_reflectance", "specular_transmittance"]
         }
-        Bsdf::Mirror { .. } | Bsdf::Conductor { .. } => &["specular_reflectance"],
-        Bsdf::Plastic { .. } => &["diffuse_reflectance", "specular_reflectance"],
-        Bsdf::Null => &[],
+        Bsdf::Mirror(Mirror { .. }) | Bsdf::Conductor(Conductor { .. }) => &["specular_reflectance"],
+        Bsdf::Plastic(Plastic { .. }) => &["diffuse_reflectance", "specular_reflectance"],
+        Bsdf::Null(Null) => &[],
     };
     for (name, value) in names.iter().zip(colours) {
         if let Colour::Constant(c) = value {
@@ -152,22 +155,22 @@ fn stated(bsdf: &Bsdf) -> Option<Vec<Stated>> {
         }
     }
     match *bsdf {
-        Bsdf::Dielectric { int_ior, ext_ior, .. }
-        | Bsdf::ThinDielectric { int_ior, ext_ior, .. }
-        | Bsdf::Plastic { int_ior, ext_ior, .. } => {
+        Bsdf::Dielectric(Dielectric { int_ior, ext_ior, .. })
+        | Bsdf::ThinDielectric(ThinDielectric { int_ior, ext_ior, .. })
+        | Bsdf::Plastic(Plastic { int_ior, ext_ior, .. }) => {
             all.extend([("float", "int_ior", single(int_ior)), ("float", "ext_ior", single(ext_ior))]);
         }
-        Bsdf::Conductor { eta, k, .. } => {
+        Bsdf::Conductor(Conductor { eta, k, .. }) => {
             all.extend([("rgb", "eta", colour(eta)), ("rgb", "k", colour(k))]);
         }
         _ => {}
     }
-    if let Bsdf::Plastic { nonlinear, .. } = *bsdf {
+    if let Bsdf::Plastic(Plastic { nonlinear, .. }) = *bsdf {
         all.push(("boolean", "nonlinear", nonlinear.to_string()));
     }
-    if let Bsdf::Dielectric { roughness: Some(r), .. }
-    | Bsdf::Conductor { roughness: Some(r), .. }
-    | Bsdf::Plastic { roughness: Some(r), .. } = *bsdf
+    if let Bsdf::Dielectric(Dielectric { roughness: Some(r), .. })
+    | Bsdf::Conductor(Conductor { roughness: Some(r), .. })
+    | Bsdf::Plastic(Plastic { roughness: Some(r), .. }) = *bsdf
     {
         all.extend(stated_roughness(&r));
     }

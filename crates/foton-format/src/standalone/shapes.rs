@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use foton_math::Rgb;
 use foton_math::glam::DAffine3;
-use foton_scene::description::{Bsdf, Geometry, Material, Mesh, SceneDescription, ShapeDescription};
+use foton_scene::description::{Bsdf, Diffuse, Geometry, Material, Mesh, SceneDescription, ShapeDescription};
 
 use crate::mesh::mtl;
 
@@ -13,7 +13,7 @@ pub(super) type Library<'a> = dyn FnMut(&str) -> Option<(String, Result<Vec<u8>,
 
 /// Grey, from both sides.
 pub(super) fn grey(name: &str) -> Material {
-    let front = Bsdf::Diffuse { reflectance: Rgb::splat(0.5).into() };
+    let front = Bsdf::Diffuse(Diffuse { reflectance: Rgb::splat(0.5).into() });
     Material { name: name.to_owned(), front, back: Some(front), opacity: None }
 }
 

@@ -4,7 +4,8 @@ use foton_film::WriteError;
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DMat3};
 use foton_scene::description::{
-    Bsdf, Colour, Material, MicrofacetDistribution, Microfacets, Texture, TextureKind, Wrap,
+    Bsdf, Colour, Conductor, Dielectric, Diffuse, Material, MicrofacetDistribution, Microfacets, Mirror,
+    Null, Plastic, Texture, TextureKind, ThinDielectric, Wrap,
 };
 
 use super::Writer;
@@ -78,49 +79,54 @@ impl Writer<'_> {
         attributes.extend(more);
         self.xml.open("bsdf", &attributes);
         match *bsdf {
-            Bsdf::Diffuse { reflectance } => self.colour("reflectance", reflectance),
-            Bsdf::Dielectric {
+            Bsdf::Diffuse(Diffuse { reflectance }) => self.colour("reflectance", reflectance),
+            Bsdf::Dielectric(Dielectric {
                 int_ior,
                 ext_ior,
                 specular_reflectance,
                 specular_transmittance,
                 roughness,
-            } => {
+            }) => {
                 self.refraction(int_ior, ext_ior);
                 self.factor("specular_reflectance", specular_reflectance);
                 self.factor("specular_transmittance", specular_transmittance);
                 self.roughness(roughness.as_ref());
             }
-            Bsdf::ThinDielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance } => {
+            Bsdf::ThinDielectric(ThinDielectric {
+                int_ior,
+                ext_ior,
+                specular_reflectance,
+                specular_transmittance,
+            }) => {
                 self.refraction(int_ior, ext_ior);
                 self.factor("specular_reflectance", specular_reflectance);
                 self.factor("specular_transmittance", specular_transmittance);
             }
-            Bsdf::Mirror { reflectance } => {
+            Bsdf::Mirror(Mirror { reflectance }) => {
                 self.xml.value("string", "material", "none");
                 self.colour("specular_reflectance", reflectance);
             }
-            Bsdf::Conductor { eta, k, specular_reflectance, roughness } => {
+            Bsdf::Conductor(Conductor { eta, k, specular_reflectance, roughness }) => {
                 self.xml.value("rgb", "eta", &colour(eta));
                 self.xml.value("rgb", "k", &colour(k));
                 self.factor("specular_reflectance", specular_reflectance);
                 self.roughness(roughness.as_ref());
             }
-            Bsdf::Plastic {
+            Bsdf::Plastic(Plastic {
                 int_ior,
                 ext_ior,
                 diffuse_reflectance,
                 specular_reflectance,
                 nonlinear,
                 roughness,
-            } => {
+            }) => {
                 self.refraction(int_ior, ext_ior);
                 self.colour("diffuse_reflectance", diffuse_reflectance);
                 self.factor("specular_reflectance", specular_reflectance);
                 self.xml.value("boolean", "nonlinear", if nonlinear { "true" } else { "false" });
                 self.roughness(roughness.as_ref());
             }
-            Bsdf::Null => {}
+            Bsdf::Null(Null) => {}
         }
         self.xml.close("bsdf");
     }
@@ -162,21 +168,24 @@ impl Writer<'_> {
 
 pub(crate) fn plugin(bsdf: &Bsdf) -> &'static str {
     match bsdf {
-        Bsdf::Diffuse { .. } => "diffuse",
-        Bsdf::Dielectric { roughness: None, .. } => "dielectric",
-        Bsdf::Dielectric { .. } => "roughdielectric",
-        Bsdf::ThinDielectric { .. } => "thindielectric",
-        Bsdf::Mirror { .. } | Bsdf::Conductor { roughness: None, .. } => "conductor",
-        Bsdf::Conductor { .. } => "roughconductor",
-        Bsdf::Plastic { roughness: None, .. } => "plastic",
-        Bsdf::Plastic { .. } => "roughplastic",
-        Bsdf::Null => "null",
+        Bsdf::Diffuse(Diffuse { .. }) => "diffuse",
+        Bsdf::Dielectric(Dielectric { roughness: None, .. }) => "dielectric",
+        Bsdf::Dielectric(Dielectric { .. }) => "roughdielectric",
+        Bsdf::ThinDielectric(ThinDielectric { .. }) => "thindielectric",
+        Bsdf::Mirror(Mirror { .. }) | Bsdf::Conductor(Conductor { roughness: None, .. }) => "conductor",
+        Bsdf::Conductor(Conductor { .. }) => "roughconductor",
+        Bsdf::Plastic(Plastic { roughness: None, .. }) => "plastic",
+        Bsdf::Plastic(Plastic { .. }) => "roughplastic",
+        Bsdf::Null(Null) => "null",
     }
 }
 
 /// Whether a BSDF describes both sides by itself.
 fn is_transmitting(bsdf: &Bsdf) -> bool {
-    matches!(bsdf, Bsdf::Dielectric { .. } | Bsdf::ThinDielectric { .. } | Bsdf::Null)
+    matches!(
+        bsdf,
+        Bsdf::Dielectric(Dielectric { .. }) | Bsdf::ThinDielectric(ThinDielectric { .. }) | Bsdf::Null(Null)
+    )
 }
 
 /// The mean channel; the channel itself where all are the same.

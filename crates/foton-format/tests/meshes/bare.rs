@@ -23,17 +23,19 @@ fn materials_of_an_obj_file_become_ours() {
     assert_eq!(found, &names[..8], "a shape for each material");
     assert_eq!((mesh(&opened, 0).triangles.len(), mesh(&opened, 1).triangles.len()), (4, 2));
     let material = |i: usize| &scene.materials[scene.shapes[i].material];
-    let diffuse = |r, g, b| Bsdf::Diffuse { reflectance: Rgb::new(r, g, b).into() };
+    let diffuse = |r, g, b| Bsdf::Diffuse(Diffuse { reflectance: Rgb::new(r, g, b).into() });
     assert_eq!(material(0).front, diffuse(0.5, 0.25, 0.125));
     assert_eq!(material(0).back, Some(material(0).front));
-    assert_eq!(material(1).front, Bsdf::Mirror { reflectance: Rgb::splat(0.9).into() });
+    assert_eq!(material(1).front, Bsdf::Mirror(Mirror { reflectance: Rgb::splat(0.9).into() }));
     for (i, ior) in [(2, 1.33), (3, 1.5)] {
         let glass = material(i);
-        assert!(matches!(glass.front, Bsdf::Dielectric { int_ior, ext_ior: 1.0, .. } if int_ior == ior));
+        assert!(
+            matches!(glass.front, Bsdf::Dielectric(Dielectric { int_ior, ext_ior: 1.0, .. }) if int_ior == ior)
+        );
         assert_eq!((glass.back, glass.opacity), (None, None));
     }
     assert_eq!(material(4).opacity, Some(Rgb::splat(0.25).into()));
-    let Bsdf::Plastic { roughness: Some(facets), .. } = material(5).front else {
+    let Bsdf::Plastic(Plastic { roughness: Some(facets), .. }) = material(5).front else {
         panic!("{:?}", material(5))
     };
     assert!((facets.alpha_u - 0.1).abs() < 1e-6, "√(2 / 200)");

@@ -20,7 +20,7 @@ fn material(mtl: &str) -> (foton_scene::description::Material, Vec<String>) {
 #[test]
 fn a_material_of_maya_is_opaque_and_that_is_said() {
     let (found, said) = material("newmtl lambert\nillum 4\nKd 0.7 0.2 0.1\nKa 0 0 0\nTf 1 1 1\nNi 1.00\n");
-    assert_eq!(found.front, Bsdf::Diffuse { reflectance: Rgb::new(0.7, 0.2, 0.1).into() });
+    assert_eq!(found.front, Bsdf::Diffuse(Diffuse { reflectance: Rgb::new(0.7, 0.2, 0.1).into() }));
     assert_eq!((found.back, found.opacity), (Some(found.front), None));
     assert_eq!(
         said,
@@ -31,14 +31,14 @@ fn a_material_of_maya_is_opaque_and_that_is_said() {
     );
     // The same with an index that nothing has, and of several materials.
     let (found, said) = material("newmtl a\nillum 9\nNi 0\nnewmtl b\nillum 6\nNi 1\n");
-    assert!(matches!(found.front, Bsdf::Diffuse { .. }));
+    assert!(matches!(found.front, Bsdf::Diffuse(Diffuse { .. })));
     assert!(said.len() == 1 && said[0].contains("of \"a\" and of 1 more asks"), "{said:?}");
     for glass in
         ["illum 4\nNi 1.5", "illum 7", "illum 6\nNi 1.33\nTf 0 0 0", "illum 4\nNi 0.75", "d 0.2\nNi 1.5"]
     {
         let (found, said) = material(&format!("newmtl g\n{glass}\n"));
         assert!(
-            matches!(found.front, Bsdf::Dielectric { .. }) && said.is_empty(),
+            matches!(found.front, Bsdf::Dielectric(Dielectric { .. })) && said.is_empty(),
             "{glass}: {found:?} {said:?}"
         );
     }
@@ -75,7 +75,11 @@ fn transparency_as_exporters_mean_it_makes_no_model_vanish() {
     ] {
         let (found, said) = material(&format!("{}\n", mtl.replace("newmtl a", &format!("newmtl a\n{red}"))));
         assert_eq!(found.opacity, opacity.map(|o: f32| Rgb::splat(o).into()), "{mtl}: {said:?}");
-        assert_eq!(found.front, Bsdf::Diffuse { reflectance: Rgb::new(1.0, 0.0, 0.0).into() }, "{mtl}");
+        assert_eq!(
+            found.front,
+            Bsdf::Diffuse(Diffuse { reflectance: Rgb::new(1.0, 0.0, 0.0).into() }),
+            "{mtl}"
+        );
         let about_a: Vec<_> = said.iter().filter(|w| w.contains("\"a\"")).collect();
         assert_eq!(about_a.len(), usize::from(!wanted.is_empty()), "{mtl}: {said:?}");
         assert!(about_a.iter().all(|w| w.contains(wanted)), "{mtl}: {said:?}");
@@ -101,7 +105,7 @@ fn files_of_materials_are_found_by_every_way_to_name_them() {
         let opened = open(&folder.file("m.obj", obj.as_bytes()), &Options::default()).unwrap();
         let scene = &opened.description;
         for (shape, (name, kd)) in scene.shapes.iter().zip(uses) {
-            let wanted = Bsdf::Diffuse { reflectance: Rgb::new(kd, 0.0, 0.0).into() };
+            let wanted = Bsdf::Diffuse(Diffuse { reflectance: Rgb::new(kd, 0.0, 0.0).into() });
             assert_eq!(
                 scene.materials[shape.material].front,
                 wanted,

@@ -159,8 +159,9 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
         let unknown = range.filter_map(|h| {
             let statistics = &hit_points.statistics_slots[hit_points.slot_of[h] as usize];
             let area = std::f64::consts::PI * statistics.radius2();
-            let narrow = hit_points.gloss(hit_points.slot_of[h] as usize).is_some_and(|g| g.narrow);
-            (statistics.is_unknown() && !narrow).then(|| f64::from(hit_points.weights[h].luminance()) / area)
+            let specular = hit_points.gloss(hit_points.slot_of[h] as usize).is_some_and(|g| g.specular);
+            (statistics.is_unknown() && !specular)
+                .then(|| f64::from(hit_points.weights[h].luminance()) / area)
         });
         unknown.sum::<f64>() * self.power / samples
     }

@@ -14,6 +14,7 @@ use pulp::Arch;
 use super::eye_samples::eye_pass;
 use super::hit_points::HitPoints;
 use super::light::Light;
+use super::lobes::lobe_use;
 use super::report::{PassReport, Start};
 use super::settings::{DirectLight, RadiusRule};
 use super::slots::EarlierBatches;
@@ -70,7 +71,7 @@ impl Ppm {
         let eye = eye_pass(&scene, &settings, max_depth, Purpose::Eye).run(cancel)?;
         watch(Stage::Layout);
         let shadow_rays = settings.ppm.direct_light == DirectLight::ShadowRays;
-        let normals = scene.census().shading_normals;
+        let normals = lobe_use(&scene).shading_normals;
         let hit_points =
             HitPoints::new(&eye.hit_points, &eye.gloss, eye.pixel_start(), normals, shadow_rays, cancel)?;
         let asks = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;

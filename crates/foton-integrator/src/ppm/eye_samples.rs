@@ -4,6 +4,7 @@ use foton_math::Purpose;
 use foton_scene::Scene;
 use foton_transport::camera_paths::{EyePass, FirstRadius};
 
+use super::lobes::{LOBE_POLICY, lobe_use};
 use crate::settings::RenderSettings;
 
 /// The eye pass of a render with such settings.
@@ -21,6 +22,8 @@ pub(super) fn eye_pass<'a>(
         hit_points_per_sample: settings.ppm.hit_points_per_sample,
         radius: FirstRadius::new(scene, settings.ppm.radius, scale, floor, settings.samples_per_pixel.get()),
         max_depth,
+        policy: LOBE_POLICY,
+        uses: lobe_use(scene),
         seed: settings.seed,
         purpose,
     }

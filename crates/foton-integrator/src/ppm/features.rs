@@ -5,6 +5,7 @@ use foton_transport::camera_paths::Gloss;
 
 use super::adaptive::RadiusStatistics;
 use super::hit_points::ShadowOrigin;
+use super::lobes::lobe_use;
 use super::radiance::Radiance;
 use super::settings::{DirectLight, RadiusRule};
 use crate::error::ErrorSums;
@@ -31,6 +32,7 @@ pub struct Feature {
 #[must_use]
 pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
     let census = scene.census();
+    let lobes = lobe_use(scene);
     let feature = |name, on, found, absent, cost, bytes_per_hit_point, bytes_per_pixel| Feature {
         name,
         on,
@@ -44,7 +46,7 @@ pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
     vec![
         feature(
             "followed paths",
-            census.specular,
+            lobes.specular,
             "mirrors, glass, narrow gloss or openings",
             "every surface spreads light",
             "eye rays beyond the first",
@@ -62,7 +64,7 @@ pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
         ),
         feature(
             "narrow gloss",
-            census.narrow_gloss,
+            lobes.specular_gloss,
             "lobes of roughness up to 0.1 are followed, each in one direction a sample",
             "no followed lobe is rough",
             "noise that one eye pass freezes: more --spp lowers it",
@@ -71,7 +73,7 @@ pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
         ),
         feature(
             "looking at lights from narrow gloss",
-            census.has_narrow_highlights(),
+            lobes.highlights,
             "small lamps, points, spots and suns are rarely met by following",
             "no narrow gloss, or no light but from the sky",
             "up to 17 shadow rays where an eye path meets narrow gloss",
@@ -80,7 +82,7 @@ pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
         ),
         feature(
             "photons in narrow gloss",
-            census.has_narrow_caustics(),
+            lobes.highlights_by_photons,
             "mirrors and smooth glass may throw light of points, spots and suns on it, where no eye path finds that",
             "no narrow gloss, no such light, or nothing that throws it there",
             "a hit point wherever narrow gloss is followed, two in rough glass",
@@ -89,9 +91,9 @@ pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
         ),
         feature(
             "glossy hit points",
-            census.gathered_gloss,
-            "lobes that are earlier and not Lambertian",
-            "all earlier lobes are Lambertian",
+            lobes.gathered_gloss,
+            "gathered lobes that are not Lambertian",
+            "all gathered lobes are Lambertian",
             "a BSDF's value for each photon that counts there",
             size_of::<Option<Gloss>>(),
             0,
@@ -107,7 +109,7 @@ pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
         ),
         feature(
             "shading normals' correction",
-            census.shading_normals,
+            lobes.shading_normals,
             "interpolated normals on surfaces that spread light",
             "such surfaces are flat or round",
             "a direction decoded for each photon that counts",

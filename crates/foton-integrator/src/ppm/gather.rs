@@ -97,7 +97,7 @@ pub(super) fn collect_gloss<const LAYERS: usize, const MOMENTS: bool>(
         let layer = &mut found.flux[Found::<LAYERS>::layer(photon)];
         for l in (0..LANES).filter(|&l| counts[l] != 0) {
             // EarlierBatches lobes weigh all photons, followed ones those alone that no eye path could bring.
-            let Some(gloss) = gloss[l].as_ref().filter(|g| !g.narrow || photon.is_lone()) else { continue };
+            let Some(gloss) = gloss[l].as_ref().filter(|g| !g.specular || photon.is_lone()) else { continue };
             found.count[l] += 1;
             let geometric = face.cosine(wi, packet, (gloss.frame.normal / 127.0).to_array(), l).abs() * 127.0;
             let shading = wi.dot(gloss.frame.normal).abs();

@@ -11,6 +11,7 @@ use foton_transport::photon_map::{LANES, MAX_CELLS, Packet, Photon, PhotonMap};
 use super::adaptive::RadiusStatistics;
 use super::eye_samples::eye_pass;
 use super::hit_points::{Irradiance, ShadowOrigin};
+use super::lobes::lobe_use;
 use super::radiance::Radiance;
 use super::settings::{DirectLight, RadiusRule};
 use super::slots::EarlierBatches;
@@ -105,7 +106,7 @@ impl MemoryEstimate {
         let glossy = glossy as f64 / looked_at as f64 * samples;
         let layers = if settings.layers { 3.0 } else { 1.0 };
         let shadow = settings.ppm.direct_light == DirectLight::ShadowRays;
-        let shaded = scene.census().shading_normals;
+        let shaded = lobe_use(scene).shading_normals;
         let adapts = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;
         let slot = size_of::<Packet>() / LANES
             + size_of::<Statistics>()

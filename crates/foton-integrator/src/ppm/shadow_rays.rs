@@ -37,7 +37,7 @@ pub(crate) fn add<const LAYERS: usize>(
                     continue;
                 }
                 let mut stream = Stream::new(seed, Purpose::ShadowRay, pass, slot as u64);
-                if hit_points.gloss(slot).is_some_and(|g| g.narrow) {
+                if hit_points.gloss(slot).is_some_and(|g| g.specular) {
                     continue;
                 }
                 let at = &hit_points.shadow_slots[slot];

@@ -6,6 +6,7 @@ use foton_transport::{Cancel, Cancelled, Halt, LeftOut, NotFinite, Stage};
 use super::algorithm::{LOOKED_AT, Ppm};
 use super::counts::Counts;
 use super::light::Light;
+use super::lobes::LOBE_POLICY;
 use super::report::PassReport;
 use super::rule::Rule;
 use super::settings::{DirectLight, RadiusRule};
@@ -57,6 +58,7 @@ impl Ppm {
             sources: &self.sources,
             grid: &self.grid,
             stores_direct: self.settings.ppm.direct_light == DirectLight::Photons,
+            policy: LOBE_POLICY,
             directions: self.hit_points.ask_for_directions(),
             arch: self.arch,
             max_depth: self.settings.max_depth_in(&self.scene),

@@ -7,7 +7,7 @@ use foton_math::Frame;
 use foton_math::glam::{Vec2, Vec3};
 
 use super::fresnel;
-use crate::description::{Bsdf, Microfacets};
+use super::microfacet::Microfacets;
 
 /// Terms of the series. With eight the error is below 4·10⁻³ at a roughness of 0.05, below 2·10⁻³ from 0.1 on.
 const TERMS: usize = 8;
@@ -28,19 +28,14 @@ pub struct Coat {
 }
 
 impl Coat {
-    /// Integrates the coat of a rough plastic; `None` for anything else.
-    #[must_use]
-    pub fn of<C: Copy>(bsdf: &Bsdf<C>) -> Option<Self> {
-        let Bsdf::Plastic { int_ior, ext_ior, roughness: Some(r), .. } = bsdf else { return None };
+    /// Integrates a boundary of two indices of refraction.
+    pub(super) fn new(r: &Microfacets, int_ior: f32, ext_ior: f32) -> Self {
         // The rest is kept by the boundary: 4 ∫ R(s²) s³ ds, with cos = s².
         let inside: f64 = (0..BELOW)
             .map(|i| (i as f64 + 0.5) / BELOW as f64)
-            .map(|s| 4.0 * s.powi(3) * passage(r, s * s, *ext_ior, *int_ior).reflected / BELOW as f64)
+            .map(|s| 4.0 * s.powi(3) * passage(r, s * s, ext_ior, int_ior).reflected / BELOW as f64)
             .sum();
-        Some(Self {
-            series: fit(|cos| passage(r, cos, *int_ior, *ext_ior).transmitted),
-            inside: inside as f32,
-        })
+        Self { series: fit(|cos| passage(r, cos, int_ior, ext_ior).transmitted), inside: inside as f32 }
     }
 
     /// Share of light at the cosine `cos` of incidence that enters, or of light from below that leaves there.
@@ -102,19 +97,10 @@ fn fit(f: impl Fn(f64) -> f64) -> [f32; TERMS] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::description::MicrofacetDistribution::{Beckmann, Ggx};
-    use foton_math::Rgb;
+    use crate::bsdf::MicrofacetDistribution::{Beckmann, Ggx};
 
     fn plastic(facets: Microfacets) -> Coat {
-        let coat = Coat::of(&Bsdf::Plastic {
-            int_ior: 1.5,
-            ext_ior: 1.0,
-            diffuse_reflectance: Rgb::WHITE,
-            specular_reflectance: Rgb::WHITE,
-            nonlinear: false,
-            roughness: Some(facets),
-        });
-        coat.expect("it is rough")
+        Coat::new(&facets, 1.5, 1.0)
     }
 
     #[test]

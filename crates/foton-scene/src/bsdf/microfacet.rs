@@ -8,9 +8,94 @@ use std::f32::consts::PI;
 use foton_math::Rgb;
 use foton_math::glam::{Vec2, Vec3};
 
-use crate::description::{MicrofacetDistribution, Microfacets};
+use crate::parameter::{Parameter, Role};
+
+/// A distribution of microfacet normals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Microfacets {
+    /// Its shape.
+    pub distribution: MicrofacetDistribution,
+    /// Roughness α along the texture's u, above 0.
+    pub alpha_u: f32,
+    /// Roughness α along the texture's v, above 0.
+    pub alpha_v: f32,
+}
+
+/// The shape of a distribution of microfacet normals.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MicrofacetDistribution {
+    /// Gaussian slopes.
+    #[default]
+    Beckmann,
+    /// Longer tails; also known as Trowbridge–Reitz.
+    Ggx,
+}
+
+impl MicrofacetDistribution {
+    /// All of them, in the order of [`DISTRIBUTIONS`].
+    pub const ALL: [Self; 2] = [Self::Beckmann, Self::Ggx];
+
+    /// Its name in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        DISTRIBUTIONS[self as usize]
+    }
+
+    /// Its name in the window.
+    #[must_use]
+    pub const fn label(self) -> &'static str {
+        match self {
+            Self::Beckmann => "Beckmann",
+            Self::Ggx => "GGX",
+        }
+    }
+}
+
+/// The names of distributions in files.
+pub const DISTRIBUTIONS: &[&str] = &["beckmann", "ggx"];
+
+const DISTRIBUTION: Parameter = Parameter::choice("distribution", DISTRIBUTIONS)
+    .label("Distribution")
+    .help("GGX has longer tails of gloss.");
+
+const ALPHA: Parameter = Parameter::number("alpha", 0.1, (0.0, 1e6))
+    .label("Roughness")
+    .help("Spread of the surface's slopes. Up to 0.1 eye paths follow the gloss; above, photons show it.")
+    .slider(0.001, 1.0, true)
+    .role(Role::Roughness);
+
+const SAMPLE_VISIBLE: Parameter = Parameter::ignored("sample_visible", "Visible normals are always sampled.");
+
+/// What files say of microfacets that may be stretched. That a surface is rough at all is said by its plugin.
+pub const ROUGHNESS: &[Parameter] = &[
+    ALPHA,
+    Parameter {
+        name: "alpha_u",
+        label: "Roughness along u",
+        excludes: &["alpha"],
+        default_text: "`alpha`",
+        ..ALPHA
+    },
+    Parameter {
+        name: "alpha_v",
+        label: "Roughness along v",
+        excludes: &["alpha"],
+        default_text: "`alpha`",
+        ..ALPHA
+    },
+    DISTRIBUTION,
+    SAMPLE_VISIBLE,
+];
+
+/// What files say of microfacets that are the same all around.
+pub const ISOTROPIC_ROUGHNESS: &[Parameter] = &[ALPHA, DISTRIBUTION, SAMPLE_VISIBLE];
 
 impl Microfacets {
+    /// Those of a rough surface in a file that says nothing else.
+    pub const DEFAULT: Self = Self::isotropic(MicrofacetDistribution::Beckmann, ALPHA.default_number());
+    /// Those of a surface that is made rough in the window.
+    pub const PRESET: Self = Self::isotropic(MicrofacetDistribution::Ggx, ALPHA.default_number());
+
     /// The same roughness along both axes.
     #[must_use]
     pub const fn isotropic(distribution: MicrofacetDistribution, alpha: f32) -> Self {
@@ -87,20 +172,20 @@ impl Microfacets {
         Vec3::new(self.alpha_u * n.x, self.alpha_v * n.y, n.z.max(1e-6)).normalize()
     }
 
-    /// Density of a reflection of `wo`, above, by a facet of normal `h` that [`Microfacets::sample`] chose, per unit solid angle of
+    /// The pdf of a reflection of `wo`, above, by a facet of normal `h` that [`Microfacets::sample`] chose, per unit solid angle of
     /// the reflected direction.
-    pub(crate) fn reflect_density(&self, wo: Vec3, h: Vec3) -> f32 {
+    pub(crate) fn reflect_pdf(&self, wo: Vec3, h: Vec3) -> f32 {
         self.pdf(wo, h) / (4.0 * wo.dot(h)).max(f32::MIN_POSITIVE)
     }
 
     /// D G F / (4 cos cos) for a reflection, F given: the value of a rough reflecting lobe.
     pub(crate) fn reflect(&self, wo: Vec3, wi: Vec3, fresnel: impl FnOnce(f32) -> Rgb) -> Rgb {
-        self.reflect_with_density(wo, wi, fresnel).0
+        self.reflect_with_pdf(wo, wi, fresnel).0
     }
 
-    /// [`Microfacets::reflect`] and [`Microfacets::reflect_density`], which have most of their work in common.
+    /// [`Microfacets::reflect`] and [`Microfacets::reflect_pdf`], which have most of their work in common.
     #[inline(always)]
-    pub(crate) fn reflect_with_density(
+    pub(crate) fn reflect_with_pdf(
         &self,
         wo: Vec3,
         wi: Vec3,

@@ -5,38 +5,145 @@ use std::f32::consts::FRAC_1_PI;
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Rgb, warp};
 
-use super::lobe::{BsdfSample, Lobe, SpecularLobe, Transport};
-use super::reflect::{cosine, reflect_by_facet};
-use super::{Scattering, fresnel};
-use crate::description::{Bsdf, Microfacets};
+use super::coat::Coat;
+use super::dielectric::{EXT_IOR, INT_IOR};
+use super::flags::LobeFlags;
+use super::fresnel;
+use super::info::{BsdfInfo, Described};
+use super::lobe_sample::{BsdfSample, LobeSample, LobeSamples, Transport};
+use super::microfacet::{ISOTROPIC_ROUGHNESS, Microfacets};
+use super::model::Model;
+use super::reflect::{cosine, facet_pdf, mirrored, reflect_by_facet, same_side, upward};
+use crate::description::Colour;
+use crate::parameter::{Bound, Parameter, Role, Slot};
 
-impl Scattering {
-    /// Light reflected by a rough coat.
-    pub(super) fn coat(&self, r: &Microfacets, wo: Vec3, wi: Vec3) -> Rgb {
-        self.coat_with_density(r, wo, wi).0
+/// A clear coat over a diffuse base.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plastic<C = Colour> {
+    /// Index of refraction of the coat.
+    pub int_ior: f32,
+    /// Index of refraction outside.
+    pub ext_ior: f32,
+    /// Share of light that the base reflects, in [0, 1].
+    pub diffuse_reflectance: C,
+    /// Factor on light reflected by the coat, physically 1.
+    pub specular_reflectance: C,
+    /// Whether light that is reflected inside the coat takes on the base's colour each time.
+    pub nonlinear: bool,
+    /// `None`: a smooth coat.
+    pub roughness: Option<Microfacets>,
+}
+
+/// The index of refraction of polypropylene.
+const COAT_IOR: Parameter = Parameter { default: 1.49, ..INT_IOR };
+
+const DIFFUSE_REFLECTANCE: Parameter = Parameter::share("diffuse_reflectance", 0.5)
+    .label("Base colour")
+    .help("Share of light reflected, by channel. Above 0.9 light bounces long and passes get slower.")
+    .role(Role::BaseColour);
+
+const SPECULAR_REFLECTANCE: Parameter = Parameter::share("specular_reflectance", 1.0)
+    .label("Reflected")
+    .help("Factor on light reflected by the coat; white is physical.");
+
+const NONLINEAR: Parameter = Parameter::boolean("nonlinear")
+    .label("Deep colour")
+    .help("Light reflected inside the coat takes on the base's colour each time: deeper colours.");
+
+impl Described for Plastic {
+    const INFO: BsdfInfo = BsdfInfo {
+        label: "plastic",
+        help: "A clear coat over a diffuse base.",
+        plugin: "plastic",
+        rough_plugin: Some("roughplastic"),
+        stated: None,
+    };
+
+    fn default(rough: bool) -> Self {
+        Self {
+            int_ior: COAT_IOR.default_number(),
+            ext_ior: EXT_IOR.default_number(),
+            diffuse_reflectance: DIFFUSE_REFLECTANCE.default_colour(),
+            specular_reflectance: SPECULAR_REFLECTANCE.default_colour(),
+            nonlinear: false,
+            roughness: rough.then_some(Microfacets::DEFAULT),
+        }
     }
 
-    /// The same, and the density of sampling it (sr⁻¹), its chance left out.
+    fn preset() -> Self {
+        let diffuse_reflectance = Rgb::splat(0.8).into();
+        Self { int_ior: 1.5, ext_ior: 1.0, diffuse_reflectance, ..Described::default(false) }
+    }
+
+    fn parameters(&mut self) -> Vec<Bound<'_>> {
+        vec![
+            Bound::new(&[COAT_IOR], Slot::Refraction(&mut self.int_ior)),
+            Bound::new(&[EXT_IOR], Slot::Refraction(&mut self.ext_ior)),
+            Bound::new(&[DIFFUSE_REFLECTANCE], Slot::Share(&mut self.diffuse_reflectance)),
+            Bound::new(&[SPECULAR_REFLECTANCE], Slot::Share(&mut self.specular_reflectance)),
+            Bound::new(&[NONLINEAR], Slot::Boolean(&mut self.nonlinear)),
+            Bound::new(ISOTROPIC_ROUGHNESS, Slot::Roughness(&mut self.roughness)),
+        ]
+    }
+}
+
+impl<C: Copy> Plastic<C> {
     #[inline(always)]
-    fn coat_with_density(&self, r: &Microfacets, wo: Vec3, wi: Vec3) -> (Rgb, f32) {
-        let Bsdf::Plastic { int_ior, ext_ior, specular_reflectance, .. } = self.bsdf else {
-            return (Rgb::BLACK, 0.0);
-        };
-        let fresnel = |cos: f32| Rgb::splat(fresnel::reflectance(cos, ext_ior, int_ior));
-        let (value, density) = r.reflect_with_density(wo, wi, fresnel);
-        (value * specular_reflectance, density)
+    pub(super) fn map<D>(&self, mut f: impl FnMut(C) -> D) -> Plastic<D> {
+        let Self { int_ior, ext_ior, diffuse_reflectance, specular_reflectance, nonlinear, roughness } =
+            *self;
+        Plastic {
+            int_ior,
+            ext_ior,
+            diffuse_reflectance: f(diffuse_reflectance),
+            specular_reflectance: f(specular_reflectance),
+            nonlinear,
+            roughness,
+        }
     }
 
-    /// Light that enters a coat, is spread by the base and leaves again, reflections inside the coat summed up.
-    pub(super) fn base(&self, wo: Vec3, wi: Vec3) -> Rgb {
-        self.spread(self.enters(wo.z), self.enters(wi.z))
+    pub(super) const fn flags(&self) -> LobeFlags {
+        let coat = if self.roughness.is_some() { LobeFlags::GLOSSY } else { LobeFlags::DELTA };
+        LobeFlags::DIFFUSE.or(coat).or(LobeFlags::REFLECTION)
     }
 
-    /// The same by the shares that get through the coat on the way in and out.
-    fn spread(&self, enters: f32, leaves: f32) -> Rgb {
-        let Bsdf::Plastic { int_ior, ext_ior, diffuse_reflectance, nonlinear, .. } = self.bsdf else {
-            return Rgb::BLACK;
-        };
+    /// What gets through its coat, integrated, where that is rough.
+    pub(crate) fn rough_coat(&self) -> Option<Coat> {
+        self.roughness.map(|r| Coat::new(&r, self.int_ior, self.ext_ior))
+    }
+}
+
+impl Plastic<Rgb> {
+    /// With what gets through its coat, where that is rough.
+    #[inline(always)]
+    pub(super) const fn under<'a>(&'a self, coat: Option<&'a Coat>) -> Coated<'a> {
+        Coated { plastic: self, coat }
+    }
+}
+
+/// A plastic with what gets through its coat.
+pub(super) struct Coated<'a> {
+    plastic: &'a Plastic<Rgb>,
+    /// `None`: the coat is smooth.
+    coat: Option<&'a Coat>,
+}
+
+impl Coated<'_> {
+    /// Light reflected by a rough coat, above, and the pdf (sr⁻¹) of sampling it, its probability left out.
+    #[inline(always)]
+    fn coat_with_pdf(&self, r: &Microfacets, wo: Vec3, wi: Vec3) -> (Rgb, f32) {
+        let (value, pdf) = r.reflect_with_pdf(wo, wi, |cos| Rgb::splat(self.fresnel(cos)));
+        (value * self.plastic.specular_reflectance, pdf)
+    }
+
+    fn fresnel(&self, cos: f32) -> f32 {
+        fresnel::reflectance(cos, self.plastic.ext_ior, self.plastic.int_ior)
+    }
+
+    /// The value of the base by the shares of light that get through the coat on the way in and out, reflections inside the coat
+    /// summed up.
+    fn base(&self, enters: f32, leaves: f32) -> Rgb {
+        let Plastic { int_ior, ext_ior, diffuse_reflectance, nonlinear, .. } = *self.plastic;
         let eta = ext_ior / int_ior;
         let inside = self.coat.map_or_else(|| fresnel::diffuse_reflectance(eta), |c| c.inside);
         let again = if nonlinear { diffuse_reflectance * inside } else { Rgb::splat(inside) };
@@ -50,71 +157,102 @@ impl Scattering {
 
     /// Share of light at a cosine of incidence that gets through the coat.
     fn enters(&self, cos: f32) -> f32 {
-        match (&self.coat, self.bsdf) {
-            (Some(coat), _) => coat.transmittance(cos),
-            (None, Bsdf::Plastic { int_ior, ext_ior, .. }) => {
-                1.0 - fresnel::reflectance(cos, ext_ior, int_ior)
-            }
-            (None, _) => 0.0,
-        }
+        self.coat.map_or_else(|| 1.0 - self.fresnel(cos), |coat| coat.transmittance(cos))
     }
 
-    /// The chance with which a photon from `wo` takes the coat rather than the base.
-    pub(super) fn coat_chance(&self, wo: Vec3) -> f32 {
-        self.chance(self.enters(wo.z.abs()))
-    }
-
-    /// The same by the share that gets through the coat.
-    fn chance(&self, enters: f32) -> f32 {
-        let Bsdf::Plastic { diffuse_reflectance, specular_reflectance, .. } = self.bsdf else { return 0.0 };
-        let coat = specular_reflectance.mean() * (1.0 - enters);
-        let base = diffuse_reflectance.mean() * enters;
+    /// The probability of sampling the coat rather than the base, by the share that gets through the coat.
+    fn coat_probability(&self, enters: f32) -> f32 {
+        let coat = self.plastic.specular_reflectance.mean() * (1.0 - enters);
+        let base = self.plastic.diffuse_reflectance.mean() * enters;
         if coat + base > 0.0 { coat / (coat + base) } else { 0.0 }
     }
 
-    pub(super) fn rough_coat_lobe(&self, r: &Microfacets, wo: Vec3, u: Vec2) -> Option<SpecularLobe> {
-        let Bsdf::Plastic { int_ior, ext_ior, specular_reflectance, .. } = self.bsdf else { return None };
-        reflect_by_facet(r, wo, u, |cos| {
-            Rgb::splat(fresnel::reflectance(cos, ext_ior, int_ior)) * specular_reflectance
-        })
+    /// One direction of the coat.
+    fn coat_sample(&self, wo: Vec3, u: Vec2) -> Option<LobeSample> {
+        let tint = self.plastic.specular_reflectance;
+        let reflected = |cos: f32| Rgb::splat(self.fresnel(cos)) * tint;
+        match self.plastic.roughness {
+            None => Some(LobeSample::only(mirrored(wo), reflected(wo.z.abs()))),
+            Some(r) => reflect_by_facet(&r, wo, u, reflected),
+        }
     }
 
-    pub(super) fn sample_plastic(
-        &self,
-        wo: Vec3,
-        transport: Transport,
-        u_lobe: f32,
-        u: Vec2,
-        roughness: Option<Microfacets>,
-    ) -> Option<BsdfSample> {
+    /// One direction of either lobe, both weighted together.
+    fn sample_together(&self, r: &Microfacets, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
         let enters = self.enters(wo.z.abs());
-        let chance = self.chance(enters);
-        let coat = u_lobe < chance;
-        let up = |w: Vec3| w * 1f32.copysign(wo.z);
-        match roughness {
-            // Lobes that overlap are weighed together.
-            Some(r) if !r.is_specular() => {
-                let wi = if coat { self.rough_coat_lobe(&r, wo, u)?.wi } else { cosine(wo, u) };
-                if wi.z * wo.z <= 0.0 {
-                    return None;
-                }
-                let (value, density) = self.coat_with_density(&r, up(wo), up(wi));
-                let cosine = up(wi).z;
-                let pdf = chance * density + (1.0 - chance) * warp::square_to_cosine_hemisphere_pdf(up(wi));
-                let weight = (self.spread(enters, self.enters(cosine)) + value) * (cosine / pdf);
-                (pdf > 0.0).then_some(BsdfSample { wi, weight, lobe: Lobe::Gathered })
-            }
-            _ if coat => {
-                let [lobe, ..] = self.specular_lobes(wo, transport, u);
-                let kind = if roughness.is_some() { Lobe::Narrow } else { Lobe::Single };
-                lobe.map(|l| BsdfSample { wi: l.wi, weight: l.weight / chance, lobe: kind })
-            }
-            _ => {
-                let wi = cosine(wo, u);
-                let weight =
-                    self.spread(enters, self.enters(wi.z.abs())) * (std::f32::consts::PI / (1.0 - chance));
-                Some(BsdfSample { wi, weight, lobe: Lobe::Gathered })
-            }
+        let probability = self.coat_probability(enters);
+        let wi = if u_lobe < probability { self.coat_sample(wo, u)?.wi } else { cosine(wo, u) };
+        if wi.z * wo.z <= 0.0 {
+            return None;
         }
+        let up = |w: Vec3| w * 1f32.copysign(wo.z);
+        let (value, pdf) = self.coat_with_pdf(r, up(wo), up(wi));
+        let cosine = up(wi).z;
+        let pdf = probability * pdf + (1.0 - probability) * warp::square_to_cosine_hemisphere_pdf(up(wi));
+        let weight = (self.base(enters, self.enters(cosine)) + value) * (cosine / pdf);
+        (pdf > 0.0).then_some(BsdfSample { wi, weight, lobe: Model::flags(self) })
+    }
+}
+
+impl Model for Coated<'_> {
+    fn flags(&self) -> LobeFlags {
+        self.plastic.flags()
+    }
+
+    fn eval(&self, wo: Vec3, wi: Vec3, lobes: LobeFlags) -> Rgb {
+        if !same_side(wo, wi) {
+            return Rgb::BLACK;
+        }
+        let (wo, wi) = (upward(wo), upward(wi));
+        let coat = match self.plastic.roughness {
+            Some(r) if lobes.intersects(LobeFlags::GLOSSY) => self.coat_with_pdf(&r, wo, wi).0,
+            _ => Rgb::BLACK,
+        };
+        if lobes.intersects(LobeFlags::DIFFUSE) {
+            self.base(self.enters(wo.z), self.enters(wi.z)) + coat
+        } else {
+            coat
+        }
+    }
+
+    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        if !same_side(wo, wi) {
+            return 0.0;
+        }
+        let probability = self.coat_probability(self.enters(wo.z.abs()));
+        let base = warp::square_to_cosine_hemisphere_pdf(wi.abs());
+        probability * self.glossy_pdf(wo, wi) + (1.0 - probability) * base
+    }
+
+    fn glossy_pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        match self.plastic.roughness {
+            Some(r) if same_side(wo, wi) => facet_pdf(&r, upward(wo), upward(wi)),
+            _ => 0.0,
+        }
+    }
+
+    fn lobes(&self, wo: Vec3, _: Transport, u: Vec2, lobes: LobeFlags) -> LobeSamples {
+        let is_asked = lobes.intersects(self.flags().without(LobeFlags::DIFFUSE).spreading());
+        [if is_asked { self.coat_sample(wo, u) } else { None }, None, None]
+    }
+
+    fn sample(&self, wo: Vec3, _: Transport, u_lobe: f32, u: Vec2, apart: LobeFlags) -> Option<BsdfSample> {
+        match self.plastic.roughness {
+            Some(r) if !apart.intersects(LobeFlags::GLOSSY) => {
+                return self.sample_together(&r, wo, u_lobe, u);
+            }
+            _ => {}
+        }
+        let enters = self.enters(wo.z.abs());
+        let probability = self.coat_probability(enters);
+        if u_lobe < probability {
+            let coat = self.coat_sample(wo, u)?;
+            let lobe = self.flags().without(LobeFlags::DIFFUSE);
+            return Some(BsdfSample { wi: coat.wi, weight: coat.weight / probability, lobe });
+        }
+        let wi = cosine(wo, u);
+        let leaves = self.enters(wi.z.abs());
+        let weight = self.base(enters, leaves) * (std::f32::consts::PI / (1.0 - probability));
+        Some(BsdfSample { wi, weight, lobe: LobeFlags::DIFFUSE | LobeFlags::REFLECTION })
     }
 }

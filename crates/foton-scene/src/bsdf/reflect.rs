@@ -3,21 +3,27 @@
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Rgb, warp};
 
-use super::fresnel;
-use super::lobe::SpecularLobe;
-use crate::description::Microfacets;
+use super::lobe_sample::LobeSample;
+use super::microfacet::Microfacets;
 
-/// Density (sr⁻¹) of reflecting `wo` into `wi` by a facet that is seen; both above.
-pub(super) fn facet_density(r: &Microfacets, wo: Vec3, wi: Vec3) -> f32 {
-    r.reflect_density(wo, (wo + wi).normalize())
+/// The pdf (sr⁻¹) of reflecting `wo` into `wi` by a facet that is seen; both above.
+pub(super) fn facet_pdf(r: &Microfacets, wo: Vec3, wi: Vec3) -> f32 {
+    r.reflect_pdf(wo, (wo + wi).normalize())
 }
 
 pub(super) fn mirrored(wo: Vec3) -> Vec3 {
     Vec3::new(-wo.x, -wo.y, wo.z)
 }
 
-pub(super) fn single(wi: Vec3, weight: Rgb) -> Option<SpecularLobe> {
-    Some(SpecularLobe { wi, weight, probability: 1.0 })
+/// Whether both directions are on one side of the surface.
+pub(super) fn same_side(wo: Vec3, wi: Vec3) -> bool {
+    wo.z * wi.z > 0.0
+}
+
+/// A direction turned to the upper side. Reflectors are seen from above; a material's other side is turned around before it gets
+/// here.
+pub(super) fn upward(w: Vec3) -> Vec3 {
+    w * 1f32.copysign(w.z)
 }
 
 /// Cosine-distributed on `wo`'s side.
@@ -33,25 +39,14 @@ pub(super) fn reflect_by_facet(
     wo: Vec3,
     u: Vec2,
     fresnel: impl FnOnce(f32) -> Rgb,
-) -> Option<SpecularLobe> {
+) -> Option<LobeSample> {
     let side = 1f32.copysign(wo.z);
     let up = wo * side;
     let h = r.sample(up, u);
     let wi = h * (2.0 * up.dot(h)) - up;
-    (wi.z > 0.0).then(|| SpecularLobe {
+    (wi.z > 0.0).then(|| LobeSample {
         wi: wi * side,
         weight: fresnel(up.dot(h)) * r.visible(wi, h),
         probability: 1.0,
     })
-}
-
-pub(super) fn rough_metal(
-    r: &Microfacets,
-    wo: Vec3,
-    u: Vec2,
-    eta: Rgb,
-    k: Rgb,
-    tint: Rgb,
-) -> Option<SpecularLobe> {
-    reflect_by_facet(r, wo, u, |cos| fresnel::conductor(cos, eta, k) * tint)
 }

@@ -1,17 +1,27 @@
 //! Every BSDF against the same laws: sampling follows its density, weights are value × cosine / density, energy is not made,
 //! light paths can be reversed.
 
+use super::MicrofacetDistribution::{Beckmann, Ggx};
 use super::*;
-use crate::description::MicrofacetDistribution::{self, Beckmann, Ggx};
-use foton_math::{Purpose, Stream};
+use foton_math::glam::{Vec2, Vec3};
+use foton_math::{Purpose, Rgb, Stream, warp};
+
+const ALL: LobeFlags = LobeFlags::ALL;
+const TOGETHER: LobeFlags = LobeFlags::NONE;
 
 fn at(bsdf: Bsdf<Rgb>) -> Scattering {
-    Scattering { bsdf, opacity: 1.0, coat: Coat::of(&bsdf) }
+    Scattering { bsdf, opacity: 1.0, coat: bsdf.rough_coat() }
 }
 
 fn glass(roughness: Option<Microfacets>) -> Bsdf<Rgb> {
     let (specular_reflectance, specular_transmittance) = (Rgb::WHITE, Rgb::WHITE);
-    Bsdf::Dielectric { int_ior: 1.5, ext_ior: 1.0, specular_reflectance, specular_transmittance, roughness }
+    Bsdf::Dielectric(Dielectric {
+        int_ior: 1.5,
+        ext_ior: 1.0,
+        specular_reflectance,
+        specular_transmittance,
+        roughness,
+    })
 }
 
 fn rough(distribution: MicrofacetDistribution, alpha: f32) -> Option<Microfacets> {
@@ -20,32 +30,32 @@ fn rough(distribution: MicrofacetDistribution, alpha: f32) -> Option<Microfacets
 
 fn gold(roughness: Option<Microfacets>) -> Bsdf<Rgb> {
     let (eta, k) = (Rgb::new(0.143, 0.375, 1.442), Rgb::new(3.983, 2.386, 1.603));
-    Bsdf::Conductor { eta, k, specular_reflectance: Rgb::WHITE, roughness }
+    Bsdf::Conductor(Conductor { eta, k, specular_reflectance: Rgb::WHITE, roughness })
 }
 
 fn plastic(nonlinear: bool, roughness: Option<Microfacets>) -> Bsdf<Rgb> {
-    Bsdf::Plastic {
+    Bsdf::Plastic(Plastic {
         int_ior: 1.49,
         ext_ior: 1.0,
         diffuse_reflectance: Rgb::new(0.2, 0.5, 0.9),
         specular_reflectance: Rgb::WHITE,
         nonlinear,
         roughness,
-    }
+    })
 }
 
 fn all() -> Vec<Scattering> {
     let stretched = Some(Microfacets { distribution: Ggx, alpha_u: 0.1, alpha_v: 0.4 });
     let mut all: Vec<Scattering> = [
-        Bsdf::Diffuse { reflectance: Rgb::new(0.2, 0.5, 0.8) },
-        Bsdf::Mirror { reflectance: Rgb::splat(0.9) },
-        Bsdf::Null,
-        Bsdf::ThinDielectric {
+        Bsdf::Diffuse(Diffuse { reflectance: Rgb::new(0.2, 0.5, 0.8) }),
+        Bsdf::Mirror(Mirror { reflectance: Rgb::splat(0.9) }),
+        Bsdf::Null(Null),
+        Bsdf::ThinDielectric(ThinDielectric {
             int_ior: 1.5,
             ext_ior: 1.0,
             specular_reflectance: Rgb::WHITE,
             specular_transmittance: Rgb::WHITE,
-        },
+        }),
         glass(None),
         glass(rough(Beckmann, 0.3)),
         glass(rough(Ggx, 0.08)),
@@ -86,22 +96,18 @@ fn weights_are_value_times_cosine_over_density() {
     for s in all() {
         for wo in views().into_iter().filter(|&w| is_lit(&s, w)) {
             for _ in 0..2000 {
-                let sample = s.sample(wo, Transport::Radiance, stream.next_1d(), stream.next_2d());
+                let sample = s.sample(wo, Transport::Radiance, stream.next_1d(), stream.next_2d(), TOGETHER);
                 let Some(sample) = sample else { continue };
                 assert!((sample.wi.length() - 1.0).abs() < 1e-4 && sample.weight.is_finite(), "{s:?} {wo}");
-                let rough_lobe = s.bsdf.roughness().is_some();
-                let delta = sample.lobe != Lobe::Gathered && !rough_lobe;
-                // Lobes of a smooth coat and its base are weighed apart, and so are those of a thin layer of opacity.
-                if delta || s.opacity < 1.0 || matches!(s.bsdf, Bsdf::Plastic { roughness: None, .. }) {
-                    continue;
-                }
-                if matches!(s.bsdf, Bsdf::Plastic { .. }) && s.bsdf.has_specular() {
+                // Lobes of a smooth coat and its base are weighted apart, and so are those of a thin layer of opacity.
+                let smooth_coat = matches!(s.bsdf, Bsdf::Plastic(Plastic { roughness: None, .. }));
+                if sample.lobe.intersects(LobeFlags::DELTA) || s.opacity < 1.0 || smooth_coat {
                     continue;
                 }
                 if sample.wi.z.abs() < 1e-3 {
                     continue;
                 }
-                let expected = s.eval(wo, sample.wi) * (sample.wi.z.abs() / s.pdf(wo, sample.wi));
+                let expected = s.eval(wo, sample.wi, ALL) * (sample.wi.z.abs() / s.pdf(wo, sample.wi));
                 let error = (expected - sample.weight).map(f32::abs).max_component();
                 assert!(
                     error <= 2e-2 * sample.weight.max_component().max(1e-3),
@@ -127,15 +133,15 @@ fn sampling_brings_the_light_that_the_value_says() {
             let n = 200_000;
             let (mut a, mut a2, mut b, mut b2) = (0.0f64, 0.0f64, 0.0f64, 0.0f64);
             for _ in 0..n {
-                let sample = s.sample(wo, Transport::Radiance, stream.next_1d(), stream.next_2d());
+                let sample = s.sample(wo, Transport::Radiance, stream.next_1d(), stream.next_2d(), TOGETHER);
                 let x = sample.map_or(0.0, |x| f64::from(x.weight.g * g(x.wi)));
                 let w = warp::square_to_sphere(stream.next_2d());
-                let y = f64::from(s.eval(wo, w).g * w.z.abs() * g(w) / warp::square_to_sphere_pdf());
+                let y = f64::from(s.eval(wo, w, ALL).g * w.z.abs() * g(w) / warp::square_to_sphere_pdf());
                 (a, a2, b, b2) = (a + x, a2 + x * x, b + y, b2 + y * y);
             }
             let count = f64::from(n);
             if s.bsdf.roughness().is_none() {
-                let lobes = s.specular_lobes(wo, Transport::Radiance, Vec2::splat(0.5));
+                let lobes = s.lobes(wo, Transport::Radiance, Vec2::splat(0.5), ALL);
                 b += lobes.iter().flatten().map(|l| f64::from(l.weight.g * g(l.wi))).sum::<f64>() * count;
             }
             let sigma = ((a2 + b2) / count).sqrt() / count.sqrt();
@@ -170,7 +176,9 @@ fn no_bsdf_makes_energy() {
         for wo in views().into_iter().filter(|&w| is_lit(&s, w)) {
             let n = 40_000;
             let sum: f64 = (0..n)
-                .filter_map(|_| s.sample(wo, Transport::Importance, stream.next_1d(), stream.next_2d()))
+                .filter_map(|_| {
+                    s.sample(wo, Transport::Importance, stream.next_1d(), stream.next_2d(), TOGETHER)
+                })
                 .map(|x| f64::from(x.weight.max_component()))
                 .sum();
             assert!(sum / f64::from(n) < 1.0 + 0.02, "{s:?} {wo}: {}", sum / f64::from(n));
@@ -184,9 +192,9 @@ fn reflection_is_reciprocal_and_refraction_up_to_the_squared_index() {
     for s in all() {
         for _ in 0..2000 {
             let (a, b) = (warp::square_to_sphere(stream.next_2d()), warp::square_to_sphere(stream.next_2d()));
-            let forth = s.eval(a, b).g;
-            let mut back = s.eval(b, a).g;
-            if let (Bsdf::Dielectric { int_ior, ext_ior, .. }, true) = (s.bsdf, a.z * b.z < 0.0) {
+            let forth = s.eval(a, b, ALL).g;
+            let mut back = s.eval(b, a, ALL).g;
+            if let (Bsdf::Dielectric(Dielectric { int_ior, ext_ior, .. }), true) = (s.bsdf, a.z * b.z < 0.0) {
                 // f(a, b)/η_a² = f(b, a)/η_b².
                 let ior = |w: Vec3| if w.z > 0.0 { ext_ior } else { int_ior };
                 back *= (ior(a) / ior(b)).powi(2);
@@ -202,15 +210,11 @@ fn glass_loses_no_power_and_radiance_through_both_faces_is_unscaled() {
     let s = at(glass(None));
     for _ in 0..2000 {
         let wo = warp::square_to_sphere(stream.next_2d());
-        let sum: f32 = s
-            .specular_lobes(wo, Transport::Importance, Vec2::ZERO)
-            .iter()
-            .flatten()
-            .map(|l| l.weight.r)
-            .sum();
+        let sum: f32 =
+            s.lobes(wo, Transport::Importance, Vec2::ZERO, ALL).iter().flatten().map(|l| l.weight.r).sum();
         assert!((sum - 1.0).abs() < 1e-6, "{wo}");
-        let [_, Some(entry), _] = s.specular_lobes(wo, Transport::Radiance, Vec2::ZERO) else { continue };
-        let [_, back, _] = s.specular_lobes(entry.wi, Transport::Radiance, Vec2::ZERO);
+        let [_, Some(entry), _] = s.lobes(wo, Transport::Radiance, Vec2::ZERO, ALL) else { continue };
+        let [_, back, _] = s.lobes(entry.wi, Transport::Radiance, Vec2::ZERO, ALL);
         let back = back.expect("what came in can go out");
         assert!(back.wi.distance(wo) < 2e-4 / wo.z.abs().max(1e-2), "{wo}: {}", back.wi);
         // (1−F)·(η₁/η₂)² on the way in times (1−F)·(η₂/η₁)² on the way out.
@@ -223,14 +227,16 @@ fn glass_loses_no_power_and_radiance_through_both_faces_is_unscaled() {
 fn photons_choose_glass_lobes_in_proportion_to_fresnel() {
     let s = at(glass(None));
     let wo = Vec3::new(0.9, 0.0, 0.19f32.sqrt());
-    let [Some(reflection), ..] = s.specular_lobes(wo, Transport::Importance, Vec2::ZERO) else {
+    let [Some(reflection), ..] = s.lobes(wo, Transport::Importance, Vec2::ZERO, ALL) else {
         panic!("reflects")
     };
     let mut stream = Stream::new(9, Purpose::Test, 0, 0);
     let n = 100_000;
     let reflected = (0..n)
         .filter(|_| {
-            let x = s.sample(wo, Transport::Importance, stream.next_1d(), Vec2::ZERO).expect("scatters");
+            let x = s
+                .sample(wo, Transport::Importance, stream.next_1d(), Vec2::ZERO, TOGETHER)
+                .expect("scatters");
             assert!((x.weight.r - 1.0).abs() < 1e-6);
             x.wi.z > 0.0
         })
@@ -245,8 +251,8 @@ fn rough_lobes_become_smooth_ones_as_roughness_vanishes() {
     for (smooth, nearly) in
         [(glass(None), glass(rough(Ggx, 1e-4))), (gold(None), gold(rough(Beckmann, 1e-4)))]
     {
-        let a = at(smooth).specular_lobes(wo, Transport::Radiance, Vec2::splat(0.4));
-        let b = at(nearly).specular_lobes(wo, Transport::Radiance, Vec2::splat(0.4));
+        let a = at(smooth).lobes(wo, Transport::Radiance, Vec2::splat(0.4), ALL);
+        let b = at(nearly).lobes(wo, Transport::Radiance, Vec2::splat(0.4), ALL);
         for (a, b) in a.iter().zip(&b) {
             match (a, b) {
                 (Some(a), Some(b)) => {
@@ -267,12 +273,12 @@ fn rough_metal_reflects_no_more_than_arrives_whatever_its_shading_normal() {
     for distribution in [Ggx, Beckmann] {
         for alpha in [0.11f32, 0.3, 0.9] {
             let scattering = Scattering {
-                bsdf: Bsdf::Conductor {
+                bsdf: Bsdf::Conductor(Conductor {
                     eta: Rgb::BLACK,
                     k: Rgb::WHITE,
                     specular_reflectance: Rgb::WHITE,
                     roughness: Some(Microfacets::isotropic(distribution, alpha)),
-                },
+                }),
                 opacity: 1.0,
                 coat: None,
             };
@@ -291,7 +297,7 @@ fn rough_metal_reflects_no_more_than_arrives_whatever_its_shading_normal() {
                             if wo.dot(h) <= 0.0 || wi.z <= 0.0 || wi.dot(true_normal) <= 0.0 {
                                 continue;
                             }
-                            let value = scattering.eval_gathered(wo, wi).g * wi.z * 4.0 * wo.dot(h);
+                            let value = scattering.eval(wo, wi, ALL).g * wi.z * 4.0 * wo.dot(h);
                             // dω of a normal is cos³ of its slopes' area.
                             let solid = f64::from(h.z).powi(3) * ring * 2.0 * std::f64::consts::PI;
                             sum += f64::from(value) * solid / f64::from(sectors);

@@ -11,6 +11,7 @@ use crate::description::{
 };
 use crate::emitter::{Emitter, Kind};
 use crate::normalise::Normalisation;
+use crate::parameter::Bound;
 
 /// How unevenly a spot may be scaled: what nobody sees of its cone.
 const CONE_ROUNDNESS: f64 = 2e-3;
@@ -176,22 +177,8 @@ pub(super) fn check_material(material: &Material, description: &SceneDescription
             return Err(BuildError::NoTexture(material.name.clone()));
         }
     }
-    let positive = |x: f32| x.is_finite() && x > 0.0;
-    let sound = |bsdf: &Bsdf| {
-        let rough = bsdf.roughness().is_none_or(|r| positive(r.alpha_u) && positive(r.alpha_v));
-        rough
-            && match *bsdf {
-                Bsdf::Dielectric { int_ior, ext_ior, .. }
-                | Bsdf::ThinDielectric { int_ior, ext_ior, .. }
-                | Bsdf::Plastic { int_ior, ext_ior, .. } => positive(int_ior) && positive(ext_ior),
-                Bsdf::Conductor { eta, k, .. } => {
-                    [eta, k].iter().all(|c| c.is_finite() && c.to_array().iter().all(|&c| c >= 0.0))
-                }
-                _ => true,
-            }
-    };
-    let good = material.bsdfs().all(sound);
-    if good { Ok(()) } else { Err(BuildError::BadMaterial(material.name.clone())) }
+    let is_sound = |bsdf: &Bsdf| { *bsdf }.parameters().iter().all(Bound::is_valid);
+    if material.bsdfs().all(is_sound) { Ok(()) } else { Err(BuildError::BadMaterial(material.name.clone())) }
 }
 
 /// The corners of a surface in world units, but of what is left out of the scene: vertices of no triangle that has area. Not finite

@@ -1,8 +1,11 @@
 //! What a scene asks of its materials while it is built.
 
-use crate::bsdf::Coat;
-use crate::census::Census;
+use crate::bsdf::{Coat, LobeFlags};
+use crate::census::{BsdfKind, Census};
 use crate::description::{Bsdf, Colour, Material};
+
+/// A glossy lobe of at most this roughness α throws caustics: nearly as sharp as those of a mirror.
+const MAX_CASTER_ROUGHNESS: f32 = 0.1;
 
 impl Material {
     pub(super) fn bsdfs(&self) -> impl Iterator<Item = &Bsdf> {
@@ -16,19 +19,16 @@ impl Material {
 
     /// The colours of its sides where they are Lambertian and nothing else.
     pub(super) fn lambertian(&self) -> [Option<Colour>; 2] {
-        let colour = |bsdf: Option<&Bsdf>| match bsdf {
-            Some(Bsdf::Diffuse { reflectance }) if self.opacity.is_none() => Some(*reflectance),
-            _ => None,
-        };
+        let colour = |bsdf: Option<&Bsdf>| bsdf.filter(|_| self.opacity.is_none()).and_then(Bsdf::lambertian);
         let back = if self.front.transmits() { Some(&self.front) } else { self.back.as_ref() };
         [colour(Some(&self.front)), colour(back)]
     }
 
     /// The rough coats of its sides.
     pub(super) fn coats(&self) -> [Option<Coat>; 2] {
-        let front = Coat::of(&self.front);
+        let front = self.front.rough_coat();
         let same = self.back == Some(self.front);
-        [front, if same { front } else { self.back.as_ref().and_then(Coat::of) }]
+        [front, if same { front } else { self.back.as_ref().and_then(Bsdf::rough_coat) }]
     }
 
     /// All colours that it looks up.
@@ -39,22 +39,36 @@ impl Material {
         }
         colours.into_iter()
     }
+
+    /// Whether it throws caustics.
+    pub(super) fn casts(&self) -> bool {
+        self.bsdfs().any(|bsdf| {
+            bsdf.flags().intersects(LobeFlags::DELTA)
+                || bsdf.transmits()
+                || bsdf.roughness().is_some_and(|r| r.widest() <= MAX_CASTER_ROUGHNESS)
+        })
+    }
+
+    /// Whether it spreads light, so that photons may be stored there.
+    pub(super) fn spreads(&self) -> bool {
+        self.bsdfs().any(|bsdf| bsdf.flags().spreads())
+    }
 }
 
 impl Census {
     /// Notes what a material with or without interpolated normals asks for.
-    pub(super) fn count(&mut self, material: &Material, smooth: bool) {
+    pub(super) fn count(&mut self, material: &Material, interpolated_normals: bool) {
         for bsdf in material.bsdfs() {
-            self.shading_normals |= bsdf.gathers() && smooth;
-            self.specular |= bsdf.has_specular() || material.opacity.is_some();
+            let (flags, masked) = (bsdf.flags(), material.opacity.is_some());
+            let roughness = bsdf.roughness().map(|r| r.widest());
+            let lambertian = bsdf.lambertian().is_some();
+            let kind = BsdfKind { flags, roughness, interpolated_normals, lambertian, masked };
+            if !self.bsdfs.contains(&kind) {
+                self.bsdfs.push(kind);
+            }
             self.refraction |= bsdf.transmits();
-            self.narrow_gloss |= bsdf.has_specular() && bsdf.roughness().is_some();
-            self.single_directions |=
-                bsdf.has_specular() && bsdf.roughness().is_none() && !matches!(bsdf, Bsdf::Null);
-            self.straight |=
-                material.opacity.is_some() || matches!(bsdf, Bsdf::Null | Bsdf::ThinDielectric { .. });
-            self.rough_coats |= matches!(bsdf, Bsdf::Plastic { roughness: Some(_), .. });
-            self.gathered_gloss |= bsdf.gathers() && !matches!(bsdf, Bsdf::Diffuse { .. });
+            self.straight |= masked || flags.intersects(LobeFlags::STRAIGHT);
+            self.rough_coats |= matches!(bsdf, Bsdf::Plastic(plastic) if plastic.roughness.is_some());
         }
     }
 }

@@ -16,7 +16,7 @@ use foton_math::Aabb;
 use foton_math::glam::Vec3;
 
 use crate::coincident::Coincidences;
-use crate::description::{Bsdf, Colour, Material, SceneDescription, SensorDescription, ShapeDescription};
+use crate::description::{Colour, Material, SceneDescription, SensorDescription, ShapeDescription};
 use crate::emitter::{Aim, Area, Emitter, Kind};
 use crate::normalise::Normalisation;
 use crate::scene::{Part, Scene, Shape};
@@ -58,7 +58,7 @@ impl Scene {
         let normalisation = Normalisation::for_bounds(min, max);
         check_sensors(&description.sensors, &normalisation)?;
         let gauge = options.step(BuildStep::Shapes, description.primitives());
-        let mut gathered = Gathered::new(options.forced);
+        let mut gathered = Gathered::new(options.forced.clone());
         for material in &description.materials {
             check_material(material, description)?;
             gathered.census.textures |= material.colours().any(|c| matches!(c, Colour::Texture(_)));
@@ -78,7 +78,7 @@ impl Scene {
             let material = material.ok_or_else(|| BuildError::NoMaterial(shape.name.clone()))?;
             let smooth = gathered.vertex_normals[first..].iter().any(|n| n[0] != Vec3::ZERO);
             gathered.census.count(material, smooth);
-            if material.bsdfs().any(Bsdf::has_specular) {
+            if material.casts() {
                 casters = gathered.primitives[first..].iter().fold(casters, |b, p| b.union(p.bounds()));
             }
             let emitter = shape.radiance.filter(|r| !r.is_black()).map(|radiance| {
@@ -117,11 +117,7 @@ impl Scene {
         }
         scene.lambertian =
             scene.shapes.iter().map(|s| scene.materials[s.material as usize].lambertian()).collect();
-        let keeps: Vec<bool> = scene
-            .shapes
-            .iter()
-            .map(|s| scene.material_of(s).bsdfs().any(|b| b.gathers() || b.roughness().is_some()))
-            .collect();
+        let keeps: Vec<bool> = scene.shapes.iter().map(|s| scene.material_of(s).spreads()).collect();
         let patches = patches::find(&scene.accel, |i| keeps[scene.shape_of(i) as usize], options)?;
         let coincidences = Coincidences::find(&scene, options)?;
         for (i, (part, patch)) in Arc::make_mut(&mut scene.parts).iter_mut().zip(patches).enumerate() {

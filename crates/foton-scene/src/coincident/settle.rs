@@ -5,7 +5,7 @@ use foton_math::{Aabb, Ray};
 
 use super::share::MAX_NEAR;
 use super::sheet::{Sheet, meet_at, tolerance, weights};
-use crate::description::{Bsdf, Colour, Material};
+use crate::description::{Bsdf, Colour, Dielectric, Material, Null};
 use crate::scene::Scene;
 use crate::surface::Surface;
 
@@ -71,7 +71,7 @@ impl Scene {
             Some(_) if outward => 4,
             _ if material.shows(outward) => 3,
             _ if material.is_opaque() => 2,
-            _ => u8::from(material.front != Bsdf::Null),
+            _ => u8::from(material.front != Bsdf::Null(Null)),
         }
     }
 
@@ -79,7 +79,7 @@ impl Scene {
     pub(super) fn counts(&self, first: usize, other: usize, outward: bool, agree: bool) -> bool {
         let [shape, its_shape] = [first, other].map(|i| self.shape_of(i));
         let fronts = [shape, its_shape].map(|s| self.material(s).front);
-        let two_dielectrics = fronts.iter().all(|f| matches!(f, Bsdf::Dielectric { .. }));
+        let two_dielectrics = fronts.iter().all(|f| matches!(f, Bsdf::Dielectric(Dielectric { .. })));
         let (rank, its_rank) = (self.rank(shape, outward), self.rank(its_shape, outward == agree));
         !two_dielectrics && (rank > its_rank || rank == its_rank && (shape, first) < (its_shape, other))
     }
@@ -87,7 +87,7 @@ impl Scene {
     /// The indices inside and outside of a dielectric in which others lie, by its own normal.
     fn merged<'a>(&self, first: Candidate, others: impl Iterator<Item = &'a Candidate>) -> Option<[f32; 2]> {
         let indices = |c: &Candidate| match self.material(c.shape).front {
-            Bsdf::Dielectric { int_ior, ext_ior, .. } => Some([int_ior, ext_ior]),
+            Bsdf::Dielectric(Dielectric { int_ior, ext_ior, .. }) => Some([int_ior, ext_ior]),
             _ => None,
         };
         let [mut inside, mut outside] = indices(&first)?;
@@ -149,10 +149,16 @@ impl Surface {
         match (self.interface, bsdf) {
             (
                 Some([int_ior, ext_ior]),
-                Bsdf::Dielectric { specular_reflectance, specular_transmittance, roughness, .. },
-            ) => {
-                Bsdf::Dielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance, roughness }
-            }
+                Bsdf::Dielectric(Dielectric {
+                    specular_reflectance, specular_transmittance, roughness, ..
+                }),
+            ) => Bsdf::Dielectric(Dielectric {
+                int_ior,
+                ext_ior,
+                specular_reflectance,
+                specular_transmittance,
+                roughness,
+            }),
             _ => bsdf,
         }
     }

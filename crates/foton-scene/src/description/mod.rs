@@ -9,8 +9,12 @@ mod sensor;
 mod shape;
 mod texture;
 
+pub use crate::bsdf::{
+    Bsdf, Conductor, Dielectric, Diffuse, MicrofacetDistribution, Microfacets, Mirror, Null, Plastic,
+    ThinDielectric,
+};
 pub use emitter::{EmitterDescription, EmitterKind};
-pub use material::{Bsdf, Material, MicrofacetDistribution, Microfacets};
+pub use material::Material;
 pub use sensor::{Crop, Filter, FovAxis, SensorDescription};
 pub use shape::{Geometry, Mesh, ShapeDescription};
 pub use texture::{Bitmap, Colour, Texture, TextureKind, Wrap};

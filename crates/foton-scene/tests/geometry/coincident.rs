@@ -6,7 +6,9 @@ use std::f64::consts::PI;
 use foton_math::Ray;
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
-use foton_scene::description::{Bsdf, Colour, Geometry, Material, Mesh, ShapeDescription};
+use foton_scene::description::{
+    Bsdf, Colour, Dielectric, Geometry, Material, Mesh, Mirror, Null, ShapeDescription,
+};
 use foton_scene::{Scene, Surface};
 
 use crate::{describe, direction, direction_around, in_cube, mesh, shape, stream, turn};
@@ -23,13 +25,13 @@ const NULL: usize = 5;
 const MIRROR: usize = 6;
 
 fn dielectric(int_ior: f32) -> Bsdf {
-    Bsdf::Dielectric {
+    Bsdf::Dielectric(Dielectric {
         int_ior,
         ext_ior: 1.0,
         specular_reflectance: WHITE,
         specular_transmittance: WHITE,
         roughness: None,
-    }
+    })
 }
 
 fn scene(shapes: Vec<ShapeDescription>) -> Scene {
@@ -42,8 +44,12 @@ fn scene(shapes: Vec<ShapeDescription>) -> Scene {
         material(dielectric(1.5), None, None),
         material(dielectric(1.25), None, None),
         material(grey, None, half),
-        material(Bsdf::Null, None, None),
-        material(Bsdf::Mirror { reflectance: WHITE }, Some(Bsdf::Mirror { reflectance: WHITE }), None),
+        material(Bsdf::Null(Null), None, None),
+        material(
+            Bsdf::Mirror(Mirror { reflectance: WHITE }),
+            Some(Bsdf::Mirror(Mirror { reflectance: WHITE })),
+            None,
+        ),
     ]);
     Scene::build(&description).expect("a sound description")
 }
@@ -180,7 +186,9 @@ fn of_two_opaque_surfaces_the_first_counts_where_it_is_described() {
 fn indices(scene: &Scene, ray: &Ray, hit: &Surface) -> [f32; 2] {
     let outward = ray.direction.dot(hit.normal) < 0.0;
     let scattering = scene.scattering(hit, outward).expect("it transmits");
-    let Bsdf::Dielectric { int_ior, ext_ior, .. } = scattering.bsdf else { panic!("no dielectric") };
+    let Bsdf::Dielectric(Dielectric { int_ior, ext_ior, .. }) = scattering.bsdf else {
+        panic!("no dielectric")
+    };
     if outward { [ext_ior, int_ior] } else { [int_ior, ext_ior] }
 }
 
@@ -220,13 +228,13 @@ fn a_face_that_two_dielectrics_state_is_one_boundary_between_them() {
         }
         let mut description = describe(vec![of(1, outer), of(2, block(place))]);
         let material = |front| Material { name: "clear".into(), front, back: None, opacity: None };
-        let inner = Bsdf::Dielectric {
+        let inner = Bsdf::Dielectric(Dielectric {
             int_ior: 1.25,
             ext_ior: 1.5,
             specular_reflectance: WHITE,
             specular_transmittance: WHITE,
             roughness: None,
-        };
+        });
         description.materials.extend([material(dielectric(1.5)), material(inner)]);
         for _ in 0..2 {
             let scene = Scene::build(&description).expect("a sound description");

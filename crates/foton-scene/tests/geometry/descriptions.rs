@@ -5,7 +5,8 @@
 use foton_math::glam::{DAffine3, DMat3, DVec3};
 use foton_math::{Ray, Rgb};
 use foton_scene::description::{
-    Bsdf, Colour, EmitterDescription, EmitterKind, Geometry, Mesh, SceneDescription, ShapeDescription,
+    Bsdf, Colour, Diffuse, EmitterDescription, EmitterKind, Geometry, Mesh, SceneDescription,
+    ShapeDescription,
 };
 use foton_scene::{BuildError, Scene};
 
@@ -153,8 +154,10 @@ fn coordinates_are_finite() {
         // Where none is a direction there is nothing to interpolate, nor to correct photons for.
         let mut barren = smooth_geodesic(1);
         barren.normals.iter_mut().for_each(|n| n.x = value);
-        assert!(!build(vec![mesh(barren, DAffine3::IDENTITY)]).census().shading_normals);
-        assert!(build(vec![mesh(smooth_geodesic(1), DAffine3::IDENTITY)]).census().shading_normals);
+        assert!(!build(vec![mesh(barren, DAffine3::IDENTITY)]).census().bsdfs[0].interpolated_normals);
+        assert!(
+            build(vec![mesh(smooth_geodesic(1), DAffine3::IDENTITY)]).census().bsdfs[0].interpolated_normals
+        );
     }
 }
 
@@ -202,7 +205,7 @@ fn textures_are_there_and_their_coordinates_fit() {
     let description = describe(vec![mesh(uneven, DAffine3::IDENTITY)]);
     assert_eq!(Scene::build(&description).err(), Some(BuildError::BadMesh("shape".into())));
     let mut absent = describe(vec![mesh(Mesh::rectangle(), DAffine3::IDENTITY)]);
-    absent.materials[0].front = Bsdf::Diffuse { reflectance: Colour::Texture(3) };
+    absent.materials[0].front = Bsdf::Diffuse(Diffuse { reflectance: Colour::Texture(3) });
     assert_eq!(Scene::build(&absent).err(), Some(BuildError::NoTexture("white".into())));
 }
 

@@ -23,7 +23,8 @@ use foton_math::glam::{DAffine3, DQuat, DVec3, EulerRot, Vec3};
 use foton_math::{Purpose, Rgb, Stream, warp};
 use foton_scene::Scene;
 use foton_scene::description::{
-    Bsdf, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription, SensorDescription, ShapeDescription,
+    Bsdf, Diffuse, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription, SensorDescription,
+    ShapeDescription,
 };
 
 /// So many cases, or a multiple of them where someone asks for more than the tests can bear: `FOTON_CASES` multiplies them.
@@ -83,7 +84,7 @@ fn describe(shapes: Vec<ShapeDescription>) -> SceneDescription {
         near_clip: None,
         far_clip: None,
     };
-    let white = Bsdf::Diffuse { reflectance: Rgb::splat(0.5).into() };
+    let white = Bsdf::Diffuse(Diffuse { reflectance: Rgb::splat(0.5).into() });
     let material = Material { name: "white".into(), front: white, back: Some(white), opacity: None };
     SceneDescription {
         sensors: vec![sensor],

@@ -1,7 +1,10 @@
 //! Fields of materials: what they are, and setting them.
 
 use foton_math::Rgb;
-use foton_scene::description::{Bsdf, Colour, Material, MicrofacetDistribution, Microfacets};
+use foton_scene::description::{
+    Bsdf, Colour, Conductor, Dielectric, Diffuse, Material, MicrofacetDistribution, Microfacets, Mirror,
+    Null, Plastic, ThinDielectric,
+};
 use foton_scene::metals::METALS;
 
 use super::field::{FieldId, Fields, Property, Side, Value};
@@ -27,13 +30,13 @@ const NEW_ROUGHNESS: Microfacets =
 
 fn kind_of(bsdf: &Bsdf) -> usize {
     match bsdf {
-        Bsdf::Diffuse { .. } => 0,
-        Bsdf::Dielectric { .. } => 1,
-        Bsdf::ThinDielectric { .. } => 2,
-        Bsdf::Mirror { .. } => 3,
-        Bsdf::Conductor { .. } => 4,
-        Bsdf::Plastic { .. } => 5,
-        Bsdf::Null => 6,
+        Bsdf::Diffuse(Diffuse { .. }) => 0,
+        Bsdf::Dielectric(Dielectric { .. }) => 1,
+        Bsdf::ThinDielectric(ThinDielectric { .. }) => 2,
+        Bsdf::Mirror(Mirror { .. }) => 3,
+        Bsdf::Conductor(Conductor { .. }) => 4,
+        Bsdf::Plastic(Plastic { .. }) => 5,
+        Bsdf::Null(Null) => 6,
     }
 }
 
@@ -43,7 +46,10 @@ pub(crate) fn kind_name(material: &Material) -> &'static str {
 }
 
 fn is_clear(bsdf: &Bsdf) -> bool {
-    matches!(bsdf, Bsdf::Dielectric { .. } | Bsdf::ThinDielectric { .. } | Bsdf::Null)
+    matches!(
+        bsdf,
+        Bsdf::Dielectric(Dielectric { .. }) | Bsdf::ThinDielectric(ThinDielectric { .. }) | Bsdf::Null(Null)
+    )
 }
 
 /// Appends a material's fields. Whether some colours come from textures, which cannot be edited.
@@ -77,21 +83,21 @@ fn side_fields(bsdf: &Bsdf, side: Side, out: &mut Fields) -> bool {
     };
     let own = "Share of light reflected, by channel. Above 0.9 light bounces long and passes get slower.";
     match *bsdf {
-        Bsdf::Diffuse { reflectance } => colour(out, Property::Colour, "Colour", reflectance, own),
-        Bsdf::Mirror { reflectance } => colour(out, Property::Colour, "Colour", reflectance, own),
-        Bsdf::Dielectric { specular_reflectance, specular_transmittance, .. }
-        | Bsdf::ThinDielectric { specular_reflectance, specular_transmittance, .. } => {
+        Bsdf::Diffuse(Diffuse { reflectance }) => colour(out, Property::Colour, "Colour", reflectance, own),
+        Bsdf::Mirror(Mirror { reflectance }) => colour(out, Property::Colour, "Colour", reflectance, own),
+        Bsdf::Dielectric(Dielectric { specular_reflectance, specular_transmittance, .. })
+        | Bsdf::ThinDielectric(ThinDielectric { specular_reflectance, specular_transmittance, .. }) => {
             let help = "Factor on light that passes; white is physical, a tint colours every crossing alike.";
             colour(out, Property::Transmission, "Transmitted", specular_transmittance, help);
             let help = "Factor on reflected light; white is physical.";
             colour(out, Property::Reflections, "Reflected", specular_reflectance, help);
         }
-        Bsdf::Conductor { specular_reflectance, eta, k, .. } => {
+        Bsdf::Conductor(Conductor { specular_reflectance, eta, k, .. }) => {
             metal_fields(side, eta, k, out);
             let help = "Factor on reflected light; white is physical.";
             colour(out, Property::Reflections, "Tint", specular_reflectance, help);
         }
-        Bsdf::Plastic { diffuse_reflectance, specular_reflectance, nonlinear, .. } => {
+        Bsdf::Plastic(Plastic { diffuse_reflectance, specular_reflectance, nonlinear, .. }) => {
             colour(out, Property::Colour, "Base colour", diffuse_reflectance, own);
             let help = "Factor on light reflected by the coat; white is physical.";
             colour(out, Property::Reflections, "Reflected", specular_reflectance, help);
@@ -99,7 +105,7 @@ fn side_fields(bsdf: &Bsdf, side: Side, out: &mut Fields) -> bool {
                 "Light reflected inside the coat takes on the base's colour each time: deeper colours.";
             out.toggle(id(Property::Nonlinear), "Deep colour", nonlinear, help);
         }
-        Bsdf::Null => {}
+        Bsdf::Null(Null) => {}
     }
     if let Some((inside, outside)) = iors(bsdf) {
         let range = (1.0, 4.0, false);
@@ -161,18 +167,18 @@ fn roughness_fields(side: Side, roughness: Option<Microfacets>, out: &mut Fields
 
 fn iors(bsdf: &Bsdf) -> Option<(f32, f32)> {
     match *bsdf {
-        Bsdf::Dielectric { int_ior, ext_ior, .. }
-        | Bsdf::ThinDielectric { int_ior, ext_ior, .. }
-        | Bsdf::Plastic { int_ior, ext_ior, .. } => Some((int_ior, ext_ior)),
+        Bsdf::Dielectric(Dielectric { int_ior, ext_ior, .. })
+        | Bsdf::ThinDielectric(ThinDielectric { int_ior, ext_ior, .. })
+        | Bsdf::Plastic(Plastic { int_ior, ext_ior, .. }) => Some((int_ior, ext_ior)),
         _ => None,
     }
 }
 
 fn roughness(bsdf: &Bsdf) -> Option<Option<Microfacets>> {
     match *bsdf {
-        Bsdf::Dielectric { roughness, .. }
-        | Bsdf::Conductor { roughness, .. }
-        | Bsdf::Plastic { roughness, .. } => Some(roughness),
+        Bsdf::Dielectric(Dielectric { roughness, .. })
+        | Bsdf::Conductor(Conductor { roughness, .. })
+        | Bsdf::Plastic(Plastic { roughness, .. }) => Some(roughness),
         _ => None,
     }
 }
@@ -207,7 +213,7 @@ fn set_side(bsdf: &mut Bsdf, property: Property, value: Value) {
     match (property, value) {
         (Property::Kind, Value::Choice(kind)) => *bsdf = of_kind(kind, bsdf),
         (Property::Metal, Value::Choice(i)) => {
-            if let (Bsdf::Conductor { eta, k, .. }, Some(metal)) =
+            if let (Bsdf::Conductor(Conductor { eta, k, .. }), Some(metal)) =
                 (bsdf, i.checked_sub(1).and_then(|i| METALS.get(i)))
             {
                 (*eta, *k) = (Rgb::from_array(metal.1), Rgb::from_array(metal.2));
@@ -220,15 +226,15 @@ fn set_side(bsdf: &mut Bsdf, property: Property, value: Value) {
         (_, Value::Colour(c)) => set_colour(bsdf, property, Colour::Constant(Rgb::from_array(c))),
         (_, Value::Number(x)) => set_number(bsdf, property, x as f32),
         (Property::Rough, Value::Toggle(on)) => {
-            if let Bsdf::Dielectric { roughness, .. }
-            | Bsdf::Conductor { roughness, .. }
-            | Bsdf::Plastic { roughness, .. } = bsdf
+            if let Bsdf::Dielectric(Dielectric { roughness, .. })
+            | Bsdf::Conductor(Conductor { roughness, .. })
+            | Bsdf::Plastic(Plastic { roughness, .. }) = bsdf
             {
                 *roughness = on.then(|| roughness.unwrap_or(NEW_ROUGHNESS));
             }
         }
         (Property::Nonlinear, Value::Toggle(on)) => {
-            if let Bsdf::Plastic { nonlinear, .. } = bsdf {
+            if let Bsdf::Plastic(Plastic { nonlinear, .. }) = bsdf {
                 *nonlinear = on;
             }
         }
@@ -238,19 +244,21 @@ fn set_side(bsdf: &mut Bsdf, property: Property, value: Value) {
 
 fn set_colour(bsdf: &mut Bsdf, property: Property, colour: Colour) {
     let place = match (property, bsdf) {
-        (Property::Colour, Bsdf::Diffuse { reflectance } | Bsdf::Mirror { reflectance }) => reflectance,
-        (Property::Colour, Bsdf::Plastic { diffuse_reflectance, .. }) => diffuse_reflectance,
+        (Property::Colour, Bsdf::Diffuse(Diffuse { reflectance }) | Bsdf::Mirror(Mirror { reflectance })) => {
+            reflectance
+        }
+        (Property::Colour, Bsdf::Plastic(Plastic { diffuse_reflectance, .. })) => diffuse_reflectance,
         (
             Property::Reflections,
-            Bsdf::Dielectric { specular_reflectance, .. }
-            | Bsdf::ThinDielectric { specular_reflectance, .. }
-            | Bsdf::Conductor { specular_reflectance, .. }
-            | Bsdf::Plastic { specular_reflectance, .. },
+            Bsdf::Dielectric(Dielectric { specular_reflectance, .. })
+            | Bsdf::ThinDielectric(ThinDielectric { specular_reflectance, .. })
+            | Bsdf::Conductor(Conductor { specular_reflectance, .. })
+            | Bsdf::Plastic(Plastic { specular_reflectance, .. }),
         ) => specular_reflectance,
         (
             Property::Transmission,
-            Bsdf::Dielectric { specular_transmittance, .. }
-            | Bsdf::ThinDielectric { specular_transmittance, .. },
+            Bsdf::Dielectric(Dielectric { specular_transmittance, .. })
+            | Bsdf::ThinDielectric(ThinDielectric { specular_transmittance, .. }),
         ) => specular_transmittance,
         _ => return,
     };
@@ -266,18 +274,18 @@ fn set_number(bsdf: &mut Bsdf, property: Property, x: f32) {
     match (property, &mut *bsdf) {
         (
             Property::InsideIor,
-            Bsdf::Dielectric { int_ior, .. }
-            | Bsdf::ThinDielectric { int_ior, .. }
-            | Bsdf::Plastic { int_ior, .. },
+            Bsdf::Dielectric(Dielectric { int_ior, .. })
+            | Bsdf::ThinDielectric(ThinDielectric { int_ior, .. })
+            | Bsdf::Plastic(Plastic { int_ior, .. }),
         ) => *int_ior = x,
         (
             Property::OutsideIor,
-            Bsdf::Dielectric { ext_ior, .. }
-            | Bsdf::ThinDielectric { ext_ior, .. }
-            | Bsdf::Plastic { ext_ior, .. },
+            Bsdf::Dielectric(Dielectric { ext_ior, .. })
+            | Bsdf::ThinDielectric(ThinDielectric { ext_ior, .. })
+            | Bsdf::Plastic(Plastic { ext_ior, .. }),
         ) => *ext_ior = x,
-        (Property::Eta(i), Bsdf::Conductor { eta, .. }) => channel(eta, i),
-        (Property::K(i), Bsdf::Conductor { k, .. }) => channel(k, i),
+        (Property::Eta(i), Bsdf::Conductor(Conductor { eta, .. })) => channel(eta, i),
+        (Property::K(i), Bsdf::Conductor(Conductor { k, .. })) => channel(k, i),
         (Property::Roughness, _) => with_roughness(bsdf, |r| (r.alpha_u, r.alpha_v) = (x, x)),
         (Property::RoughnessU, _) => with_roughness(bsdf, |r| r.alpha_u = x),
         (Property::RoughnessV, _) => with_roughness(bsdf, |r| r.alpha_v = x),
@@ -286,9 +294,9 @@ fn set_number(bsdf: &mut Bsdf, property: Property, x: f32) {
 }
 
 fn with_roughness(bsdf: &mut Bsdf, change: impl FnOnce(&mut Microfacets)) {
-    if let Bsdf::Dielectric { roughness: Some(r), .. }
-    | Bsdf::Conductor { roughness: Some(r), .. }
-    | Bsdf::Plastic { roughness: Some(r), .. } = bsdf
+    if let Bsdf::Dielectric(Dielectric { roughness: Some(r), .. })
+    | Bsdf::Conductor(Conductor { roughness: Some(r), .. })
+    | Bsdf::Plastic(Plastic { roughness: Some(r), .. }) = bsdf
     {
         change(r);
     }
@@ -300,32 +308,43 @@ fn of_kind(kind: usize, old: &Bsdf) -> Bsdf {
         return *old;
     }
     let colour = match *old {
-        Bsdf::Diffuse { reflectance } | Bsdf::Mirror { reflectance } => reflectance,
-        Bsdf::Plastic { diffuse_reflectance, .. } => diffuse_reflectance,
+        Bsdf::Diffuse(Diffuse { reflectance }) | Bsdf::Mirror(Mirror { reflectance }) => reflectance,
+        Bsdf::Plastic(Plastic { diffuse_reflectance, .. }) => diffuse_reflectance,
         _ => Colour::Constant(Rgb::splat(0.8)),
     };
     let (int_ior, ext_ior) = iors(old).unwrap_or((1.5, 1.0));
     let roughness = roughness(old).flatten();
     let (specular_reflectance, specular_transmittance) = (WHITE, WHITE);
     match kind {
-        0 => Bsdf::Diffuse { reflectance: colour },
-        1 => Bsdf::Dielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance, roughness },
-        2 => Bsdf::ThinDielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance },
-        3 => Bsdf::Mirror { reflectance: colour },
+        0 => Bsdf::Diffuse(Diffuse { reflectance: colour }),
+        1 => Bsdf::Dielectric(Dielectric {
+            int_ior,
+            ext_ior,
+            specular_reflectance,
+            specular_transmittance,
+            roughness,
+        }),
+        2 => Bsdf::ThinDielectric(ThinDielectric {
+            int_ior,
+            ext_ior,
+            specular_reflectance,
+            specular_transmittance,
+        }),
+        3 => Bsdf::Mirror(Mirror { reflectance: colour }),
         4 => {
             let gold = METALS.iter().find(|m| m.0 == GOLD);
             let (eta, k) = gold.map_or(([0.2; 3], [3.0; 3]), |m| (m.1, m.2));
             let (eta, k) = (Rgb::from_array(eta), Rgb::from_array(k));
-            Bsdf::Conductor { eta, k, specular_reflectance, roughness }
+            Bsdf::Conductor(Conductor { eta, k, specular_reflectance, roughness })
         }
-        5 => Bsdf::Plastic {
+        5 => Bsdf::Plastic(Plastic {
             int_ior,
             ext_ior,
             diffuse_reflectance: colour,
             specular_reflectance,
             nonlinear: false,
             roughness: roughness.map(|r| Microfacets { alpha_v: r.alpha_u, ..r }),
-        },
-        _ => Bsdf::Null,
+        }),
+        _ => Bsdf::Null(Null),
     }
 }

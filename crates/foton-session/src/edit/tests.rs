@@ -6,8 +6,8 @@ use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DMat3, DVec2, DVec3};
 use foton_scene::Scene;
 use foton_scene::description::{
-    Bsdf, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
-    SensorDescription, ShapeDescription,
+    Bsdf, Dielectric, Diffuse, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh,
+    SceneDescription, SensorDescription, ShapeDescription,
 };
 
 use super::view::View;
@@ -40,15 +40,15 @@ fn shape(name: &str, geometry: Geometry, to_world: DAffine3, material: usize) ->
 
 /// A floor, a ball, a cube and a small lamp of one grey and one glass; four lights without surfaces.
 fn scene() -> SceneDescription {
-    let grey = Bsdf::Diffuse { reflectance: Rgb::splat(0.5).into() };
+    let grey = Bsdf::Diffuse(Diffuse { reflectance: Rgb::splat(0.5).into() });
     let white = Rgb::WHITE.into();
-    let glass = Bsdf::Dielectric {
+    let glass = Bsdf::Dielectric(Dielectric {
         int_ior: 1.5,
         ext_ior: 1.0,
         specular_reflectance: white,
         specular_transmittance: white,
         roughness: None,
-    };
+    });
     let material = |name: &str, front| Material { name: name.into(), front, back: None, opacity: None };
     let flat = DMat3::from_cols(DVec3::X * 20.0, DVec3::NEG_Z * 20.0, DVec3::Y);
     let floor = DAffine3::from_mat3(flat);

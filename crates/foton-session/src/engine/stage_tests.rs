@@ -7,8 +7,8 @@ use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::Scene;
 use foton_scene::description::{
-    Bsdf, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
-    SensorDescription, ShapeDescription,
+    Bsdf, Diffuse, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh,
+    SceneDescription, SensorDescription, ShapeDescription,
 };
 
 use super::super::command::Source;
@@ -32,7 +32,7 @@ fn wall() -> SceneDescription {
         triangles: (0..SIDE * SIDE).flat_map(square).collect(),
         ..Mesh::default()
     };
-    let grey = Bsdf::Diffuse { reflectance: Rgb::splat(0.5).into() };
+    let grey = Bsdf::Diffuse(Diffuse { reflectance: Rgb::splat(0.5).into() });
     SceneDescription {
         sensors: vec![SensorDescription {
             name: "camera".into(),

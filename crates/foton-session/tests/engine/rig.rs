@@ -12,8 +12,8 @@ use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DMat3, DVec3};
 use foton_scene::Scene;
 use foton_scene::description::{
-    Bsdf, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
-    SensorDescription, ShapeDescription,
+    Bsdf, Dielectric, Diffuse, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh,
+    SceneDescription, SensorDescription, ShapeDescription,
 };
 use foton_session::engine::{Activity, Command, Event, Frame, Loaded, Loader, Picture, Setup, Source};
 use foton_session::{Engine, SceneIdentity, Session, StopRule};
@@ -35,14 +35,14 @@ pub(crate) fn room() -> SceneDescription {
         DAffine3::from_cols(left, forward.cross(left), forward, from)
     };
     let white = Rgb::WHITE.into();
-    let grey = Bsdf::Diffuse { reflectance: Rgb::splat(0.5).into() };
-    let glass = Bsdf::Dielectric {
+    let grey = Bsdf::Diffuse(Diffuse { reflectance: Rgb::splat(0.5).into() });
+    let glass = Bsdf::Dielectric(Dielectric {
         int_ior: 1.5,
         ext_ior: 1.0,
         specular_reflectance: white,
         specular_transmittance: white,
         roughness: None,
-    };
+    });
     let material = |name: &str, front| Material { name: name.into(), front, back: None, opacity: None };
     let shape = |name: &str, geometry, to_world, material| ShapeDescription {
         name: name.into(),

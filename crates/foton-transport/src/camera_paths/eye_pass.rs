@@ -12,6 +12,7 @@ use foton_scene::{Scene, Sensor};
 
 use super::hit_point::{Gloss, HitPoint};
 use super::radius::FirstRadius;
+use crate::lobes::{LobePolicy, LobeUse};
 use crate::not_finite::LeftOut;
 
 /// What the shape-id layer says where a pixel sees nothing.
@@ -66,6 +67,10 @@ pub struct EyePass<'a> {
     pub radius: FirstRadius,
     /// Longest whole path in edges.
     pub max_depth: u32,
+    /// Which lobes paths follow.
+    pub policy: LobePolicy,
+    /// What that means in this scene.
+    pub uses: LobeUse,
     /// The seed of all random streams.
     pub seed: u64,
     /// What the streams are for.

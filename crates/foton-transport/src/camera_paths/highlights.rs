@@ -12,6 +12,7 @@ use foton_math::{Frame, Ray, Rgb, Stream};
 use foton_scene::{Scattering, Scene, Surface};
 
 use crate::direct_light::SHORTENED;
+use crate::lobes::LobeSplit;
 use crate::shading::leaves_wrongly;
 use crate::straight;
 
@@ -24,6 +25,7 @@ pub(super) struct Glossy<'a> {
     pub scene: &'a Scene,
     pub surface: &'a Surface,
     pub scattering: &'a Scattering,
+    pub split: LobeSplit,
     /// Around the shading normal.
     pub frame: &'a Frame,
     /// Where the path came from, local.
@@ -45,6 +47,12 @@ impl Glossy<'_> {
             sum += self.lamp(u, rays);
         }
         sum
+    }
+
+    /// The pdf (sr⁻¹) with which a glossy specular lobe is followed into `wi`; 0 for rough glass, which finds emitters by following
+    /// alone.
+    pub(super) fn pdf(scattering: &Scattering, split: LobeSplit, wo: Vec3, wi: Vec3) -> f32 {
+        if split.follows_gloss() { scattering.glossy_pdf(wo, wi) } else { 0.0 }
     }
 
     /// Of two ways to find a lamp, the share of following a lobe with the given density (sr⁻¹) into it from `position`.
@@ -92,12 +100,12 @@ impl Glossy<'_> {
         let at = emitter.illuminate(self.surface.position, self.surface.normal, u_part, u);
         let Some(light) = at else { return Rgb::BLACK };
         let wi = self.frame.to_local(light.direction);
-        let following = self.scattering.pdf_specular(self.wo, wi);
+        let following = Self::pdf(self.scattering, self.split, self.wo, wi);
         if emitter.is_area() && following <= 0.0 {
             // Glass: its lobes find lamps by following alone.
             return Rgb::BLACK;
         }
-        let value = self.scattering.eval_specular(self.wo, wi) * wi.z.abs();
+        let value = self.scattering.eval(self.wo, wi, self.split.specular) * wi.z.abs();
         let reflects = wi.z * self.wo.z > 0.0;
         if value.is_black()
             || leaves_wrongly(self.surface, self.frame.to_outer(self.wo), light.direction, reflects)

@@ -2,7 +2,7 @@
 
 use foton_math::glam::Vec3;
 use foton_math::{Frame, Rgb};
-use foton_scene::Scattering;
+use foton_scene::{LobeFlags, Scattering};
 
 /// A hit point as the eye pass finds it. Scene units.
 #[derive(Clone, Copy, Debug)]
@@ -40,18 +40,16 @@ pub struct Gloss {
     pub frame: Frame,
     /// Unit direction to the eye in that frame.
     pub wo: Vec3,
-    /// Whether it stands for lobes that the eye path follows, and weighs what that cannot find.
-    pub narrow: bool,
+    /// The lobes that it weights light with.
+    pub lobes: LobeFlags,
+    /// Whether the eye path follows them as well, so that only light counts that it cannot find.
+    pub specular: bool,
 }
 
 impl Gloss {
     /// The value of its lobes for light from the unit direction `wi` (sr⁻¹).
     pub fn eval(&self, wi: Vec3) -> Rgb {
         let wi = self.frame.to_local(wi);
-        if self.narrow {
-            self.scattering.eval_specular(self.wo, wi)
-        } else {
-            self.scattering.eval_gathered(self.wo, wi)
-        }
+        self.scattering.eval(self.wo, wi, self.lobes)
     }
 }

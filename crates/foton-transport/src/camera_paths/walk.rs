@@ -4,12 +4,13 @@ use std::f32::consts::FRAC_1_PI;
 
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Ray, Rgb, Stream};
-use foton_scene::{Scattering, Surface, Transport};
+use foton_scene::{LobeFlags, Scattering, Surface, Transport};
 
 use super::eye_pass::{EyePass, EyePaths};
 use super::highlights::Glossy;
 use super::hit_point::{Gloss, HitPoint};
 use super::radius::slab2;
+use crate::lobes::LobeSplit;
 use crate::not_finite::{self, LeftOut, Quantity};
 use crate::shading::{on_the_right_side, shading_normal_towards};
 
@@ -21,15 +22,14 @@ const SPLIT_EDGES: u32 = 8;
 const ROULETTE_EDGES: u32 = 16;
 const SURVIVAL: f32 = 0.9;
 
-/// What a hit point weighs light with.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Part {
-    /// The lobes that spread light.
-    Gathered,
-    /// Narrow lobes that the path follows as well, lit from its own side: for photons that it cannot find the light of.
-    Specular,
-    /// The same, lit from the other side, through rough glass.
-    SpecularBehind,
+/// What a hit point weights light with.
+#[derive(Clone, Copy)]
+struct Part {
+    lobes: LobeFlags,
+    /// Whether the path follows these lobes as well: for photons that it cannot find the light of.
+    specular: bool,
+    /// Whether light arrives at the other side, through rough glass.
+    behind: bool,
 }
 
 /// An eye path that goes on.
@@ -41,8 +41,8 @@ pub(super) struct Branch {
     edges: u32,
     /// Length of the edges before `ray`.
     distance: f32,
-    /// The density (sr⁻¹) of its direction, where lamps are looked up as well; 0 where they are not.
-    density: f32,
+    /// The pdf (sr⁻¹) of its direction, where emitters are looked up as well; 0 where they are not.
+    pdf: f32,
 }
 
 /// One eye sample on its way.
@@ -103,7 +103,7 @@ impl<'a, 'b> Walk<'a, 'b> {
         let corner = Vec2::new((pixel % sensor.width) as f32, (pixel / sensor.width) as f32);
         let ray = sensor.ray(corner + 0.5 + sensor.filter.offset(place));
         self.solid_angle = sensor.pixel_solid_angle(ray.direction);
-        self.branches.push(Branch { ray, weight: Rgb::WHITE, edges: 1, distance: 0.0, density: 0.0 });
+        self.branches.push(Branch { ray, weight: Rgb::WHITE, edges: 1, distance: 0.0, pdf: 0.0 });
         while let Some(branch) = self.branches.pop() {
             self.step(branch);
         }
@@ -130,8 +130,8 @@ impl<'a, 'b> Walk<'a, 'b> {
         let wo = -branch.ray.direction;
         if visible {
             let mut emitted = branch.weight * scene.emitted(&surface, wo);
-            if branch.density > 0.0 && !emitted.is_black() {
-                emitted *= Glossy::share_of_following(scene, &surface, branch.ray.origin, branch.density);
+            if branch.pdf > 0.0 && !emitted.is_black() {
+                emitted *= Glossy::share_of_following(scene, &surface, branch.ray.origin, branch.pdf);
             }
             self.see(emitted, surface.position, Some(surface.shape));
         }
@@ -141,11 +141,13 @@ impl<'a, 'b> Walk<'a, 'b> {
             return;
         }
         let distance = branch.distance + (surface.position - branch.ray.origin).length();
-        if scattering.bsdf.gathers() {
-            self.store(&branch, &surface, &scattering, distance, Part::Gathered);
+        let split = self.pass.policy.split(&scattering.bsdf);
+        if split.gathers() {
+            let part = Part { lobes: split.gathered, specular: false, behind: false };
+            self.store(&branch, &surface, &scattering, distance, part);
         }
-        if scattering.bsdf.has_specular() || scattering.opacity < 1.0 {
-            self.follow_lobes(&branch, &surface, &scattering, distance);
+        if split.follows() || scattering.opacity < 1.0 {
+            self.follow_lobes(&branch, &surface, &scattering, split, distance);
         }
     }
 
@@ -163,8 +165,8 @@ impl<'a, 'b> Walk<'a, 'b> {
             None => {
                 let normal = shading_normal_towards(surface, wo);
                 let frame = self.pass.scene.shading_frame(surface, normal);
-                let narrow = part != Part::Gathered;
-                let gloss = Gloss { scattering: *scattering, frame, wo: frame.to_local(wo), narrow };
+                let Part { lobes, specular, .. } = part;
+                let gloss = Gloss { scattering: *scattering, frame, wo: frame.to_local(wo), lobes, specular };
                 self.paths.gloss.push(gloss);
                 (branch.weight, Some(self.paths.gloss.len() as u32 - 1))
             }
@@ -172,7 +174,7 @@ impl<'a, 'b> Walk<'a, 'b> {
         if weight.is_black() || !self.is_finite(weight, surface) {
             return;
         }
-        let behind = if part == Part::SpecularBehind { -1.0 } else { 1.0 };
+        let behind = if part.behind { -1.0 } else { 1.0 };
         let side = behind * 1f32.copysign(wo.dot(surface.normal));
         let normal = surface.normal * side;
         let (radius2, smallest2) = self.pass.radius.first_and_smallest2(
@@ -221,7 +223,14 @@ impl<'a, 'b> Walk<'a, 'b> {
         false
     }
 
-    fn follow_lobes(&mut self, branch: &Branch, surface: &Surface, scattering: &Scattering, distance: f32) {
+    fn follow_lobes(
+        &mut self,
+        branch: &Branch,
+        surface: &Surface,
+        scattering: &Scattering,
+        split: LobeSplit,
+        distance: f32,
+    ) {
         let mut weight = branch.weight;
         if branch.edges >= ROULETTE_EDGES {
             if self.stream.next_1d() >= SURVIVAL {
@@ -236,35 +245,38 @@ impl<'a, 'b> Walk<'a, 'b> {
             Some(_) => Some(self.facet.take().unwrap_or_else(|| self.stream.next_2d())),
             None => None,
         };
-        if self.pass.scene.census().has_narrow_caustics() && scattering.has_narrow_specular() {
+        if self.pass.uses.highlights_by_photons && split.follows_gloss() {
             let lit = Branch { weight, ..*branch };
-            self.store(&lit, surface, scattering, distance, Part::Specular);
+            let part = Part { lobes: split.specular, specular: true, behind: false };
+            self.store(&lit, surface, scattering, distance, part);
             if scattering.bsdf.transmits() {
-                self.store(&lit, surface, scattering, distance, Part::SpecularBehind);
+                self.store(&lit, surface, scattering, distance, Part { behind: true, ..part });
             }
         }
-        let looks = self.pass.scene.census().has_narrow_highlights() && facet.is_some();
-        if looks {
+        let looks_up = self.pass.uses.highlights && facet.is_some();
+        if looks_up {
             let edges = self.pass.max_depth - branch.edges;
-            let at = Glossy { scene: self.pass.scene, surface, scattering, frame: &frame, wo: local, edges };
+            let scene = self.pass.scene;
+            let at = Glossy { scene, surface, scattering, split, frame: &frame, wo: local, edges };
             let point = self.lamp.take().unwrap_or_else(|| self.stream.next_2d());
             let u = (self.stream.next_1d(), self.stream.next_1d(), point);
             let highlight = weight * at.looked_up(u, &mut self.stream, &mut self.paths.rays);
             self.see(highlight, surface.position, Some(surface.shape));
         }
         let facet = facet.unwrap_or_default();
-        let lobes = scattering.specular_lobes(local, Transport::Radiance, facet);
+        let lobes = scattering.lobes(local, Transport::Radiance, facet, split.specular);
         let count = lobes.iter().flatten().count() as u32;
-        let split = branch.edges <= SPLIT_EDGES
+        let follows_all = branch.edges <= SPLIT_EDGES
             && weight.max_component() > SPLIT_WEIGHT
             && self.leaves < self.pass.hit_points_per_sample.get();
         let single;
-        let chosen: &[_] = if split || count < 2 {
+        let chosen: &[_] = if follows_all || count < 2 {
             // What is kept here and each lobe beyond the first is one more end.
-            self.leaves += (count + u32::from(scattering.bsdf.gathers())).saturating_sub(1);
+            self.leaves += (count + u32::from(split.gathers())).saturating_sub(1);
             &lobes
         } else {
-            let lobe = scattering.choose_specular(local, Transport::Radiance, self.stream.next_1d(), facet);
+            let u = self.stream.next_1d();
+            let lobe = scattering.choose_lobe(local, Transport::Radiance, u, facet, split.specular);
             single = [lobe.map(|mut l| {
                 l.weight = l.weight / l.probability;
                 l
@@ -278,13 +290,13 @@ impl<'a, 'b> Walk<'a, 'b> {
             }
             let sampled = frame.to_outer(lobe.wi).normalize();
             let direction = on_the_right_side(surface, wo, sampled, lobe.wi.z * local.z > 0.0);
-            let is_sampled = looks && direction == sampled;
+            let is_sampled = looks_up && direction == sampled;
             self.branches.push(Branch {
                 ray: Ray::new(surface.ray_origin(direction), direction),
                 weight,
                 edges: branch.edges + 1,
                 distance,
-                density: if is_sampled { scattering.pdf_specular(local, lobe.wi) } else { 0.0 },
+                pdf: if is_sampled { Glossy::pdf(scattering, split, local, lobe.wi) } else { 0.0 },
             });
         }
     }

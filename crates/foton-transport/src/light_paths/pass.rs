@@ -5,6 +5,7 @@ use foton_scene::{Scene, Sources};
 use pulp::Arch;
 
 use super::batch::Batch;
+use crate::lobes::LobePolicy;
 use crate::photon_map::{Grid, PathClass};
 
 /// Photons followed side by side: few enough for the nearest cache.
@@ -20,6 +21,8 @@ pub struct PhotonPass<'a> {
     pub grid: &'a Grid,
     /// Whether photons that come straight from an emitter are stored: not where shadow rays bring that light.
     pub stores_direct: bool,
+    /// Which lobes hit points gather photons for.
+    pub policy: LobePolicy,
     /// Whether any hit point asks where a photon came from.
     pub directions: bool,
     /// The instruction set to run on; it changes no bit.

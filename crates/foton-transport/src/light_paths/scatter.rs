@@ -2,11 +2,12 @@
 
 use foton_math::glam::Vec3;
 use foton_math::{Frame, Ray, Rgb};
-use foton_scene::{Lobe, Surface, Transport};
+use foton_scene::{Surface, Transport};
 
 use super::draws::Draw;
 use super::pass::{Path, PhotonPass};
 use crate::ledger::{Ledger, energy, left_out};
+use crate::lobes::Bounce;
 use crate::not_finite::{self, LeftOut, Quantity};
 use crate::photon_map::{Chunk, PathClass, Photon};
 use crate::shading::{MIN_COSINE, leaves_wrongly, on_the_right_side, shading_normal_towards};
@@ -19,7 +20,7 @@ struct Leaving {
     /// The shading normal.
     normal: Vec3,
     /// By which kind of lobe.
-    lobe: Lobe,
+    bounce: Bounce,
     /// Whether on the side that it came from.
     reflects: bool,
 }
@@ -46,7 +47,7 @@ impl PhotonPass<'_> {
             direction: Frame::from_normal(normal).to_outer(wi).normalize(),
             weight: reflectance,
             normal,
-            lobe: Lobe::Gathered,
+            bounce: Bounce::Gathered,
             reflects: true,
         };
         self.send_on(path, stored, surface, &leaving, draw.survival, chunk, next);
@@ -68,12 +69,14 @@ impl PhotonPass<'_> {
             chunk.ledger.absorbed += energy(path.power);
             return path.stored;
         };
-        let counts = scattering.bsdf.gathers() || path.lone && scattering.has_narrow_specular();
+        let split = self.policy.split(&scattering.bsdf);
+        let counts = split.gathers() || path.lone && split.follows_gloss();
         let stored = if counts { self.store(path, surface, wo, chunk) } else { path.stored };
         let normal = shading_normal_towards(surface, wo);
         let frame = self.scene.shading_frame(surface, normal);
         let local = frame.to_local(wo);
-        let sample = scattering.sample(local, Transport::Importance, draw.lobe, draw.direction);
+        let sample =
+            scattering.sample(local, Transport::Importance, draw.lobe, draw.direction, split.specular);
         let Some(sample) = sample else {
             chunk.ledger.absorbed += energy(path.power);
             return stored;
@@ -82,7 +85,7 @@ impl PhotonPass<'_> {
             direction: frame.to_outer(sample.wi).normalize(),
             weight: sample.weight,
             normal,
-            lobe: sample.lobe,
+            bounce: split.bounce(sample.lobe),
             reflects: sample.wi.z * local.z > 0.0,
         };
         self.send_on(path, stored, surface, &leaving, draw.survival, chunk, next);
@@ -106,12 +109,12 @@ impl PhotonPass<'_> {
         next: &mut Vec<Path>,
     ) {
         let wo = -path.ray.direction;
-        let &Leaving { direction, weight, normal, lobe, reflects } = leaving;
-        let followed = lobe != Lobe::Gathered;
+        let &Leaving { direction, weight, normal, bounce, reflects } = leaving;
+        let specular = bounce != Bounce::Gathered;
         let scattered = path.power * weight;
-        let correction = if !followed && leaves_wrongly(surface, wo, direction, reflects) {
+        let correction = if !specular && leaves_wrongly(surface, wo, direction, reflects) {
             0.0
-        } else if lobe == Lobe::Straight {
+        } else if bounce == Bounce::Straight {
             1.0
         } else {
             adjoint_correction(surface.normal, normal, wo, direction)
@@ -146,12 +149,12 @@ impl PhotonPass<'_> {
         }
         let Some(power) = roulette(corrected, path.power, u, &mut chunk.ledger) else { return };
         let direction =
-            if followed { on_the_right_side(surface, wo, direction, reflects) } else { direction };
+            if specular { on_the_right_side(surface, wo, direction, reflects) } else { direction };
         next.push(Path {
             ray: Ray::new(surface.ray_origin(direction), direction),
             power,
-            class: path.class.scattered(lobe),
-            lone: self.stays_lone(path, lobe),
+            class: path.class.scattered(bounce),
+            lone: self.stays_lone(path, bounce),
             stored,
             edges: path.edges + 1,
             emitter: path.emitter,
@@ -159,12 +162,12 @@ impl PhotonPass<'_> {
         });
     }
 
-    /// Whether the photon is one that [`Photon::is_lone`] means after one more lobe.
-    fn stays_lone(&self, path: &Path, lobe: Lobe) -> bool {
-        match lobe {
-            Lobe::Gathered | Lobe::Narrow => false,
-            Lobe::Straight => path.lone,
-            Lobe::Single => {
+    /// Whether the photon is one that [`Photon::is_lone`] means after one more bounce.
+    fn stays_lone(&self, path: &Path, bounce: Bounce) -> bool {
+        match bounce {
+            Bounce::Gathered | Bounce::Glossy => false,
+            Bounce::Straight => path.lone,
+            Bounce::Delta => {
                 path.lone
                     || path.class == PathClass::Direct
                         && self.scene.emitters()[path.emitter as usize].is_delta()

@@ -2,7 +2,8 @@
 
 use foton_math::glam::Vec3;
 use foton_math::{Rgb, octahedral};
-use foton_scene::Lobe;
+
+use crate::lobes::Bounce;
 
 /// How a photon came to where it was stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,10 +22,10 @@ impl PathClass {
     pub const ALL: [Self; 3] = [Self::Direct, Self::Caustic, Self::Indirect];
 
     /// The class after one more scattering.
-    pub const fn scattered(self, lobe: Lobe) -> Self {
-        match (self, lobe) {
-            (_, Lobe::Straight) => self,
-            (Self::Direct | Self::Caustic, Lobe::Single | Lobe::Narrow) => Self::Caustic,
+    pub const fn scattered(self, bounce: Bounce) -> Self {
+        match (self, bounce) {
+            (_, Bounce::Straight) => self,
+            (Self::Direct | Self::Caustic, Bounce::Delta | Bounce::Glossy) => Self::Caustic,
             _ => Self::Indirect,
         }
     }
@@ -148,12 +149,12 @@ mod tests {
 
     #[test]
     fn classes_follow_the_path() {
+        use Bounce::{Delta, Gathered, Glossy, Straight};
         use PathClass::{Caustic, Direct, Indirect};
-        use foton_scene::Lobe::{Gathered, Narrow, Single, Straight};
-        assert_eq!(Direct.scattered(Single), Caustic);
-        assert_eq!(Caustic.scattered(Narrow), Caustic);
+        assert_eq!(Direct.scattered(Delta), Caustic);
+        assert_eq!(Caustic.scattered(Glossy), Caustic);
         assert_eq!(Caustic.scattered(Gathered), Indirect);
-        assert_eq!(Direct.scattered(Gathered).scattered(Single), Indirect);
+        assert_eq!(Direct.scattered(Gathered).scattered(Delta), Indirect);
         for class in PathClass::ALL {
             assert_eq!(class.scattered(Straight), class);
         }

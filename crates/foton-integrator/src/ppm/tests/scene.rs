@@ -6,20 +6,20 @@ use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::Scene;
 use foton_scene::description::{
-    Bsdf, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
-    SensorDescription, ShapeDescription,
+    Bsdf, Dielectric, Diffuse, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh,
+    SceneDescription, SensorDescription, ShapeDescription,
 };
 
 /// A box with a diffuse and a glass ball under a point light.
 pub(crate) fn scene() -> Arc<Scene> {
-    let diffuse = Bsdf::Diffuse { reflectance: Rgb::new(0.7, 0.5, 0.3).into() };
-    let glass = Bsdf::Dielectric {
+    let diffuse = Bsdf::Diffuse(Diffuse { reflectance: Rgb::new(0.7, 0.5, 0.3).into() });
+    let glass = Bsdf::Dielectric(Dielectric {
         int_ior: 1.5,
         ext_ior: 1.0,
         specular_reflectance: Rgb::WHITE.into(),
         specular_transmittance: Rgb::WHITE.into(),
         roughness: None,
-    };
+    });
     let material = |name: &str, front, back| Material { name: name.into(), front, back, opacity: None };
     let shape = |geometry, material| ShapeDescription {
         name: "shape".into(),

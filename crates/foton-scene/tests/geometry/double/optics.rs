@@ -2,16 +2,21 @@
 
 use foton_math::Rgb;
 use foton_math::glam::{DVec3, Vec2, Vec3};
-use foton_scene::description::Bsdf;
-use foton_scene::{Scattering, Transport};
+use foton_scene::description::{Bsdf, Dielectric};
+use foton_scene::{LobeFlags, Scattering, Transport};
 
 use super::Worst;
 use crate::{cases, direction, grazing, log_uniform, stream};
 
 fn glass(int_ior: f32, ext_ior: f32) -> Scattering {
     let (specular_reflectance, specular_transmittance) = (Rgb::WHITE, Rgb::WHITE);
-    let bsdf =
-        Bsdf::Dielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance, roughness: None };
+    let bsdf = Bsdf::Dielectric(Dielectric {
+        int_ior,
+        ext_ior,
+        specular_reflectance,
+        specular_transmittance,
+        roughness: None,
+    });
     Scattering { bsdf, opacity: 1.0, coat: None }
 }
 
@@ -32,7 +37,7 @@ fn textbook(wo: DVec3, here: f64, beyond: f64) -> Option<(f64, DVec3)> {
 /// What the code says: reflectance, and where the rest goes.
 fn found(wo: Vec3, int_ior: f32, ext_ior: f32) -> (f64, Option<DVec3>) {
     let [reflection, refraction, _] =
-        glass(int_ior, ext_ior).specular_lobes(wo, Transport::Importance, Vec2::ZERO);
+        glass(int_ior, ext_ior).lobes(wo, Transport::Importance, Vec2::ZERO, LobeFlags::ALL);
     let reflected = reflection.map_or(0.0, |l| f64::from(l.weight.r));
     (reflected, refraction.map(|l| l.wi.as_dvec3()))
 }
