@@ -13,19 +13,19 @@ pub struct Census {
     pub cylinders: u64,
     /// Triangles without area, left out.
     pub degenerate_triangles: u64,
-    /// Whether any surface that stores hit points has interpolated normals: photons need their adjoint correction there.
+    /// Whether any surface with hit points has interpolated normals: photons need their adjoint correction there.
     pub shading_normals: bool,
-    /// Whether eye paths follow a lobe of any surface: mirrors, glass, narrow gloss, things that light passes through.
+    /// Whether any surface has specular lobes: mirrors, glass, narrow gloss, things that light passes through.
     pub specular: bool,
     /// Whether any surface refracts: eye paths may split there.
     pub refraction: bool,
-    /// Whether any followed lobe is rough: eye paths follow it in a random direction, which one eye pass freezes.
+    /// Whether any specular lobe is rough: eye paths sample a direction, which stays the same for all passes.
     pub narrow_gloss: bool,
-    /// Whether any followed lobe is a single direction other than straight on: mirrors, smooth glass and coats.
+    /// Whether any specular lobe is a single direction other than straight on: mirrors, smooth glass and coats.
     pub single_directions: bool,
     /// Whether light passes straight through any surface: thin glass, masks, nothing.
     pub straight: bool,
-    /// Whether hit points keep any lobe that is not Lambertian: photons are weighed one by one there.
+    /// Whether any gathered lobe is not Lambertian: photons are weighed one by one there.
     pub gathered_gloss: bool,
     /// Whether any coat is rough: what gets through it is integrated beforehand.
     pub rough_coats: bool,
@@ -44,14 +44,14 @@ pub struct Census {
 }
 
 impl Census {
-    /// Whether there are lights to be looked up where eye paths follow a rough lobe in one direction.
+    /// Whether emitters are sampled where eye paths meet a rough specular lobe.
     #[must_use]
     pub const fn has_narrow_highlights(&self) -> bool {
         self.narrow_gloss && (self.delta_emitters || self.area_emitters)
     }
 
-    /// Whether mirrors or smooth glass may throw the light of points, spots and suns on lobes that eye paths follow in a random
-    /// direction: no such path meets those lights, so photons are weighed there.
+    /// Whether mirrors or smooth glass may cast light of delta emitters on rough specular lobes: no eye path finds that light, so photons
+    /// are gathered there.
     #[must_use]
     pub const fn has_narrow_caustics(&self) -> bool {
         self.narrow_gloss && self.delta_emitters && self.single_directions
