@@ -25,7 +25,7 @@ pub struct HitPoint {
     pub slab2: f32,
     /// The squared radius below which it does not shrink.
     pub smallest2: f32,
-    /// The most edges that a photon's path may have here.
+    /// The largest number of edges that a photon's path may have here.
     pub remaining_edges: u8,
     /// See [`Surface::patch_towards`](foton_scene::Surface::patch_towards).
     pub patch: u8,
@@ -40,7 +40,7 @@ pub struct Gloss {
     pub frame: Frame,
     /// Unit direction to the eye in that frame.
     pub wo: Vec3,
-    /// Whether it stands for lobes that the eye path follows, and weighs what that cannot find.
+    /// Whether it stands for specular lobes, and gathers only light that eye paths cannot find.
     pub narrow: bool,
 }
 

@@ -7,7 +7,7 @@ use foton_math::{Ray, Rgb, Stream};
 use foton_scene::{Scattering, Surface, Transport};
 
 use super::eye_pass::{EyePass, EyePaths};
-use super::highlights::Glossy;
+use super::highlights::{EmitterDraw, Glossy};
 use super::hit_point::{Gloss, HitPoint};
 use super::radius::slab2;
 use crate::not_finite::{self, LeftOut, Quantity};
@@ -21,12 +21,12 @@ const SPLIT_EDGES: u32 = 8;
 const ROULETTE_EDGES: u32 = 16;
 const SURVIVAL: f32 = 0.9;
 
-/// What a hit point weighs light with.
+/// The lobes that a hit point weights light with.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Part {
     /// The lobes that spread light.
     Gathered,
-    /// Narrow lobes that the path follows as well, lit from its own side: for photons that it cannot find the light of.
+    /// Narrow specular lobes, lit from the path's own side: for light that the path cannot find by sampling them.
     Specular,
     /// The same, lit from the other side, through rough glass.
     SpecularBehind,
@@ -41,25 +41,25 @@ pub(super) struct Branch {
     edges: u32,
     /// Length of the edges before `ray`.
     distance: f32,
-    /// The density (sr⁻¹) of its direction, where lamps are looked up as well; 0 where they are not.
-    density: f32,
+    /// The pdf (sr⁻¹) of its direction, where emitters are sampled as well; 0 where they are not.
+    pdf: f32,
 }
 
 /// One eye sample on its way.
 pub(super) struct Walk<'a, 'b> {
     pass: &'a EyePass<'b>,
     stream: Stream,
-    /// Stratified over the pixel's samples, for the first rough lobe that is followed.
+    /// Stratified over the pixel's samples, for the first rough specular lobe.
     facet: Option<Vec2>,
-    /// The same for the lamp that is looked at from there.
-    lamp: Option<Vec2>,
+    /// The same for the point on an area emitter that is sampled from there.
+    emitter_point: Option<Vec2>,
     solid_angle: f32,
     /// Whether the pixel's shape is still to be noted.
     first: bool,
     paths: &'a mut EyePaths,
     branches: &'a mut Vec<Branch>,
     emission: Rgb,
-    /// Ends that this sample may still come to: hit points stored, and branches under way.
+    /// Ends that this sample may have: hit points stored, and branches under way.
     leaves: u32,
 }
 
@@ -67,10 +67,10 @@ pub(super) struct Walk<'a, 'b> {
 pub(super) struct SamplePoints {
     /// Where in the pixel.
     pub(super) place: Vec2,
-    /// For the first rough lobe that is followed.
+    /// For the first rough specular lobe.
     pub(super) facet: Vec2,
-    /// For the lamp that is looked at from there.
-    pub(super) lamp: Vec2,
+    /// For the point on an area emitter that is sampled from there.
+    pub(super) emitter: Vec2,
 }
 
 impl<'a, 'b> Walk<'a, 'b> {
@@ -87,7 +87,7 @@ impl<'a, 'b> Walk<'a, 'b> {
             pass,
             stream,
             facet: Some(points.facet),
-            lamp: Some(points.lamp),
+            emitter_point: Some(points.emitter),
             solid_angle: 0.0,
             first,
             paths,
@@ -103,7 +103,7 @@ impl<'a, 'b> Walk<'a, 'b> {
         let corner = Vec2::new((pixel % sensor.width) as f32, (pixel / sensor.width) as f32);
         let ray = sensor.ray(corner + 0.5 + sensor.filter.offset(place));
         self.solid_angle = sensor.pixel_solid_angle(ray.direction);
-        self.branches.push(Branch { ray, weight: Rgb::WHITE, edges: 1, distance: 0.0, density: 0.0 });
+        self.branches.push(Branch { ray, weight: Rgb::WHITE, edges: 1, distance: 0.0, pdf: 0.0 });
         while let Some(branch) = self.branches.pop() {
             self.step(branch);
         }
@@ -130,8 +130,8 @@ impl<'a, 'b> Walk<'a, 'b> {
         let wo = -branch.ray.direction;
         if visible {
             let mut emitted = branch.weight * scene.emitted(&surface, wo);
-            if branch.density > 0.0 && !emitted.is_black() {
-                emitted *= Glossy::share_of_following(scene, &surface, branch.ray.origin, branch.density);
+            if branch.pdf > 0.0 && !emitted.is_black() {
+                emitted *= Glossy::bsdf_sampling_weight(scene, &surface, branch.ray.origin, branch.pdf);
             }
             self.see(emitted, surface.position, Some(surface.shape));
         }
@@ -196,7 +196,7 @@ impl<'a, 'b> Walk<'a, 'b> {
         });
     }
 
-    /// Adds emitted light that the path sees. Where it is no number the sample is given up at its end, and its place noted here.
+    /// Adds emitted light that the path sees. If it is not finite, its place is noted here and the sample is dropped at its end.
     fn see(&mut self, light: Rgb, position: Vec3, shape: Option<u32>) {
         if !light.is_finite() {
             let surface = shape.map_or(not_finite::Surface::Unknown, not_finite::Surface::Shape);
@@ -221,14 +221,25 @@ impl<'a, 'b> Walk<'a, 'b> {
         false
     }
 
-    fn follow_lobes(&mut self, branch: &Branch, surface: &Surface, scattering: &Scattering, distance: f32) {
-        let mut weight = branch.weight;
-        if branch.edges >= ROULETTE_EDGES {
-            if self.stream.next_1d() >= SURVIVAL {
-                return;
-            }
-            weight = weight / SURVIVAL;
+    /// The weight with which a path goes on; `None` where it ends.
+    fn roulette(&mut self, branch: &Branch) -> Option<Rgb> {
+        if branch.edges < ROULETTE_EDGES {
+            return Some(branch.weight);
         }
+        (self.stream.next_1d() < SURVIVAL).then(|| branch.weight / SURVIVAL)
+    }
+
+    /// Adds what a rough specular lobe reflects of sampled emitters.
+    fn sample_emitters(&mut self, weight: Rgb, at: &Glossy<'_>) {
+        let point = self.emitter_point.take().unwrap_or_else(|| self.stream.next_2d());
+        let u = EmitterDraw { emitter: self.stream.next_1d(), part: self.stream.next_1d(), point };
+        let highlight = weight * at.highlights(u, &mut self.stream, &mut self.paths.rays);
+        self.see(highlight, at.surface.position, Some(at.surface.shape));
+    }
+
+    /// Goes on by the specular lobes of a surface: all of them where the path may split, else one chosen by chance.
+    fn follow_lobes(&mut self, branch: &Branch, surface: &Surface, scattering: &Scattering, distance: f32) {
+        let Some(weight) = self.roulette(branch) else { return };
         let wo = -branch.ray.direction;
         let frame = self.pass.scene.shading_frame(surface, shading_normal_towards(surface, wo));
         let local = frame.to_local(wo);
@@ -236,21 +247,18 @@ impl<'a, 'b> Walk<'a, 'b> {
             Some(_) => Some(self.facet.take().unwrap_or_else(|| self.stream.next_2d())),
             None => None,
         };
+        let weighted = Branch { weight, ..*branch };
         if self.pass.scene.census().has_narrow_caustics() && scattering.has_narrow_specular() {
-            let lit = Branch { weight, ..*branch };
-            self.store(&lit, surface, scattering, distance, Part::Specular);
+            self.store(&weighted, surface, scattering, distance, Part::Specular);
             if scattering.bsdf.transmits() {
-                self.store(&lit, surface, scattering, distance, Part::SpecularBehind);
+                self.store(&weighted, surface, scattering, distance, Part::SpecularBehind);
             }
         }
-        let looks = self.pass.scene.census().has_narrow_highlights() && facet.is_some();
-        if looks {
+        let samples_emitters = self.pass.scene.census().has_narrow_highlights() && facet.is_some();
+        if samples_emitters {
             let edges = self.pass.max_depth - branch.edges;
             let at = Glossy { scene: self.pass.scene, surface, scattering, frame: &frame, wo: local, edges };
-            let point = self.lamp.take().unwrap_or_else(|| self.stream.next_2d());
-            let u = (self.stream.next_1d(), self.stream.next_1d(), point);
-            let highlight = weight * at.looked_up(u, &mut self.stream, &mut self.paths.rays);
-            self.see(highlight, surface.position, Some(surface.shape));
+            self.sample_emitters(weight, &at);
         }
         let facet = facet.unwrap_or_default();
         let lobes = scattering.specular_lobes(local, Transport::Radiance, facet);
@@ -260,7 +268,7 @@ impl<'a, 'b> Walk<'a, 'b> {
             && self.leaves < self.pass.hit_points_per_sample.get();
         let single;
         let chosen: &[_] = if split || count < 2 {
-            // What is kept here and each lobe beyond the first is one more end.
+            // The hit point here and each lobe beyond the first is one more end.
             self.leaves += (count + u32::from(scattering.bsdf.gathers())).saturating_sub(1);
             &lobes
         } else {
@@ -278,13 +286,13 @@ impl<'a, 'b> Walk<'a, 'b> {
             }
             let sampled = frame.to_outer(lobe.wi).normalize();
             let direction = on_the_right_side(surface, wo, sampled, lobe.wi.z * local.z > 0.0);
-            let is_sampled = looks && direction == sampled;
+            let is_unmirrored = samples_emitters && direction == sampled;
             self.branches.push(Branch {
                 ray: Ray::new(surface.ray_origin(direction), direction),
                 weight,
                 edges: branch.edges + 1,
                 distance,
-                density: if is_sampled { scattering.pdf_specular(local, lobe.wi) } else { 0.0 },
+                pdf: if is_unmirrored { scattering.pdf_specular(local, lobe.wi) } else { 0.0 },
             });
         }
     }
