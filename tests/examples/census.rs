@@ -1,6 +1,6 @@
 //! What leaving things out saves: one scene that needs nothing special, rendered with each part of the renderer forced on.
 //!
-//! `cargo xtask bench census` runs it and prints the table that docs/census.md keeps. One thread; the time of the least of
+//! `cargo xtask bench census` runs it and prints the table that docs/census.md records. One thread; the shortest time of
 //! several renders, on the processor where the system tells (Linux), else on the wall.
 #![allow(clippy::print_stdout, reason = "a program that prints a table")]
 
@@ -66,12 +66,29 @@ fn main() {
         ("light by path class", none.clone(), &layers),
         ("live error", none.clone(), &error),
     ];
+    let costs = costs(&description, &rows.clone().map(|(_, forced, settings)| (forced, settings)));
+    println!("| forced on | eye pass, s | {PASSES} passes, s | passes | memory, MB |");
+    println!("|---|---|---|---|---|");
+    let base = costs.first().map_or(1.0, |c| c.pass_seconds);
+    for ((name, ..), c) in rows.iter().zip(&costs) {
+        println!(
+            "| {name} | {:.3} | {:.3} | {:+.1} % | {:.1} |",
+            c.eye_seconds,
+            c.pass_seconds,
+            100.0 * (c.pass_seconds / base - 1.0),
+            c.bytes as f64 / 1e6
+        );
+    }
+}
+
+/// The shortest times of several renders, on one thread, of each census with its settings.
+fn costs(description: &SceneDescription, rows: &[(Census, &RenderSettings)]) -> Vec<Cost> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let mut best: Vec<Option<Cost>> = rows.iter().map(|_| None).collect();
     // In turns, so that a slow minute of the machine falls on all alike.
     for _ in 0..RENDERS {
-        for ((_, forced, settings), best) in rows.iter().zip(&mut best) {
-            let cost = pool.install(|| render(&description, forced.clone(), settings));
+        for ((forced, settings), best) in rows.iter().zip(&mut best) {
+            let cost = pool.install(|| render(description, forced.clone(), settings));
             *best = Some(match best.take() {
                 None => cost,
                 Some(b) => Cost {
@@ -82,19 +99,7 @@ fn main() {
             });
         }
     }
-    println!("| forced on | eye pass, s | {PASSES} passes, s | passes | memory, MB |");
-    println!("|---|---|---|---|---|");
-    let base = best[0].as_ref().map_or(1.0, |c| c.pass_seconds);
-    for ((name, ..), cost) in rows.iter().zip(&best) {
-        let Some(c) = cost else { continue };
-        println!(
-            "| {name} | {:.3} | {:.3} | {:+.1} % | {:.1} |",
-            c.eye_seconds,
-            c.pass_seconds,
-            100.0 * (c.pass_seconds / base - 1.0),
-            c.bytes as f64 / 1e6
-        );
-    }
+    best.into_iter().flatten().collect()
 }
 
 fn render(description: &SceneDescription, forced: Census, settings: &RenderSettings) -> Cost {

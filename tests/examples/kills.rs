@@ -1,7 +1,7 @@
-//! Kills renders at random moments and looks at what is left: every checkpoint can be taken up, no image is half of one, and a
+//! Kills renders at random moments and checks what is left: every checkpoint can be resumed, no image is half of one, and a
 //! chain of killed renders ends in the bits of one that nobody killed.
 //!
-//! `cargo xtask kills [N]` runs it with the dev build, and docs/robustness.md keeps what it printed. A killed process leaves what
+//! `cargo xtask kills [N]` runs it with the dev build, and docs/robustness.md records what it printed. A killed process leaves what
 //! it has handed to the system: this says nothing of power cuts, for which files are synced before they are renamed.
 #![allow(clippy::print_stdout, reason = "a program that prints figures")]
 
@@ -82,8 +82,8 @@ impl Rig {
         last["passes"].as_u64().ok_or_else(|| format!("no passes: {said}"))
     }
 
-    /// Looks at everything that a kill left, and removes it all but the checkpoint; how many passes that has.
-    fn look(&self, counts: &mut Counts) -> Result<u64, String> {
+    /// Checks everything that a kill left, and removes it all but the checkpoint; returns the passes of that.
+    fn check(&self, counts: &mut Counts) -> Result<u64, String> {
         for entry in fs::read_dir(&self.folder).map_err(text)? {
             let path = entry.map_err(text)?.path();
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -138,7 +138,7 @@ impl Rig {
             let moment = Duration::from_secs_f32(LATEST * stream.next_1d());
             self.kill_after(moment)?;
             counts.kills += 1;
-            let passes = self.look(counts)?;
+            let passes = self.check(counts)?;
             if passes < before {
                 return Err(format!("{passes} passes, after {before} before kill {kill}"));
             }

@@ -1,6 +1,6 @@
 //! Renders in as little memory as `--memory` accepts, under a hard limit from outside: whether what the estimate says is enough.
 //!
-//! `cargo xtask limits` runs it with the dev build, and docs/robustness.md keeps its table. The system limits address space, which
+//! `cargo xtask limits` runs it with the dev build, and docs/robustness.md records its table. The system limits address space, which
 //! has the program's file and its threads' stacks in it too; with the window in the file there are some 20 MiB more than the 16
 //! that the estimate has for the program. The C library is told to keep no heaps a thread, which would be mostly address space.
 #![allow(clippy::print_stdout, reason = "a program that prints figures")]
@@ -42,7 +42,7 @@ impl Rig {
         fixed.into_iter().chain(wishes.split(' ').map(str::to_owned)).chain(memory).collect()
     }
 
-    /// The least that `--memory` accepts, in MiB, by what its refusals say.
+    /// The smallest value that `--memory` accepts, in MiB, by what its refusals say.
     fn estimate(&self, scene: &str, wishes: &str) -> Result<u64, String> {
         let mut memory = 1;
         loop {
@@ -60,7 +60,7 @@ impl Rig {
         }
     }
 
-    /// Whether it ends, and the most address space and memory that it had, in KiB.
+    /// Whether it ends, and the largest address space and memory that it had, in KiB.
     fn run(&self, scene: &str, wishes: &str, memory: u64) -> Result<(bool, u64, u64), String> {
         let line = format!("ulimit -v {}; exec \"$0\" \"$@\"", memory << 10);
         let mut command = Command::new("sh");

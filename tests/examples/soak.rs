@@ -1,6 +1,6 @@
 //! One render for many minutes: memory stays flat, the running mean stays the mean of its passes, nothing becomes NaN.
 //!
-//! `cargo xtask soak [MINUTES]` runs it on one thread in the dev build, with debug assertions, and docs/robustness.md keeps what it printed. The image is
+//! `cargo xtask soak [MINUTES]` runs it on one thread in the dev build, with debug assertions, and docs/robustness.md records what it printed. The image is
 //! small, so that there are many passes. What sums hold is read from the render's state: double precision, 36 bytes a pixel.
 #![allow(clippy::print_stdout, reason = "a program that prints figures")]
 
@@ -25,7 +25,7 @@ const MAX_GROWTH: u64 = 1 << 20;
 /// Bytes of a pixel in a state: three sums in double precision, then the last pass's three addends in single precision.
 const PIXEL: usize = 36;
 
-/// A sum that keeps what rounding loses.
+/// A compensated sum: it adds what rounding loses.
 #[derive(Clone, Copy, Default)]
 struct Kahan {
     sum: f64,

@@ -202,7 +202,7 @@ fn photons_and_shadow_rays_agree_away_from_edges() {
             )
             .image()
     };
-    let shapes = match sketch.render(base.clone(), 1).layer(LayerKind::ShapeId).expect("kept").channels {
+    let shapes = match sketch.render(base.clone(), 1).layer(LayerKind::ShapeId).expect("summed").channels {
         foton_film::LayerData::U32(plane) => plane.values,
         _ => panic!("shape ids are whole numbers"),
     };

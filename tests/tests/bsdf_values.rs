@@ -36,7 +36,7 @@ fn direction(theta: f64, phi: f64) -> Vec3 {
     Vec3::new((s * cp) as f32, (s * sp) as f32, c as f32)
 }
 
-/// The largest relative deviation of a block's values and densities, and of its delta lobes; and how many lines it has.
+/// The largest relative deviation of a block's values and pdfs, and of its delta lobes; and how many lines it has.
 fn compare(s: &Scattering, lines: &[&str]) -> [f64; 3] {
     let mut worst = [0f64; 3];
     let numbers = |line: &str| -> Vec<f64> {
@@ -47,7 +47,7 @@ fn compare(s: &Scattering, lines: &[&str]) -> [f64; 3] {
         let (wo, wi) = (direction(n[0], n[1]), direction(n[2], n[3]));
         // What is far below the peaks may be off by a little more of itself.
         let deviation =
-            |ours: f32, theirs: f64, least: f64| (f64::from(ours) - theirs).abs() / theirs.abs().max(least);
+            |ours: f32, theirs: f64, floor: f64| (f64::from(ours) - theirs).abs() / theirs.abs().max(floor);
         if line.starts_with("value") {
             let value = s.eval(wo, wi, LobeFlags::ALL).to_array();
             for (ours, theirs) in value.into_iter().zip(&n[4..7]) {
@@ -67,7 +67,7 @@ fn compare(s: &Scattering, lines: &[&str]) -> [f64; 3] {
 }
 
 #[test]
-fn values_densities_and_delta_lobes_are_mitsubas() {
+fn values_pdfs_and_delta_lobes_are_mitsubas() {
     let mut blocks = 0;
     let mut faults = Vec::new();
     let mut lines = GOLDEN.lines().skip(1).peekable();

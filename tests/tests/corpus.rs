@@ -1,4 +1,4 @@
-//! What fuzzing kept is read again: no panic, and no more memory than the bound that fuzzing holds readers to.
+//! What fuzzing found is read again: no panic, and no more memory than the bound that fuzzing holds readers to.
 //!
 //! The files in `tests/corpus` reach most of what libFuzzer reached. Beside them go inputs that once broke something, or that
 //! would. Not here: the time that an input takes, which only fuzzing looks at.
@@ -27,27 +27,27 @@ fn replay(target: &str) {
 }
 
 #[test]
-fn scenes_that_fuzzing_kept_break_nothing() {
+fn scenes_that_fuzzing_found_break_nothing() {
     replay("xml");
 }
 
 #[test]
-fn obj_files_that_fuzzing_kept_break_nothing() {
+fn obj_files_that_fuzzing_found_break_nothing() {
     replay("obj");
 }
 
 #[test]
-fn other_meshes_that_fuzzing_kept_break_nothing() {
+fn other_meshes_that_fuzzing_found_break_nothing() {
     replay("ply");
 }
 
 #[test]
-fn pictures_that_fuzzing_kept_break_nothing() {
+fn pictures_that_fuzzing_found_break_nothing() {
     replay("image");
 }
 
 #[test]
-fn checkpoints_that_fuzzing_kept_break_nothing() {
+fn checkpoints_that_fuzzing_found_break_nothing() {
     replay("checkpoint");
 }
 

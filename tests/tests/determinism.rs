@@ -87,7 +87,7 @@ fn one_two_and_seven_threads_give_the_same_bits() {
 }
 
 #[test]
-fn keeping_path_classes_apart_does_not_change_a_photon() {
+fn summing_path_classes_separately_does_not_change_a_photon() {
     let apart = scene().render(settings(DirectLight::Photons), 3);
     let whole = scene().render(RenderSettings { layers: false, ..settings(DirectLight::Photons) }, 3);
     // Sums of three classes round otherwise than one sum.
@@ -95,7 +95,7 @@ fn keeping_path_classes_apart_does_not_change_a_photon() {
     assert!(apart.image().pixels.iter().zip(&whole.image().pixels).all(|(&p, &q)| close(p, q)));
     assert_eq!(apart.ledger(), whole.ledger());
     assert!(whole.layer(LayerKind::Caustic).is_none());
-    let sum = |kind| match apart.layer(kind).expect("kept").channels {
+    let sum = |kind| match apart.layer(kind).expect("summed").channels {
         foton_film::LayerData::Rgb(image) => image.pixels.iter().map(|p| f64::from(p.g)).sum::<f64>(),
         _ => f64::NAN,
     };
@@ -172,6 +172,31 @@ fn power_of_two_multiples_of_a_scene_give_the_same_bits() {
     assert_eq!(one, render(2f64.powi(20)));
 }
 
+/// `base` by other rules, radii and light, over the same photons.
+fn variants(base: &RenderSettings) -> [RenderSettings; 8] {
+    let with = |change: fn(&mut RenderSettings)| {
+        let mut settings = base.clone();
+        change(&mut settings);
+        settings
+    };
+    [
+        base.clone(),
+        with(|s| s.ppm.alpha = Alpha::new(0.3).expect("in range")),
+        with(|s| s.ppm.alpha = Alpha::new(1.0).expect("in range")),
+        with(|s| s.ppm.radius_scale = RadiusScale::new(0.25).expect("above 0")),
+        with(|s| s.ppm.radius_scale = RadiusScale::new(4.0).expect("above 0")),
+        with(|s| s.ppm.direct_light = DirectLight::ShadowRays),
+        with(|s| {
+            (s.layers, s.error) = (false, true);
+            s.ppm.radius_rule = RadiusRule::Global;
+        }),
+        with(|s| {
+            s.error = true;
+            s.ppm.radius_rule = RadiusRule::Adaptive;
+        }),
+    ]
+}
+
 /// Sharing photons must not change what a variant is: later passes too, when discs and with them marked cells have shrunk apart.
 #[test]
 fn variants_over_shared_photons_have_the_bits_of_runs_of_their_own() {
@@ -185,36 +210,7 @@ fn variants_over_shared_photons_have_the_bits_of_runs_of_their_own() {
         },
         ..settings(DirectLight::Photons)
     };
-    let alpha = |a| RenderSettings {
-        ppm: PpmSettings { alpha: Alpha::new(a).expect("in range"), ..base.ppm },
-        ..base.clone()
-    };
-    let radius = |s| RenderSettings {
-        ppm: PpmSettings { radius_scale: RadiusScale::new(s).expect("above 0"), ..base.ppm },
-        ..base.clone()
-    };
-    let variants = [
-        base.clone(),
-        alpha(0.3),
-        alpha(1.0),
-        radius(0.25),
-        radius(4.0),
-        RenderSettings {
-            ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..base.ppm },
-            ..base.clone()
-        },
-        RenderSettings {
-            layers: false,
-            error: true,
-            ppm: PpmSettings { radius_rule: RadiusRule::Global, ..base.ppm },
-            ..base.clone()
-        },
-        RenderSettings {
-            error: true,
-            ppm: PpmSettings { radius_rule: RadiusRule::Adaptive, ..base.ppm },
-            ..base.clone()
-        },
-    ];
+    let variants = variants(&base);
     let (scene, cancel) = (scene().build().expect("a sound scene"), Cancel::default());
     let together = |photons| {
         let started = Variants::start(&scene, &variants, photons, &mut |_| (), &cancel);
@@ -238,7 +234,7 @@ fn variants_over_shared_photons_have_the_bits_of_runs_of_their_own() {
     }
     let other = together(base.seed + 1);
     assert_ne!(hash(&other.runs()[0].image()), hash(&shared.runs()[0].image()), "photons of their own");
-    let other_depth = RenderSettings { max_depth: Some(3), ..base.clone() };
-    let refused = Variants::start(&scene, &[base.clone(), other_depth], 0, &mut |_| (), &cancel);
+    let other_depth = RenderSettings { max_depth: Some(3), ..base };
+    let refused = Variants::start(&scene, &[base, other_depth], 0, &mut |_| (), &cancel);
     assert!(refused.expect("not cancelled").is_none(), "other photons");
 }

@@ -127,7 +127,7 @@ fn tile_means(pixels: &[f64], width: usize) -> Vec<f64> {
         .collect()
 }
 
-/// A lamp that a pinhole hides: for a long time almost nothing is found, which must not look like a dark, finished image.
+/// An emitter that a pinhole hides: for a long time almost nothing is found, which must not look like a dark, finished image.
 #[test]
 fn light_that_is_hardly_found_keeps_the_error_large() {
     let sketch = Sketch::default()
@@ -217,7 +217,7 @@ fn noise_and_blur_fall_with_the_slopes_of_theory() {
     );
 }
 
-/// Where nothing is blurred radii stay, so that there is less noise; below a lamp they shrink, and more so at a shadow's edge. The
+/// Where nothing is blurred radii stay, so that there is less noise; below an emitter they shrink, and more so at a shadow's edge. The
 /// error is below that of every fixed rule that starts with the same radius.
 #[test]
 fn radii_that_adapt_leave_less_error_than_any_fixed_rule() {
@@ -237,8 +237,8 @@ fn radii_that_adapt_leave_less_error_than_any_fixed_rule() {
         ppm: PpmSettings { radius: Some(0.1), ..settings(10_000, 3).ppm },
         ..settings(10_000, 3)
     });
-    let [kept, fixed] = [adaptive(base.clone()), base].map(|s| furnace.render(s, 32).radii().median);
-    assert!(kept > 1.3 * fixed && fixed < 0.06, "{kept} {fixed}");
+    let [adapted, fixed] = [adaptive(base.clone()), base].map(|s| furnace.render(s, 32).radii().median);
+    assert!(adapted > 1.3 * fixed && fixed < 0.06, "{adapted} {fixed}");
 
     let base = local(RenderSettings {
         ppm: PpmSettings { radius: Some(0.4), ..settings(20_000, 3).ppm },

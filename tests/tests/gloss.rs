@@ -47,7 +47,7 @@ fn settings(photons: u32) -> RenderSettings {
     }
 }
 
-/// A small wall of the material seen from the front, lit by a lamp in an otherwise dark space.
+/// A small wall of the material seen from the front, lit by an area emitter in an otherwise dark space.
 fn wall(material: Bsdf) -> Sketch {
     Sketch::default()
         .camera(DVec3::new(0.6, 0.3, 2.0), DVec3::new(0.05, 0.0, 0.0), 12.0, 12)
@@ -81,9 +81,9 @@ fn glossy_hit_points_weigh_photons_as_they_weigh_shadow_rays() {
     }
 }
 
-/// A lobe just narrow enough to be followed and one just wide enough to be kept show the same lamp.
+/// A lobe just narrow enough to be specular and one just wide enough to be gathered reflect the same light.
 #[test]
-fn following_a_lobe_and_keeping_it_give_the_same_light() {
+fn a_specular_lobe_and_a_gathered_one_give_the_same_light() {
     let base = RenderSettings {
         samples_per_pixel: NonZeroU32::new(64).expect("above 0"),
         ppm: PpmSettings {
@@ -93,17 +93,18 @@ fn following_a_lobe_and_keeping_it_give_the_same_light() {
         },
         ..settings(300_000)
     };
-    let (followed, a) = seeds(&wall(metal(0.0999)), &base, 1, 4);
+    let (specular, a) = seeds(&wall(metal(0.0999)), &base, 1, 4);
     let few = RenderSettings { samples_per_pixel: NonZeroU32::new(4).expect("above 0"), ..base };
-    let (kept, b) = seeds(&wall(metal(0.1001)), &few, 4, 4);
-    assert!((followed / kept - 1.0).abs() < 4.0 * a.hypot(b) / kept + 0.02, "{followed} ± {a}, {kept} ± {b}");
+    let (gathered, b) = seeds(&wall(metal(0.1001)), &few, 4, 4);
+    let bound = 4.0 * a.hypot(b) / gathered + 0.02;
+    assert!((specular / gathered - 1.0).abs() < bound, "{specular} ± {a}, {gathered} ± {b}");
 }
 
-/// A lamp that a followed path meets by chance once in many samples is found by looking at it, and counts once.
+/// An area emitter that eye paths rarely meet by sampling the BSDF is found by sampling the emitter, and counts once.
 #[test]
-fn a_small_lamp_shows_in_narrow_gloss_without_waiting_for_chance() {
+fn a_small_area_emitter_shows_in_narrow_gloss_without_waiting_for_chance() {
     // Half a degree wide, where the lobe is three.
-    let lamp = |material, size: f64| {
+    let lit = |material, size: f64| {
         let at = DVec3::new(-0.6, -0.3, 2.0);
         let radiance = Some(Rgb::splat((20.0 / (size * size)) as f32));
         Sketch::default()
@@ -114,23 +115,23 @@ fn a_small_lamp_shows_in_narrow_gloss_without_waiting_for_chance() {
     };
     for material in [metal(0.05), plastic(Some(0.05))] {
         let base = settings(20_000);
-        let (small, noise) = seeds(&lamp(material, 0.01), &base, 1, 6);
+        let (small, noise) = seeds(&lit(material, 0.01), &base, 1, 6);
         assert!(noise < 0.02 * small, "{material:?}: {small} ± {noise}");
-        // The same power from a lamp that still is small beside the lobe: the same light.
-        let (wider, other) = seeds(&lamp(material, 0.03), &base, 1, 6);
+        // The same power from an emitter that is still small compared with the lobe: the same light.
+        let (wider, other) = seeds(&lit(material, 0.03), &base, 1, 6);
         assert!(
             (small - wider).abs() < 4.0 * noise.hypot(other) + 0.02 * wider,
             "{small} and {wider} ± {other}"
         );
-        // As good by following as by looking: a lamp as wide as the lobe.
-        let (wide, noise) = seeds(&lamp(material, 0.3), &base, 1, 6);
+        // An emitter as wide as the lobe: both ways of sampling are equally good.
+        let (wide, noise) = seeds(&lit(material, 0.3), &base, 1, 6);
         assert!(noise < 0.03 * wide, "{wide} ± {noise}");
     }
 }
 
-/// No path that follows a lobe meets a light without extent: it is looked up, and shows as it does in a lobe that is kept.
+/// No eye path meets a delta emitter: it is sampled, and a specular lobe reflects it as a gathered one does.
 #[test]
-fn lights_without_extent_show_in_narrow_gloss() {
+fn delta_emitters_show_in_narrow_gloss() {
     let camera = |material| {
         Sketch::default()
             .camera(DVec3::new(0.0, 0.0, 2.0), DVec3::ZERO, 20.0, 12)
@@ -153,19 +154,20 @@ fn lights_without_extent_show_in_narrow_gloss() {
     };
     for kind in &kinds {
         // Nothing is random in either: the values of the lobes, which differ by their roughness alone.
-        for (followed, kept) in [(metal(0.1), metal(0.1001)), (plastic(Some(0.1)), plastic(Some(0.1001)))] {
-            let [a, b] = [followed, kept].map(|material| {
+        for (specular, gathered) in [(metal(0.1), metal(0.1001)), (plastic(Some(0.1)), plastic(Some(0.1001)))]
+        {
+            let [a, b] = [specular, gathered].map(|material| {
                 let image = light(camera(material), kind.clone()).render(rays.clone(), 1).image();
                 (image.pixels.iter().map(|p| f64::from(p.mean())).sum::<f64>(), image)
             });
             assert!(a.0 > 1.0 && (a.0 / b.0 - 1.0).abs() < 2e-3, "{} and {}", a.0, b.0);
-            let most = b.1.pixels.iter().map(|p| p.mean()).fold(0.0, f32::max);
+            let max = b.1.pixels.iter().map(|p| p.mean()).fold(0.0, f32::max);
             for (a, b) in a.1.pixels.iter().zip(&b.1.pixels) {
-                assert!((a.mean() - b.mean()).abs() < 0.01 * most, "{a:?} and {b:?}");
+                assert!((a.mean() - b.mean()).abs() < 0.01 * max, "{a:?} and {b:?}");
             }
         }
     }
-    // What stands in between casts a shadow; what lies behind the lamp does not.
+    // What stands in between casts a shadow; what lies behind the emitter does not.
     let [point, _] = kinds;
     let shade =
         |z: f64| camera(metal(0.05)).rectangle(DVec3::new(0.1, 0.2, z), DVec3::X, DVec3::Y, grey(0.0), None);

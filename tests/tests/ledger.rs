@@ -21,7 +21,7 @@ fn settings() -> RenderSettings {
     }
 }
 
-/// 400,000 photons bounce 360,000 times here, and an absorbing bounce keeps 0.3 to 1 of a photon: losing a single one shifts the
+/// 400,000 photons bounce 360,000 times here, and an absorbing bounce takes 0.3 to 1 of a photon: losing a single one shifts the
 /// balance by 7·10⁻⁷ or more; rounding leaves 10⁻⁸.
 const ONE_BOUNCE: f64 = 2e-7;
 
@@ -60,7 +60,7 @@ fn what_a_short_depth_cuts_off_is_reported_at_its_material() {
     assert!(short.truncated > 0.05 * short.emitted);
     let losses: Vec<f64> = render.material_losses().iter().map(|l| l.truncated).collect();
     assert!((losses.iter().sum::<f64>() / short.truncated - 1.0).abs() < 1e-9, "{losses:?}");
-    // Three walls and the glass pass light on; the lamp is black.
+    // Three walls and the glass pass light on; the emitter is black.
     assert!(losses[..4].iter().all(|&l| l > 0.0) && losses[4] == 0.0, "{losses:?}");
 }
 

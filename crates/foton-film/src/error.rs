@@ -187,5 +187,5 @@ impl ReadError {
     }
 }
 
-/// The most characters of what a library says of a file.
+/// The largest number of characters of a library's message about a file.
 const MAX_REASON: usize = 160;

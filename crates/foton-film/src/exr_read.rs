@@ -1,5 +1,5 @@
 //! Reading an EXR image back: R, G, B of its first layer, or Y alone as grey, and the text attributes. Further channels are
-//! not kept.
+//! ignored.
 
 use std::io::Cursor;
 use std::path::Path;

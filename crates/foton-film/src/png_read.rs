@@ -1,4 +1,4 @@
-//! Reading a PNG picture back as linear colours. What a tone map or clipping took away stays away; metadata is not kept.
+//! Reading a PNG picture back as linear colours. What a tone map or clipping took away stays away; metadata is ignored.
 
 use std::io::Cursor;
 use std::path::Path;

@@ -1,8 +1,8 @@
 //! Opening a file by its kind, and reading no more of it than may be.
 //!
 //! What is no file of data is refused: a device may never end, and opening one may do something; a pipe waits for whoever
-//! writes; files of the kernel, such as those of `/proc`, tell of the system and not of a scene. The kind is asked for before the
-//! file is opened and of the open handle again, since the name may stand for something else by then. Reading is bounded even
+//! writes; files of the kernel, such as those of `/proc`, tell of the system and not of a scene. The kind is checked before the
+//! file is opened and on the open handle again, since the name may stand for something else by then. Reading is bounded even
 //! where the size is not known before.
 
 use std::fs::{File, FileType, Metadata};
@@ -40,8 +40,8 @@ impl Limit {
         memory.map_or(Self::NONE, |memory| Self { memory, per_byte: per_byte.max(1) })
     }
 
-    /// The largest file.
-    fn most(self) -> u64 {
+    /// The size of the largest file.
+    fn max_bytes(self) -> u64 {
         (self.memory / self.per_byte).max(SMALL)
     }
 
@@ -89,7 +89,7 @@ fn too_large(takes: Option<u64>, limit: u64) -> String {
     )
 }
 
-/// Reads a file. Where it is a pipe that the user named, `gives_up` is asked about twenty times a second whether to wait on.
+/// Reads a file. Where it is a pipe that the user named, `gives_up` is called about twenty times a second and says whether to stop waiting.
 ///
 /// # Errors
 /// What the system says, or a [`Refusal`] by kind or size.
@@ -122,7 +122,7 @@ fn read_plain(file: &File, metadata: &Metadata, limit: Limit) -> io::Result<Vec<
     if is_of_kernel(file) {
         return Err(io::Error::other(Refusal::Kernel));
     }
-    if metadata.len() > limit.most() {
+    if metadata.len() > limit.max_bytes() {
         return Err(limit.too_large(Some(metadata.len())));
     }
     let mut bytes = Vec::new();
@@ -135,9 +135,9 @@ fn read_plain(file: &File, metadata: &Metadata, limit: Limit) -> io::Result<Vec<
 
 /// Reads to the end: a file may grow meanwhile, and some do not say how long they are.
 fn read_within(source: impl Read, bytes: &mut Vec<u8>, limit: Limit) -> io::Result<()> {
-    let most = limit.most();
-    source.take(most.saturating_add(1)).read_to_end(bytes)?;
-    if bytes.len() as u64 > most { Err(limit.too_large(None)) } else { Ok(()) }
+    let max = limit.max_bytes();
+    source.take(max.saturating_add(1)).read_to_end(bytes)?;
+    if bytes.len() as u64 > max { Err(limit.too_large(None)) } else { Ok(()) }
 }
 
 #[cfg(unix)]
@@ -210,7 +210,9 @@ fn read_pipe(mut file: File, limit: Limit, gives_up: &dyn Fn() -> bool) -> io::R
         }
         match file.read(&mut buffer) {
             Ok(0) => return Ok(bytes),
-            Ok(length) if (bytes.len() + length) as u64 > limit.most() => return Err(limit.too_large(None)),
+            Ok(length) if (bytes.len() + length) as u64 > limit.max_bytes() => {
+                return Err(limit.too_large(None));
+            }
             Ok(length) => bytes.extend_from_slice(&buffer[..length]),
             Err(error) if matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::Interrupted) => {}
             Err(error) => return Err(error),

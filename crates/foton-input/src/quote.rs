@@ -1,4 +1,4 @@
-//! Words of strangers in messages: short, and printable.
+//! Text of foreign files in messages: short, and printable.
 //!
 //! A name in a file can hold what a terminal obeys (escape sequences), what turns the direction of a line around, or a line of
 //! its own. In messages all of that is escaped as in Rust's string literals.
@@ -6,10 +6,10 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-/// The most characters of a word that a message quotes.
+/// The largest number of characters of a word that a message quotes.
 pub const MAX_QUOTE: usize = 40;
 
-/// The most characters of a path in a message.
+/// The largest number of characters of a path in a message.
 const MAX_PATH: usize = 200;
 
 /// Whether a character shows itself and nothing else: no control character, no mark of direction, no separator of lines, nothing
@@ -124,8 +124,8 @@ mod tests {
             assert!(printable(&format!("x{c}")).starts_with("x\\u{"), "{c:?}");
             assert!(json(&format!("\"x{c}\"")).starts_with("\"x\\u"), "{c:?}");
         }
-        for kept in ["größe", "日本", "a\"b\\c", "1.5 × 2 → 3"] {
-            assert_eq!((&*printable(kept), &*json(kept), shown(kept).as_str()), (kept, kept, kept));
+        for plain in ["größe", "日本", "a\"b\\c", "1.5 × 2 → 3"] {
+            assert_eq!((&*printable(plain), &*json(plain), shown(plain).as_str()), (plain, plain, plain));
         }
         assert_eq!(json("\"\u{e0041}\""), "\"\\udb40\\udc41\"");
     }
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_path_keeps_its_beginning_and_its_end() {
+    fn a_long_path_is_cut_in_its_middle() {
         let path = format!("/start/{}/end.obj", "x".repeat(5000));
         let shown = shown_path(Path::new(&path));
         assert_eq!(shown.chars().count(), MAX_PATH);

@@ -63,7 +63,7 @@ impl LayerKind {
         Self::ALL.into_iter().find(|k| k.name() == name)
     }
 
-    /// Whether path classes must be kept apart for it.
+    /// Whether it needs light by path class.
     #[must_use]
     pub const fn needs_classes(self) -> bool {
         matches!(self, Self::Direct | Self::Caustic | Self::Indirect)

@@ -32,7 +32,7 @@ macro_rules! each {
 }
 
 impl Render {
-    /// Looks at the scene. `watch` is told each stage as it begins.
+    /// Collects hit points. `watch` is told each stage as it begins.
     ///
     /// # Errors
     /// When cancelled.
@@ -208,7 +208,7 @@ impl Render {
     }
 }
 
-/// Hit points and photons, for people who look at them. World units.
+/// Hit points and photons, for display. World units.
 impl Render {
     /// The spread of radii as it is now.
     #[must_use]

@@ -7,7 +7,7 @@ use foton_scene::Scene;
 
 use crate::ppm::settings::{Alpha, PpmSettings};
 
-/// Longest path that is followed, whatever is asked for. What that cuts off stands in the ledger.
+/// The longest path that is traced, whatever settings say. The ledger counts what that cuts off.
 const MAX_PATH_EDGES: u32 = 250;
 
 /// How light is transported.
@@ -41,7 +41,7 @@ pub struct RenderSettings {
     pub seed: u64,
     /// Index of the sensor.
     pub sensor: usize,
-    /// Whether direct, caustic and indirect light are kept apart (costs 24 to 72 bytes a hit point and pixel).
+    /// Whether direct, caustic and indirect light are summed separately (costs 24 to 72 bytes a hit point and pixel).
     pub layers: bool,
     /// Whether the error is estimated pass by pass (costs 8 bytes a hit point, 64 more where radii do not adapt, 32 a pixel and
     /// some time).

@@ -1,4 +1,4 @@
-//! A request to stop, shared between threads: what takes long asks for it every few thousand steps.
+//! A request to stop, shared between threads: long loops check it every few thousand steps.
 
 use std::error::Error;
 use std::fmt;
@@ -24,18 +24,18 @@ pub struct Cancel(Arc<State>);
 #[derive(Debug, Default)]
 struct State {
     requested: AtomicBool,
-    /// Questions until it counts as requested, where it is to come by itself.
+    /// Checks that are left until it requests itself, in tests.
     left: Option<AtomicU64>,
 }
 
 impl Cancel {
-    /// How many items a loop goes through between two questions, where each takes up to some microseconds.
+    /// How many items a loop handles between two checks, where each takes up to a few microseconds.
     pub const EVERY: usize = 4096;
 
-    /// One that comes by itself with the question after `questions` of them: for tests of what can be cancelled where.
+    /// One that requests itself at the check after `checks` others: for tests of where work can be cancelled.
     #[must_use]
-    pub fn after(questions: u64) -> Self {
-        Self(Arc::new(State { requested: AtomicBool::new(false), left: Some(AtomicU64::new(questions)) }))
+    pub fn after(checks: u64) -> Self {
+        Self(Arc::new(State { requested: AtomicBool::new(false), left: Some(AtomicU64::new(checks)) }))
     }
 
     /// Asks the work that holds a clone of this to stop.
@@ -43,12 +43,12 @@ impl Cancel {
         self.0.requested.store(true, Ordering::Relaxed);
     }
 
-    /// Takes the request back: what comes next is to run.
+    /// Withdraws the request, so that new work can run.
     pub fn rearm(&self) {
         self.0.requested.store(false, Ordering::Relaxed);
     }
 
-    /// Whether a stop was asked for.
+    /// Whether a stop was requested.
     #[must_use]
     #[inline]
     pub fn is_requested(&self) -> bool {
@@ -61,16 +61,16 @@ impl Cancel {
     }
 
     /// # Errors
-    /// When a stop was asked for.
+    /// When a stop was requested.
     #[inline]
     pub fn check(&self) -> Result<(), Cancelled> {
         if self.is_requested() { Err(Cancelled) } else { Ok(()) }
     }
 
-    /// As [`Cancel::check`], for the item of that number in a loop: asks for one in [`Cancel::EVERY`] of them.
+    /// As [`Cancel::check`], for the `item`-th item of a loop: checks at one of [`Cancel::EVERY`].
     ///
     /// # Errors
-    /// When a stop was asked for.
+    /// When a stop was requested.
     #[inline]
     pub fn check_at(&self, item: usize) -> Result<(), Cancelled> {
         if item.is_multiple_of(Self::EVERY) { self.check() } else { Ok(()) }
@@ -82,7 +82,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_request_is_seen_by_all_clones_until_it_is_taken_back() {
+    fn a_request_is_seen_by_all_clones_until_it_is_withdrawn() {
         let cancel = Cancel::default();
         let clone = cancel.clone();
         assert!(clone.check().is_ok());
@@ -93,14 +93,14 @@ mod tests {
     }
 
     #[test]
-    fn one_that_comes_by_itself_comes_after_so_many_questions_and_stays() {
+    fn one_that_requests_itself_does_so_after_that_many_checks_and_stays() {
         let cancel = Cancel::after(2);
-        let asked: Vec<bool> = (0..4).map(|_| cancel.is_requested()).collect();
-        assert_eq!(asked, [false, false, true, true]);
+        let seen: Vec<bool> = (0..4).map(|_| cancel.is_requested()).collect();
+        assert_eq!(seen, [false, false, true, true]);
     }
 
     #[test]
-    fn a_loop_asks_once_in_so_many_items() {
+    fn a_loop_checks_once_in_so_many_items() {
         let cancel = Cancel::after(1);
         let stopped = (0..).find(|&item| cancel.check_at(item).is_err());
         assert_eq!(stopped, Some(Cancel::EVERY));

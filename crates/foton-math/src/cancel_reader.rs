@@ -1,13 +1,13 @@
-//! A reader that fails once it is cancelled: for decoders that are not ours and ask nobody.
+//! A reader that fails once it is cancelled: for decoders of other crates, which check nothing.
 
 use std::io::{self, BufRead, Read, Seek, SeekFrom};
 
 use crate::cancel::Cancel;
 
-/// Bytes that are handed out between two questions.
+/// Bytes that are handed out between two checks.
 const BLOCK: usize = 1 << 16;
 
-/// Hands out what `inner` holds, a block at a time, until it is cancelled.
+/// Reads `inner`, a block at a time, until it is cancelled.
 #[derive(Debug)]
 pub struct CancelReader<'a, R> {
     inner: R,

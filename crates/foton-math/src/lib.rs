@@ -1,6 +1,6 @@
-//! Values for light transport: colours, rays, frames, boxes, keyed random streams, and warps beside their densities.
+//! Values for light transport: colours, rays, frames, boxes, keyed random streams, and warps with their pdfs.
 //!
-//! Nothing here knows what a scene is. Everything is `Copy`, single precision unless said otherwise, and free of state, but for
+//! Nothing here depends on a scene. Everything is `Copy`, single precision unless said otherwise, and free of state, but for
 //! [`Cancel`], the request to stop that all layers share.
 
 mod aabb;

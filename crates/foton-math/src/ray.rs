@@ -1,4 +1,4 @@
-//! A ray with the interval on which it is asked about.
+//! A ray with the interval in which hits count.
 
 use glam::Vec3;
 

@@ -1,4 +1,4 @@
-//! Warps of the unit square to the domains that light transport samples, each beside its density.
+//! Warps of the unit square to the domains that light transport samples, each with its pdf.
 
 use std::f32::consts::{FRAC_1_PI, FRAC_PI_4, PI};
 
@@ -18,9 +18,9 @@ pub fn square_to_disc(u: Vec2) -> Vec2 {
     if along_x { Vec2::new(along, across) } else { Vec2::new(across, along) }
 }
 
-/// Sine and cosine of an angle within ±π/4, to single precision: Taylor's series up to x⁹, whose rest is below 2⁻²⁷.
+/// Sine and cosine of an angle within ±π/4, to single precision: Taylor's series up to x⁹, whose remainder is below 2⁻²⁷.
 ///
-/// Of basic operations only: a system's own functions may differ in the last bit from machine to machine.
+/// Only basic operations: the functions of a system's library may differ in the last bit from machine to machine.
 #[inline]
 fn sin_cos_eighth(x: f32) -> (f32, f32) {
     let x2 = x * x;
@@ -45,7 +45,7 @@ fn sin_cos_turns(u: f32) -> (f32, f32) {
     }
 }
 
-/// Density of [`square_to_disc`] per unit area.
+/// The pdf of [`square_to_disc`] with respect to area.
 #[must_use]
 #[inline]
 pub const fn square_to_disc_pdf() -> f32 {
@@ -60,7 +60,7 @@ pub fn square_to_cosine_hemisphere(u: Vec2) -> Vec3 {
     d.extend((1.0 - d.length_squared()).max(0.0).sqrt())
 }
 
-/// Density of [`square_to_cosine_hemisphere`] per unit solid angle.
+/// The pdf of [`square_to_cosine_hemisphere`] with respect to solid angle.
 #[must_use]
 #[inline]
 pub fn square_to_cosine_hemisphere_pdf(v: Vec3) -> f32 {
@@ -77,7 +77,7 @@ pub fn square_to_sphere(u: Vec2) -> Vec3 {
     Vec3::new(r * cos, r * sin, z)
 }
 
-/// Density of [`square_to_sphere`] per unit solid angle.
+/// The pdf of [`square_to_sphere`] with respect to solid angle.
 #[must_use]
 #[inline]
 pub const fn square_to_sphere_pdf() -> f32 {
@@ -86,7 +86,7 @@ pub const fn square_to_sphere_pdf() -> f32 {
 
 /// Uniform in the cone of directions about +z whose half angle θ has `one_minus_cos = 1 − cos θ`.
 ///
-/// The angle comes as 1 − cos θ because cos θ itself rounds to 1 for a small, distant light.
+/// The angle comes as 1 − cos θ because cos θ itself rounds to 1 for a small, distant emitter.
 #[must_use]
 #[inline]
 pub fn square_to_cone(u: Vec2, one_minus_cos: f32) -> Vec3 {
@@ -96,7 +96,7 @@ pub fn square_to_cone(u: Vec2, one_minus_cos: f32) -> Vec3 {
     Vec3::new(r * cos, r * sin, 1.0 - h)
 }
 
-/// Density of [`square_to_cone`] per unit solid angle, inside the cone.
+/// The pdf of [`square_to_cone`] with respect to solid angle, inside the cone.
 #[must_use]
 #[inline]
 pub fn square_to_cone_pdf(one_minus_cos: f32) -> f32 {
@@ -111,7 +111,7 @@ pub fn square_to_triangle(u: Vec2) -> Vec2 {
     Vec2::new(1.0 - s, u.y * s)
 }
 
-/// Density of [`square_to_triangle`] per unit of the triangle's own area.
+/// The pdf of [`square_to_triangle`] with respect to the triangle's own area.
 #[must_use]
 #[inline]
 pub fn square_to_triangle_pdf(area: f32) -> f32 {

@@ -1,9 +1,9 @@
 //! Where photons start: how often at each emitter, and what they are aimed at.
 //!
-//! In most scenes that is as the emitters shine. In a *wide* one, where what is seen is a small part of all (a ring on a ground
-//! of kilometres, a room under a far lamp), nearly all photons would land where nobody looks. There they are aimed at nested
-//! balls that hold growing shares of what is seen, and beyond that grow until they are as large as the scene: near and far parts
-//! of a ground each have their photons, and what is not seen but sends light to what is has some that are not too heavy.
+//! In most scenes photons are distributed as the emitters shine. In a *wide* one, where what is seen is a small part of all (a ring
+//! on a ground of kilometres, a room under a far emitter), nearly all photons would land where no eye path ends. There they are
+//! aimed at nested balls that contain growing shares of what is seen, and beyond that grow until they are as large as the scene:
+//! near and far parts of a ground each get their photons, and what is not seen but lights what is gets some of moderate power.
 
 use std::sync::Arc;
 
@@ -13,16 +13,16 @@ use crate::discrete::Discrete;
 use crate::emitter::{Aim, Ball, Emission, Emitter, Kind, Target};
 use crate::scene::Scene;
 
-/// A scene is wide if its radius is this many times that of what is seen for the most part.
+/// A scene is wide if its radius is this many times that of the ball with most of what is seen.
 const WIDE: f32 = 16.0;
 
-/// Shares of the points seen that each ball holds.
+/// Shares of the points seen that each ball contains.
 const SEEN: [f32; 5] = [0.75, 1.0 - 1.0 / 16.0, 1.0 - 1.0 / 64.0, 1.0 - 1.0 / 256.0, 1.0];
 
-/// Which of them tells whether a scene is wide, and what arrives of an emitter.
-const FOR_THE_MOST_PART: usize = 1;
+/// The ball that decides whether a scene is wide and which share of an emitter's power arrives.
+const DECISIVE_BALL: usize = 1;
 
-/// A ball that is not smaller than the next larger one by this factor adds nothing.
+/// A ball is left out unless it is smaller than the next larger one by this factor.
 const LARGER: f32 = 1.5;
 
 /// Shares of the photons that are aimed at what is seen, at what focuses light, and beyond; the others go as their emitter shines.
@@ -30,16 +30,17 @@ const AT_SEEN: f32 = 0.7;
 const AT_CASTERS: f32 = 0.1;
 const BEYOND: f32 = 0.1;
 
-/// Each ball of what is seen has at least this weight among them.
-const LEAST: f32 = 0.02;
+/// The smallest weight of a ball of what is seen.
+const MIN_WEIGHT: f32 = 0.02;
 
 /// Beyond what is seen each ball is this many times as large as the last.
 const GROWTH: f32 = 4.0;
 
-/// Balls are this much larger than what they must hold.
+/// Balls are larger than what they must contain by this factor.
 const MARGIN: f32 = 1.1;
 
-/// In a wide scene an emitter is chosen by what of its power arrives; this share goes by its power, and as much is spread evenly.
+/// In a wide scene emitters are chosen by the power that arrives; this share of the probability goes by power alone, and as much is
+/// uniform.
 const DEFENSIVE_SHARE: f64 = 0.1;
 
 /// Emitters as photons leave them.
@@ -47,7 +48,7 @@ const DEFENSIVE_SHARE: f64 = 0.1;
 pub struct Sources {
     emitters: Arc<[Emitter]>,
     choice: Discrete,
-    /// What all of them are aimed at, in place of what each aims at by itself.
+    /// The aim of all of them, instead of each emitter's own.
     aim: Option<Aim>,
 }
 
@@ -58,13 +59,13 @@ impl Scene {
         let as_they_shine =
             Sources { emitters: Arc::clone(&self.emitters), choice: self.emitter_choice.clone(), aim: None };
         let Some(balls) = balls_around(points) else { return as_they_shine };
-        let most = balls[FOR_THE_MOST_PART];
-        if self.emitter_choice.is_empty() || most.radius * WIDE > self.bounds.radius() {
+        let decisive = balls[DECISIVE_BALL];
+        if self.emitter_choice.is_empty() || decisive.radius * WIDE > self.bounds.radius() {
             return as_they_shine;
         }
         let aim = Aim::new(targets(&balls, self.casters, self.bounds.radius()));
         let arriving =
-            self.emitters.iter().map(|e| f64::from(e.power().mean()) * f64::from(arrives(e, &most)));
+            self.emitters.iter().map(|e| f64::from(e.power().mean()) * f64::from(arrives(e, &decisive)));
         let arriving = Discrete::new(arriving);
         let count = self.emitters.iter().filter(|e| !e.power().is_black()).count() as f64;
         let choice = Discrete::new(self.emitters.iter().enumerate().map(|(i, e)| {
@@ -104,7 +105,7 @@ impl Sources {
     }
 }
 
-/// Balls around the middle of the points that hold the shares [`SEEN`] of them; `None` without points.
+/// Balls around the middle of the points that contain the shares [`SEEN`] of them; `None` without points.
 fn balls_around(points: &[(Vec3, f32)]) -> Option<[Ball; SEEN.len()]> {
     let median = |axis: usize| {
         let mut of_axis: Vec<f32> = points.iter().map(|(p, _)| p[axis]).collect();
@@ -124,27 +125,29 @@ fn balls_around(points: &[(Vec3, f32)]) -> Option<[Ball; SEEN.len()]> {
     Some(SEEN.map(|share| Ball { centre, radius: radius(share) }))
 }
 
-/// What to aim at, and how much: so that across what is seen photons fall as densely as points lie there, and each pixel has its
-/// share.
+/// What to aim at, and with which shares: such that photons are distributed over what is seen as its points are, and each pixel gets
+/// its share.
 fn targets(balls: &[Ball; SEEN.len()], casters: Option<Ball>, scene_radius: f32) -> Vec<Target> {
-    // From the largest in: of balls of about one size it stands for all.
-    let mut kept: Vec<(Ball, f32)> = Vec::new();
+    // From the largest inwards: of balls of about one size it stands for all.
+    let mut distinct: Vec<(Ball, f32)> = Vec::new();
     for (&ball, held) in balls.iter().zip(SEEN).rev() {
-        if kept.last().is_none_or(|(larger, _)| ball.radius * LARGER < larger.radius) {
-            kept.push((ball, held));
+        if distinct.last().is_none_or(|(larger, _)| ball.radius * LARGER < larger.radius) {
+            distinct.push((ball, held));
         }
     }
-    kept.reverse();
-    let area = |i: usize| kept[i].0.radius.powi(2);
-    let density = |i: usize| match (i.checked_sub(1), kept.get(i)) {
+    distinct.reverse();
+    let area = |i: usize| distinct[i].0.radius.powi(2);
+    let density = |i: usize| match (i.checked_sub(1), distinct.get(i)) {
         (_, None) => 0.0,
         (None, Some((_, held))) => held / area(i),
-        (Some(inner), Some((_, held))) => (held - kept[inner].1) / (area(i) - area(inner)),
+        (Some(inner), Some((_, held))) => (held - distinct[inner].1) / (area(i) - area(inner)),
     };
-    let weight = |i: usize| (area(i) * (density(i) - density(i + 1))).max(LEAST);
-    let whole: f32 = (0..kept.len()).map(weight).sum();
-    let seen =
-        kept.iter().enumerate().map(|(i, &(ball, _))| Target { ball, share: AT_SEEN * weight(i) / whole });
+    let weight = |i: usize| (area(i) * (density(i) - density(i + 1))).max(MIN_WEIGHT);
+    let whole: f32 = (0..distinct.len()).map(weight).sum();
+    let seen = distinct
+        .iter()
+        .enumerate()
+        .map(|(i, &(ball, _))| Target { ball, share: AT_SEEN * weight(i) / whole });
     let all = balls[SEEN.len() - 1];
     let larger = |b: &Ball| Some(Ball { radius: GROWTH * b.radius, ..*b });
     let shells = std::iter::successors(larger(&all), larger).take_while(|ball| ball.radius < scene_radius);
@@ -153,7 +156,7 @@ fn targets(balls: &[Ball; SEEN.len()], casters: Option<Ball>, scene_radius: f32)
     seen.chain(casters).chain(shells.map(|ball| Target { ball, share })).collect()
 }
 
-/// About what share of an emitter's power goes to a ball.
+/// Approximately the share of an emitter's power that reaches a ball.
 fn arrives(emitter: &Emitter, ball: &Ball) -> f32 {
     let from = |position: Vec3| (ball.radius / position.distance(ball.centre)).powi(2).min(1.0);
     match &emitter.kind {

@@ -9,7 +9,7 @@ use crate::straight;
 /// Shadow rays end this share before a sampled point on a surface, which must not shadow itself.
 pub const SHORTENED: f32 = 1e-4;
 
-/// Irradiance from one sampled point of an emitter by at most so many edges, and the direction it comes from.
+/// Irradiance from one sampled point of an emitter over at most `edges` edges, and the direction it comes from.
 pub fn estimate(
     scene: &Scene,
     (origin, normal): (Vec3, Vec3),
@@ -26,7 +26,7 @@ pub fn estimate(
     }
     let ray =
         Ray { origin, direction: light.direction, t_min: 0.0, t_max: light.distance * (1.0 - SHORTENED) };
-    let passed = straight::share(scene, ray, edges, rays);
-    let light_there = light.radiance_over_pdf * passed * (cosine / probability as f32);
-    (!passed.is_black()).then_some((light_there, light.direction))
+    let transmittance = straight::transmittance(scene, ray, edges, rays);
+    let irradiance = light.radiance_over_pdf * transmittance * (cosine / probability as f32);
+    (!transmittance.is_black()).then_some((irradiance, light.direction))
 }

@@ -1,4 +1,4 @@
-//! Where the emitted power went: every event is counted where it happens, nothing is computed as a remainder.
+//! Where the emitted power went. Every event is counted where it happens; nothing is computed as a remainder.
 
 use std::ops::AddAssign;
 
@@ -11,7 +11,7 @@ use foton_math::Rgb;
 pub struct Ledger {
     /// Leaving emitters.
     pub emitted: f64,
-    /// Kept by surfaces: what a BSDF's weight leaves out.
+    /// Absorbed by surfaces: what a BSDF's weight leaves out.
     pub absorbed: f64,
     /// Leaving the scene.
     pub escaped: f64,
@@ -24,13 +24,13 @@ pub struct Ledger {
     /// What of that was gained, counted apart: photons see the adjoint of a BSDF with interpolated normals, which may scatter more
     /// than arrives. Eye paths, which see the BSDF itself, never gain.
     pub shading_gain: f64,
-    /// What dropped photons still carried when last it was a number.
+    /// What dropped photons carried while it was still a number.
     pub lost: f64,
     /// Values that were NaN or infinite and were left out: photons, which were not traced on, and light at hit points and pixels.
     pub dropped: u64,
 }
 
-/// What went missing at a material that should not: named in warnings.
+/// What went missing at a material and should not have: warnings name it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Loss {
     /// Power still alive at the longest path length, when it last met this material.

@@ -2,7 +2,7 @@
 
 use std::ops::AddAssign;
 
-/// An emitter with at least this share of the photons is worth a warning.
+/// An emitter with at least this share of the photons deserves a warning.
 const LARGE_SHARE: f64 = 0.1;
 /// It is starved when less than this share of its photons is stored anywhere.
 const FEW: f64 = 0.01;

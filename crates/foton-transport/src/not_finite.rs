@@ -14,10 +14,11 @@ use thiserror::Error;
 
 use foton_math::Cancelled;
 
-/// How far before a point its surface is looked for, in scene units: the scene's half-size is a thousand at least.
+/// How far in front of a point the ray that looks for its surface starts, in scene units: the scene's half-size is at least a
+/// thousand.
 const BEFORE: f32 = 0.01;
 
-/// What was no finite number.
+/// What was not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// The power with which a photon left its light.

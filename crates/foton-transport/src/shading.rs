@@ -18,7 +18,7 @@ pub fn leaves_wrongly(surface: &Surface, wo: Vec3, wi: Vec3, reflects: bool) -> 
     (wo.dot(surface.normal) * wi.dot(surface.normal) > 0.0) != reflects
 }
 
-/// A direction of a followed lobe, mirrored in the plane of the true surface where it would end on its wrong side. To drop it
+/// The direction of a specular lobe, mirrored in the plane of the true surface where it would end on the wrong side. To drop it
 /// would darken whatever is seen at grazing angles: waves from near the water line lose up to 5 % of their light.
 pub fn on_the_right_side(surface: &Surface, wo: Vec3, wi: Vec3, reflects: bool) -> Vec3 {
     if leaves_wrongly(surface, wo, wi, reflects) { wi.reflect(surface.normal) } else { wi }

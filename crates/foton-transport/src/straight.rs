@@ -1,34 +1,34 @@
-//! Light on a straight line between two points: how much of it the surfaces in between let pass.
+//! Light on a straight line between two points: how much of it the surfaces in between transmit.
 
 use foton_math::{Ray, Rgb};
 use foton_scene::Scene;
 
 use crate::shading::shading_normal_towards;
 
-/// The share of light that passes along a ray, each passage of a surface being one edge more than the first; black where one of
-/// them stops or bends it, and where it takes more edges than there may be. Adds to the number of rays.
-pub fn share(scene: &Scene, mut ray: Ray, edges: u32, rays: &mut u64) -> Rgb {
+/// The transmittance of a ray, each surface that it passes being one more edge; black where one blocks or deflects it, and where
+/// that takes more than `edges`. Adds to the number of rays.
+pub fn transmittance(scene: &Scene, mut ray: Ray, edges: u32, rays: &mut u64) -> Rgb {
     if !scene.census().straight {
         *rays += 1;
         return if edges == 0 || scene.occluded(ray) { Rgb::BLACK } else { Rgb::WHITE };
     }
-    let mut share = Rgb::WHITE;
+    let mut transmittance = Rgb::WHITE;
     for _ in 0..edges {
         *rays += 1;
-        let Some(surface) = scene.nearest(ray) else { return share };
+        let Some(surface) = scene.nearest(ray) else { return transmittance };
         let wo = -ray.direction;
         let Some(scattering) = scene.scattering(&surface, wo.dot(surface.normal) > 0.0) else {
             return Rgb::BLACK;
         };
         let frame = scene.shading_frame(&surface, shading_normal_towards(&surface, wo));
-        share *= scattering.straight(frame.to_local(wo));
-        if share.is_black() {
+        transmittance *= scattering.straight(frame.to_local(wo));
+        if transmittance.is_black() {
             return Rgb::BLACK;
         }
         let origin = surface.ray_origin(ray.direction);
         let t_max = ray.t_max - (origin - ray.origin).dot(ray.direction);
         if t_max <= 0.0 {
-            return share;
+            return transmittance;
         }
         ray = Ray { origin, t_max, ..ray };
     }

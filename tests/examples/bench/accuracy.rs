@@ -40,45 +40,7 @@ pub(crate) fn print() {
     println!(
         "| settings | 1 | 2 | 4 | 6 | 15 | 30 | 60 CPU s | to 0.06 | to 0.03 |\n|---|---|---|---|---|---|---|---|---|---|"
     );
-    let base = || RenderSettings {
-        ppm: PpmSettings { first_pass: rig::number(1 << 14), ..rig::settings().ppm },
-        ..rig::settings()
-    };
-    let alpha = |alpha| Alpha::new(alpha).expect("in range");
-    let rows = [
-        ("2^18 photons a pass, α 2/3", base()),
-        (
-            "2^16",
-            RenderSettings {
-                ppm: PpmSettings { photons_per_pass: rig::number(1 << 16), ..base().ppm },
-                ..base()
-            },
-        ),
-        (
-            "2^18, shadow rays",
-            RenderSettings {
-                ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..base().ppm },
-                ..base()
-            },
-        ),
-        (
-            "2^16, shadow rays",
-            RenderSettings {
-                ppm: PpmSettings {
-                    photons_per_pass: rig::number(1 << 16),
-                    direct_light: DirectLight::ShadowRays,
-                    ..base().ppm
-                },
-                ..base()
-            },
-        ),
-        ("2^18, α 0.8", RenderSettings { ppm: PpmSettings { alpha: alpha(0.8), ..base().ppm }, ..base() }),
-        (
-            "2^18, the radius of the pixel's footprint",
-            RenderSettings { ppm: PpmSettings { radius: None, ..base().ppm }, ..base() },
-        ),
-    ];
-    for (name, settings) in rows {
+    for (name, settings) in rows() {
         let course = course(&settings, &reference);
         let at = |seconds: f64| course.iter().rfind(|(s, _)| *s <= seconds).map_or(f64::NAN, |c| c.1);
         let to = |error: f64| {
@@ -90,6 +52,30 @@ pub(crate) fn print() {
         let cells = [1.0, 2.0, 4.0, 6.0, 15.0, 30.0, 60.0].map(|s| format!("{:.3}", at(s))).join(" | ");
         println!("| {name} | {cells} | {} | {} |", to(0.06), to(0.03));
     }
+}
+
+/// What is compared: names, and settings.
+fn rows() -> [(&'static str, RenderSettings); 6] {
+    let with = |change: fn(&mut PpmSettings)| {
+        let mut settings = rig::settings();
+        settings.ppm.first_pass = rig::number(1 << 14);
+        change(&mut settings.ppm);
+        settings
+    };
+    [
+        ("2^18 photons a pass, α 2/3", with(|_| ())),
+        ("2^16", with(|ppm| ppm.photons_per_pass = rig::number(1 << 16))),
+        ("2^18, shadow rays", with(|ppm| ppm.direct_light = DirectLight::ShadowRays)),
+        (
+            "2^16, shadow rays",
+            with(|ppm| {
+                ppm.photons_per_pass = rig::number(1 << 16);
+                ppm.direct_light = DirectLight::ShadowRays;
+            }),
+        ),
+        ("2^18, α 0.8", with(|ppm| ppm.alpha = Alpha::new(0.8).expect("in range"))),
+        ("2^18, the radius of the pixel's footprint", with(|ppm| ppm.radius = None)),
+    ]
 }
 
 /// Processor seconds and error after each pass.

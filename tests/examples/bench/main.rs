@@ -1,4 +1,4 @@
-//! How fast, by whole runs. `cargo xtask bench [WHAT]` runs it; docs/performance.md keeps what it prints.
+//! How fast, by whole runs. `cargo xtask bench [WHAT]` runs it; docs/performance.md records what it prints.
 //!
 //! `whole` (also without a word): stages, rates, efficiency and memory of the benchmark box. `scaling`: a pass over triangles, photons
 //! and hit points. `wide`: scenes that ask for more. `accuracy`: error a processor second. Figures are medians over passes of

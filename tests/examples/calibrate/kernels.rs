@@ -1,4 +1,4 @@
-//! What other kernels than the box would be worth: they are known from what the live error keeps.
+//! What kernels other than the box would be worth, as the moments of the live error tell.
 //!
 //! With s = d²/r², the box sums Φ/(π r²) and the estimated blur is B̂ = Σ 6(s − ½) Φ/(π r²). So L − B̂/3 = Σ 2(1 − s) Φ/(π r²) is what
 //! Epanechnikov's kernel makes of the same photons, and L − B̂ = Σ (4 − 6s) Φ/(π r²), which is below zero at the rim, has no blur of

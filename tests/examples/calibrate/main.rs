@@ -248,7 +248,7 @@ fn row(name: &str, passes: u64, found: &[&Found]) {
     let n = found.len() as f64;
     let mean = |f: &dyn Fn(&Found) -> f64| found.iter().map(|x| f(x)).sum::<f64>() / n;
     let quotients: Vec<f64> = found.iter().map(|f| f.estimated[0] / f.truth).collect();
-    let (least, most) = quotients.iter().fold((f64::MAX, 0f64), |(a, b), q| (a.min(*q), b.max(*q)));
+    let (min, max) = quotients.iter().fold((f64::MAX, 0f64), |(a, b), q| (a.min(*q), b.max(*q)));
     let within = found.iter().filter(|f| f.is_within).count();
     let coverage = |kind: usize| {
         let all: f64 = found.iter().map(|f| f.covered[kind].1).sum();
@@ -259,7 +259,7 @@ fn row(name: &str, passes: u64, found: &[&Found]) {
         format!("{:.0} {:.0} {:.0} (of {all})", share(0), share(1), share(2))
     };
     println!(
-        "| {name} | {passes} | {:.2} ± {:.2} | {:.2} ({:.2}, {:.2}) | {:.2} ({least:.2}–{most:.2}) | {within}/{} | {} | {} | {:.0} of {:.0} |",
+        "| {name} | {passes} | {:.2} ± {:.2} | {:.2} ({:.2}, {:.2}) | {:.2} ({min:.2}–{max:.2}) | {within}/{} | {} | {} | {:.0} of {:.0} |",
         100.0 * mean(&|f| f.truth),
         100.0 * mean(&|f| f.deviation) / n.sqrt(),
         100.0 * mean(&|f| f.estimated[0]),

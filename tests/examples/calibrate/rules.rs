@@ -57,35 +57,9 @@ fn rows(name: &str, seeds: u64, truth_passes: u64) {
         ..crate::settings(PHOTONS, 1)
     };
     let truth = Truth::render(&scene, &base, truth_passes);
-    let fixed: Vec<RenderSettings> = SCALES
-        .iter()
-        .flat_map(|&scale| ALPHAS.map(|alpha| (alpha, scale)))
-        .map(|(alpha, scale)| RenderSettings {
-            ppm: PpmSettings {
-                alpha: Alpha::new(alpha).expect("in range"),
-                radius_scale: RadiusScale::new(scale).expect("above 0"),
-                ..base.ppm
-            },
-            ..base.clone()
-        })
-        .collect();
-    let adaptive = |alpha: f64, scale: f64| RenderSettings {
-        ppm: PpmSettings {
-            alpha: Alpha::new(alpha).expect("in range"),
-            radius_scale: RadiusScale::new(scale).expect("above 0"),
-            radius_rule: RadiusRule::Adaptive,
-            ..base.ppm
-        },
-        ..base.clone()
-    };
-    let central = Alpha::default().get();
-    let adaptive: Vec<RenderSettings> = [adaptive(central, 1.0)]
-        .into_iter()
-        .chain(OTHER_ALPHAS.map(|alpha| adaptive(alpha, 1.0)))
-        .chain(OTHER_SCALES.map(|scale| adaptive(central, scale)))
-        .collect();
+    let adaptive = adaptive(&base);
     let adapting = adaptive.len();
-    let all: Vec<RenderSettings> = adaptive.into_iter().chain([base.clone()]).chain(fixed).collect();
+    let all: Vec<RenderSettings> = adaptive.into_iter().chain([base.clone()]).chain(fixed(&base)).collect();
     let courses = run(&scene, &all, &truth, seeds);
     for (i, at) in courses[0].iter().enumerate().filter(|(i, _)| SHOWN.contains(&(1 << i))) {
         let percent = |which: usize, part: usize| 100.0 * error_at(&courses[which], at.seconds, part);
@@ -95,7 +69,7 @@ fn rows(name: &str, seeds: u64, truth_passes: u64) {
         let (best_fixed, best_adaptive) = (best(adapting..all.len()), best(0..adapting));
         let which =
             |i: usize| format!("α {:.2}, × {}", all[i].ppm.alpha.get(), all[i].ppm.radius_scale.get());
-        let least = |part| (adapting..all.len()).map(|i| percent(i, part)).fold(f64::INFINITY, f64::min);
+        let min = |part| (adapting..all.len()).map(|i| percent(i, part)).fold(f64::INFINITY, f64::min);
         println!(
             "| {name} | {} | {:.2} | {:.2} | {:.2} ({}) | {:.2} | {:.2} | {:.2} ({}) | {:.2}, {:.2} | {:.2}, {:.2} |",
             1 << i,
@@ -107,13 +81,37 @@ fn rows(name: &str, seeds: u64, truth_passes: u64) {
             percent(0, 0) / percent(best_fixed, 0),
             percent(best_adaptive, 0),
             which(best_adaptive),
-            least(1),
+            min(1),
             percent(0, 1),
-            least(2),
+            min(2),
             percent(0, 2),
         );
     }
     eprintln!("{name}: noise of the truth {:.1} %", 100.0 * truth.noise());
+}
+
+/// `base` with another rule, α and factor on first radii.
+fn with(base: &RenderSettings, radius_rule: RadiusRule, alpha: f64, scale: f64) -> RenderSettings {
+    let alpha = Alpha::new(alpha).expect("in range");
+    let radius_scale = RadiusScale::new(scale).expect("above 0");
+    RenderSettings { ppm: PpmSettings { alpha, radius_scale, radius_rule, ..base.ppm }, ..base.clone() }
+}
+
+/// Every fixed α with every first radius.
+fn fixed(base: &RenderSettings) -> Vec<RenderSettings> {
+    let pairs = SCALES.iter().flat_map(|&scale| ALPHAS.map(|alpha| (alpha, scale)));
+    pairs.map(|(alpha, scale)| with(base, base.ppm.radius_rule, alpha, scale)).collect()
+}
+
+/// Radii that adapt: the defaults first, then each with one other value.
+fn adaptive(base: &RenderSettings) -> Vec<RenderSettings> {
+    let with = |alpha, scale| with(base, RadiusRule::Adaptive, alpha, scale);
+    let central = Alpha::default().get();
+    [with(central, 1.0)]
+        .into_iter()
+        .chain(OTHER_ALPHAS.map(|alpha| with(alpha, 1.0)))
+        .chain(OTHER_SCALES.map(|scale| with(central, scale)))
+        .collect()
 }
 
 /// All renders over the same photons, seed after seed.

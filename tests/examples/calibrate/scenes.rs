@@ -11,7 +11,7 @@ pub(crate) fn of(name: &str, side: u32) -> Option<Sketch> {
     match name {
         "decal" => Some(decal(side)),
         "narrow-lights" => Some(narrow_lights(side)),
-        "far-lamp" => Some(far_lamp(side)),
+        "far-lamp" => Some(far_emitter(side)),
         _ => None,
     }
 }
@@ -20,7 +20,7 @@ fn floor(sketch: Sketch, half: f64) -> Sketch {
     sketch.rectangle(DVec3::ZERO, DVec3::Z * half, DVec3::X * half, grey(0.5), None)
 }
 
-/// Half-transparent and opaque cards a millimetre above a floor, under a lamp.
+/// Half-transparent and opaque cards a millimetre above a floor, under an emitter.
 fn decal(side: u32) -> Sketch {
     let mut sketch = floor(
         Sketch::default().camera(DVec3::new(3.0, 4.5, 6.0), DVec3::new(0.0, 0.3, 0.0), 40.0, side),
@@ -55,8 +55,8 @@ fn narrow_lights(side: u32) -> Sketch {
     sketch
 }
 
-/// A corner under a lamp a thousand times its size away.
-fn far_lamp(side: u32) -> Sketch {
+/// A corner under an emitter a thousand times its size away.
+fn far_emitter(side: u32) -> Sketch {
     Sketch::default()
         .camera(DVec3::new(0.0, 0.0, 4.4), DVec3::ZERO, 40.0, side)
         .rectangle(DVec3::new(0.0, -1.0, 0.0), DVec3::Z * 2.0, DVec3::X * 2.0, grey(0.7), None)

@@ -67,7 +67,7 @@ pub(crate) fn advance(runs: &mut Variants) {
 
 /// Luminance without what emitters themselves show.
 pub(crate) fn reflected(render: &Render) -> Vec<f64> {
-    let emission = render.colour_layer(LayerKind::Emission).expect("always kept");
+    let emission = render.colour_layer(LayerKind::Emission).expect("always summed");
     luminance(&render.image()).iter().zip(luminance(&emission)).map(|(all, e)| all - e).collect()
 }
 
@@ -162,7 +162,8 @@ impl Truth {
     pub(crate) fn class_shares(&self, render: &Render) -> [f64; 3] {
         let image = reflected(render);
         let kinds = [LayerKind::Direct, LayerKind::Caustic, LayerKind::Indirect];
-        let layers = kinds.map(|kind| luminance(&render.colour_layer(kind).expect("classes are kept apart")));
+        let layers =
+            kinds.map(|kind| luminance(&render.colour_layer(kind).expect("classes are summed separately")));
         let of = |class: usize| -> f64 {
             let pixels = (0..image.len()).filter(|pixel| self.seen()[*pixel]);
             let off = |half: usize, pixel: usize| {

@@ -20,7 +20,7 @@ pub use log::Log;
 /// What takes longer has hung.
 pub const PATIENCE: Duration = Duration::from_secs(180);
 
-/// Between looks at what cannot be waited for.
+/// Between polls of what cannot be waited for.
 const LOOK_AGAIN: Duration = Duration::from_millis(10);
 
 const NEEDED: &str = "a window's tests need Xvfb, xdotool and ImageMagick (cargo xtask test --install)";
@@ -72,7 +72,7 @@ impl Display {
         Client::new(&self.name)
     }
 
-    /// All that is on the display; the file is kept.
+    /// All that is on the display; the file stays.
     ///
     /// # Panics
     /// If that fails.

@@ -51,7 +51,7 @@ fn share_of_flux(degrees: f64, base: &RenderSettings, passes: &[u32], side: u32)
 /// Over many places of a beam that falls between the eye samples none of its flux is lost, however long radii may have shrunk and
 /// by whatever rule; without the smallest radius it hangs on single samples.
 #[test]
-fn a_beam_between_the_eye_samples_keeps_its_flux() {
+fn a_beam_between_the_eye_samples_loses_no_flux() {
     for (radius_rule, side) in [(RadiusRule::Global, 8), (RadiusRule::Adaptive, 18)] {
         let base = RenderSettings {
             samples_per_pixel: number(4),

@@ -108,7 +108,7 @@ fn photons_beyond_two_to_the_32_are_counted_and_shared_by_the_image() {
     many[8..16].copy_from_slice(&before.to_le_bytes());
     render.restore(&many).expect("a state of this render");
     assert_eq!(render.photons_emitted(), before);
-    let emission = render.colour_layer(foton_integrator::LayerKind::Emission).expect("kept").pixels;
+    let emission = render.colour_layer(foton_integrator::LayerKind::Emission).expect("summed").pixels;
     for ((a, b), e) in one.pixels.iter().zip(&render.image().pixels).zip(&emission) {
         let (reflected, shared) = (f64::from(a.g - e.g), f64::from(b.g - e.g));
         assert!((shared - reflected * 1000.0 / before as f64).abs() <= 1e-6 * f64::from(a.g), "{a:?} {b:?}");
@@ -147,7 +147,7 @@ fn alpha_of_a_thousandth_and_of_one_render_finite_images() {
         let render = room(1.0).render(settings, 20);
         let (largest, smallest) = (render.radii().largest, render.radii().smallest);
         assert!(render.image().pixels.iter().all(|p| p.is_finite()) && smallest > 0.0, "α {alpha}");
-        assert!(alpha < 1.0 || (largest - 0.1).abs() < 1e-6, "α = 1 keeps the radius: {largest}");
+        assert!(alpha < 1.0 || (largest - 0.1).abs() < 1e-6, "α = 1 never shrinks the radius: {largest}");
     }
 }
 

@@ -14,8 +14,8 @@ fn photons(n: u32) -> RenderSettings {
     RenderSettings { samples_per_pixel: number(4), ..settings(n, 5) }
 }
 
-/// A lamp over a ground of that half-size with a wall behind.
-fn under_a_lamp(ground: f64) -> Sketch {
+/// An area emitter over a ground of that half-size with a wall behind.
+fn under_an_emitter(ground: f64) -> Sketch {
     Sketch::default()
         .camera(DVec3::new(0.0, 0.0, 4.4), DVec3::ZERO, 40.0, 16)
         .rectangle(DVec3::new(0.0, -1.0, 0.0), DVec3::Z * ground, DVec3::X * ground, grey(0.7), None)
@@ -37,7 +37,7 @@ fn differing(a: &Image, b: &Image, share: f32) -> f64 {
 
 #[test]
 fn a_ground_of_any_size_is_lit_as_one_of_a_thousand() {
-    let image = |ground: f64| under_a_lamp(ground).render(photons(20_000), 12).image();
+    let image = |ground: f64| under_an_emitter(ground).render(photons(20_000), 12).image();
     let expected = image(1e3);
     for ground in [3e5, 1e6, 1e7] {
         let got = image(ground);
@@ -72,8 +72,8 @@ fn a_sky_lights_what_is_seen_of_a_large_ground() {
     assert!((mean - 0.5).abs() < 0.03, "{mean}");
 }
 
-/// What the middle of a corner with a lamp a thousand times its size away receives, from the far lamp alone.
-fn under_a_far_lamp() -> Sketch {
+/// The light that the middle of a corner receives from an emitter a thousand times its size away.
+fn under_a_far_emitter() -> Sketch {
     Sketch::default()
         .camera(DVec3::new(0.0, 0.0, 4.4), DVec3::ZERO, 40.0, 16)
         .rectangle(DVec3::new(0.0, -1.0, 0.0), DVec3::Z * 2.0, DVec3::X * 2.0, grey(0.7), None)
@@ -81,15 +81,15 @@ fn under_a_far_lamp() -> Sketch {
         .sphere(DVec3::new(300.0, 800.0, 500.0), 50.0, grey(0.0), Some(Rgb::splat(100.0)))
 }
 
-/// The lamp is aimed at what it lights: photons and shadow rays agree at once.
+/// The emitter is aimed at what it lights: photons and shadow rays agree at once.
 #[test]
-fn a_far_lamp_lights_by_photons_as_by_shadow_rays() {
+fn a_far_emitter_lights_by_photons_as_by_shadow_rays() {
     let settings = photons(20_000);
     let by_rays = RenderSettings {
         ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..photons(20_000).ppm },
         ..photons(20_000)
     };
-    let [photons, rays] = [settings, by_rays].map(|s| mean(&under_a_far_lamp().render(s, 16).image()));
+    let [photons, rays] = [settings, by_rays].map(|s| mean(&under_a_far_emitter().render(s, 16).image()));
     // 0.1278 in an independent renderer; discs lose a little at the edges.
     assert!((rays / 0.1278 - 1.0).abs() < 0.02 && (photons / rays - 1.0).abs() < 0.04, "{photons} {rays}");
 }

@@ -21,7 +21,7 @@ pub use target::{is_same_file, stands_for};
 /// `fill` writes to `.NAME.tmp-PID-RANDOM` in the same folder, which no link can redirect and which is flushed, synced to the disk
 /// and renamed over the target; when anything fails it is removed and the target stays as it was. What a process that was killed
 /// has left of the same name is removed. The new file has the old one's permissions and, where the system allows it, its owner;
-/// one that is new has those of any new file. Access control lists are not kept.
+/// one that is new has those of any new file. Access control lists are not copied.
 ///
 /// Links are followed, also one whose target does not exist yet: then the target is made. A character device or pipe (`/dev/null`)
 /// is written straight, since a rename would replace it; a pipe must have a reader.

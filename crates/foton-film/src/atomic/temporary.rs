@@ -40,7 +40,7 @@ impl Temporary {
                     // Where there are no locks, the number of the process must do.
                     let _ = file.try_lock();
                     if let Some(old) = old {
-                        keep_rights(&file, old);
+                        copy_rights(&file, old);
                     }
                     return Ok((temporary, file));
                 }
@@ -127,14 +127,14 @@ fn options(old: Option<&Metadata>) -> OpenOptions {
     options
 }
 
-/// Bits of a mode that are kept; as after any write, no program takes its owner's rights by it.
+/// Bits of a mode that are copied; as after any write, no program takes its owner's rights by it.
 #[cfg(unix)]
 const RIGHTS: u32 = 0o777;
 
 /// Gives a file the owner, the group and the mode of another, as far as the system allows. What it does not is no failure: the
 /// file is then its writer's, and never open to more people.
 #[cfg(unix)]
-fn keep_rights(file: &File, old: &Metadata) {
+fn copy_rights(file: &File, old: &Metadata) {
     use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
     let Ok(now) = file.metadata() else { return };
     let mut mode = old.mode() & RIGHTS;
@@ -150,7 +150,7 @@ fn keep_rights(file: &File, old: &Metadata) {
 }
 
 #[cfg(not(unix))]
-fn keep_rights(_: &File, _: &Metadata) {}
+fn copy_rights(_: &File, _: &Metadata) {}
 
 #[cfg(all(test, unix))]
 mod tests {

@@ -1,5 +1,5 @@
-//! What direct, caustic and indirect light contribute to the error: passes ask about one class after the other, so that a hit
-//! point keeps a single number for it.
+//! What direct, caustic and indirect light contribute to the error: passes take turns with the classes, so that a hit
+//! point stores a single number for them.
 //!
 //! **Noise.** Photons are independent, so those of a class add the sum of their squared contributions to the variance, up to
 //! what is common to all classes. A photon reaches all hit points of a pixel about alike, so their roots are added first.
@@ -14,11 +14,11 @@ use super::moments::Weights;
 
 const CLASSES: usize = PathClass::ALL.len();
 
-/// What a pass asks of each photon of one class.
+/// Which moment a pass sums over the photons of one class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Question {
     pub(crate) class: usize,
-    /// About its noise; else about its blur.
+    /// Its noise, or else its blur.
     pub(crate) noise: bool,
 }
 
@@ -50,14 +50,14 @@ impl ClassError {
 /// Answers so far, by class.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Classes {
-    /// Variance a photon of the last pass that asked, summed over pixels.
+    /// Variance per photon in the last pass that summed it, over all pixels.
     rates: [f64; CLASSES],
     /// Σ over passes of photons times that rate: the variance of the image, times all photons squared.
     noise: [f64; CLASSES],
     /// Σ over pixels and passes of the blur so far times the class's.
     bias: [f64; CLASSES],
-    /// Photons of the passes that asked for the bias.
-    asked: [f64; CLASSES],
+    /// Photons of the passes that summed the bias.
+    bias_photons: [f64; CLASSES],
 }
 
 impl Classes {
@@ -72,14 +72,14 @@ impl Classes {
             self.rates[class] = rate;
         } else {
             self.bias[class] += answer;
-            self.asked[class] += photons;
+            self.bias_photons[class] += photons;
         }
         for (sum, rate) in self.noise.iter_mut().zip(self.rates) {
             *sum += photons * rate;
         }
     }
 
-    /// Splits squares of noise and bias; `None` until each class has been asked for both. `trust` is the share of what is seen of the
+    /// Splits squares of noise and bias; `None` until both are known of each class. `trust` is the share of what is seen of the
     /// bias that is not its own noise: for the rest of it the split is that of the noise. `variance` is the sum over pixels of
     /// that of the image: what shadow rays add to it, if they do, is direct light's.
     pub(super) fn split(
@@ -89,7 +89,7 @@ impl Classes {
         shadow_rays: Option<f64>,
         weights: &Weights,
     ) -> Option<[ClassError; CLASSES]> {
-        if self.asked.contains(&0.0) {
+        if self.bias_photons.contains(&0.0) {
             return None;
         }
         let mut noise = self.noise;
@@ -98,7 +98,7 @@ impl Classes {
             noise[PathClass::Direct as usize] =
                 (variance * weights.photons * weights.photons - photons).max(0.0);
         }
-        let rates = [0, 1, 2].map(|c| (self.bias[c] / self.asked[c]).max(0.0));
+        let rates = [0, 1, 2].map(|c| (self.bias[c] / self.bias_photons[c]).max(0.0));
         // By chance no class's blur may be seen to have anything in common with all of it: then it is split as the noise is.
         let noise = shares(noise);
         let trust = if rates == [0.0; CLASSES] { 0.0 } else { trust };
@@ -111,13 +111,13 @@ impl Classes {
     }
 
     pub(super) fn numbers(&self) -> [f64; 4 * CLASSES] {
-        let mut all = [self.rates, self.noise, self.bias, self.asked].into_iter().flatten();
+        let mut all = [self.rates, self.noise, self.bias, self.bias_photons].into_iter().flatten();
         [(); 4 * CLASSES].map(|()| all.next().unwrap_or(0.0))
     }
 
     pub(super) fn of(numbers: [f64; 4 * CLASSES]) -> Self {
         let part = |i: usize| [0, 1, 2].map(|c| numbers[i * CLASSES + c]);
-        Self { rates: part(0), noise: part(1), bias: part(2), asked: part(3) }
+        Self { rates: part(0), noise: part(1), bias: part(2), bias_photons: part(3) }
     }
 }
 
@@ -134,9 +134,10 @@ mod tests {
     /// Noise of equal parts; all bias is seen in caustics, of which there may be more noise than bias.
     #[test]
     fn bias_that_may_be_noise_is_split_as_the_noise_is() {
-        let classes = Classes { rates: [1.0; 3], noise: [1.0; 3], bias: [0.0, 5.0, 0.0], asked: [1.0; 3] };
+        let classes =
+            Classes { rates: [1.0; 3], noise: [1.0; 3], bias: [0.0, 5.0, 0.0], bias_photons: [1.0; 3] };
         let split = |trust: f64| {
-            let parts = classes.split((3.0, 12.0), trust, None, &Weights::default()).expect("all were asked");
+            let parts = classes.split((3.0, 12.0), trust, None, &Weights::default()).expect("all are known");
             parts.map(|c| (c.bias * c.bias).round())
         };
         assert_eq!(split(1.0), [0.0, 12.0, 0.0]);

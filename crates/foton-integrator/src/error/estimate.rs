@@ -40,7 +40,7 @@ pub struct ErrorEstimate {
     /// The mean that the others are relative to (W/m²/sr).
     pub mean_luminance: f64,
     /// What direct, caustic and indirect light contribute, in this order: their squares add up to those of noise and bias.
-    /// `None` until passes have asked about each.
+    /// `None` until passes have had a turn with each.
     pub classes: Option<[ClassError; 3]>,
 }
 
@@ -111,7 +111,7 @@ pub(super) struct Sums {
     pub(super) unknown: f64,
     /// Squares of what a photon would bring there.
     pub(super) unknown2: f64,
-    /// What the pass says of one class.
+    /// What the pass found of one class.
     pub(super) answer: f64,
 }
 
@@ -155,15 +155,15 @@ impl Sums {
         // Student's t in place of the normal's quantile, to first order.
         let t = Z_90 * (1.0 + (Z_90 * Z_90 + 1.0) / (4.0 * (effective_passes - 1.0).max(1.0)));
         let total2 = noise2 + unknown2 + bias2;
-        // The most that bias may be: that of edges, or that of light which is concentrated as the photons in the discs are.
+        // An upper bound of bias: that of edges, or that of light which is concentrated as the photons in the discs are.
         let focus2 = relative(self.focus2);
-        let most_bias2 = (SEEN_AT_EDGES.powi(-2) * bias2).max(focus2);
+        let max_bias2 = (SEEN_AT_EDGES.powi(-2) * bias2).max(focus2);
         Some(ErrorEstimate {
             total: total2.sqrt(),
             noise: (noise2 + unknown2).sqrt(),
             bias: bias2.sqrt(),
             low: (total2 - t * sigma).max(0.0).sqrt(),
-            high: (total2 - bias2 + most_bias2 + t * sigma).sqrt(),
+            high: (total2 - bias2 + max_bias2 + t * sigma).sqrt(),
             focus: focus2.sqrt(),
             unknown_share: self.unknown / self.seen,
             effective_passes,

@@ -1,7 +1,7 @@
 //! The variance of a mean over passes, from the passes alone.
 //!
-//! Passes are independent, hit points are not: neighbours share photons. So a pass's estimate of whatever is asked about (a
-//! pixel, a tile) is summed first and squared then; variances of neighbours are never added.
+//! Passes are independent, hit points are not: neighbours share photons. So a pass's estimate of a quantity (of a
+//! pixel, of a tile) is summed first and squared then; variances of neighbours are never added.
 
 /// The photons nⱼ of all passes so far, by which the mean L = Σ wⱼ xⱼ, wⱼ = nⱼ/N weighs their estimates xⱼ.
 #[derive(Clone, Copy, Debug, Default)]
@@ -31,7 +31,7 @@ impl Weights {
         self.squares / (self.photons * self.photons).max(f64::MIN_POSITIVE)
     }
 
-    /// What means and variances need of these weights, worked out once for all pixels: divisions were most of their time.
+    /// What means and variances need of these weights, computed once for all pixels: most of the time went into divisions.
     pub(crate) fn shares(&self) -> Shares {
         let rest = 1.0 - self.concentration();
         let scale = if rest > 0.0 { 1.0 / (self.photons * self.photons * rest) } else { 0.0 };

@@ -1,8 +1,8 @@
 //! Radii that shrink where blur is what is wrong, and stay where it is noise: the adaptive rule, after `[KD13]`.
 //!
-//! Noise of variance V/(n r²) and blur B r² add least where blur² = noise²/2, so each hit point goes by the quotient
-//! R = blur²/(noise²/2) of what it has gathered so far. α stands for the odds of a photon being kept, α : 1 − α; here they are
-//! α : (1 − α) R, so that α is as meant where the two are in balance, nothing shrinks where there is no blur, and radii go to zero
+//! Noise of variance V/(n r²) and blur B r² add up to the minimum where blur² = noise²/2, so each hit point goes by the quotient
+//! R = blur²/(noise²/2) of what it has gathered so far. α stands for the odds that a photon is retained, α : 1 − α; here they are
+//! α : (1 − α) R, so that α has its usual meaning where the two are in balance, nothing shrinks where there is no blur, and radii go to zero
 //! wherever there is some, since noise does.
 //!
 //! Blur is seen in two ways, each with its own noise taken off. The Laplacian's is that of the error estimate (`error/mod.rs`).
@@ -23,14 +23,14 @@ const OF_OFFSET: f64 = 6.0;
 /// How many times its own variance is taken off a square.
 const CAUTION: f64 = 2.0;
 
-/// R beyond which radii shrink no faster.
-const MAX: f64 = 30.0;
+/// The largest R: beyond it radii shrink no faster.
+const MAX_BALANCE: f64 = 30.0;
 
 /// Light may seem concentrated by chance, by this over the root of its photons: the spread of even light has a standard deviation of
 /// 0.29 r², 0.58 of its mean.
 const BY_CHANCE: f64 = 2.0;
 
-/// Sums over the photons of a packet's lanes, of luminance Φ: whether path classes are kept apart changes none of their bits.
+/// Sums over the photons of a packet's lanes, of luminance Φ: whether path classes are summed separately changes none of their bits.
 pub(crate) struct DiscMoments {
     /// Σ Φ.
     pub(crate) light: [f32; LANES],
@@ -45,7 +45,7 @@ impl DiscMoments {
         Self { light: [0.0; LANES], squares: [0.0; LANES], offset: [[0.0; LANES]; 3] };
 }
 
-/// What a hit point knows of its light after all passes, each with its own radius.
+/// Moments of a hit point's light over all passes, each with its own radius.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct RadiusStatistics {
     /// Σ Φ/(π r²).
@@ -64,21 +64,21 @@ pub(crate) struct RadiusStatistics {
 
 impl RadiusStatistics {
     /// Takes what a lane has found in a disc of that r²; `moment` is Σ Φ d². Sums that are no finite numbers are left out.
-    pub(crate) fn add(&mut self, radius2: f32, lane: usize, moment: f32, shape: &DiscMoments) {
-        let squares = shape.squares[lane];
+    pub(crate) fn add(&mut self, radius2: f32, lane: usize, moment: f32, disc: &DiscMoments) {
+        let squares = disc.squares[lane];
         // The squares are the first to be too large.
         if !(squares + moment).is_finite() {
             return;
         }
         let radius2 = f64::from(radius2);
         let per_area = 1.0 / (PI * radius2);
-        let (flux, moment) = (f64::from(shape.light[lane]), f64::from(moment));
+        let (flux, moment) = (f64::from(disc.light[lane]), f64::from(moment));
         self.light += flux * per_area;
         self.variance += f64::from(squares) * per_area * per_area;
         self.laplacian += (6.0 * moment / radius2 - 3.0 * flux) * per_area;
         let per_length = per_area / radius2.sqrt();
         let mut offset2 = 0.0;
-        for (sum, offset) in self.offset.iter_mut().zip(&shape.offset) {
+        for (sum, offset) in self.offset.iter_mut().zip(&disc.offset) {
             let offset = f64::from(offset[lane]);
             *sum += offset * per_length;
             offset2 += offset * offset;
@@ -92,7 +92,7 @@ impl RadiusStatistics {
         }
     }
 
-    /// R: blur² over half the noise², at most [`MAX`]; 1 while nothing is known.
+    /// R: blur² over half the noise², at most [`MAX_BALANCE`]; 1 while nothing is known.
     fn balance(&self) -> f64 {
         if self.light <= 0.0 || self.variance <= 0.0 {
             return 1.0;
@@ -102,8 +102,8 @@ impl RadiusStatistics {
         let offset2 = self.offset.iter().map(|o| o * o).sum::<f64>() - CAUTION * 0.5 * self.variance;
         let at_edges = OF_OFFSET * offset2.max(0.0) / self.light;
         let blur2 = laplacian2.max(0.0) + at_edges * at_edges;
-        // A quotient of what is no finite number is none; then the most is taken.
-        (blur2 / (0.5 * self.variance)).min(MAX)
+        // NaN where both sums are infinite: `min` then takes the maximum.
+        (blur2 / (0.5 * self.variance)).min(MAX_BALANCE)
     }
 
     /// How far light may be above what the disc sees, squared and relative to that: r²/ρ² − 1 where it lies within a circle of radius
@@ -120,7 +120,7 @@ impl RadiusStatistics {
         // A few photons tell of no circle that is smaller than their share of the disc.
         let ratio = (0.5 * photons / spread.max(f64::MIN_POSITIVE)).min(photons);
         let by_chance = BY_CHANCE / photons.sqrt();
-        // A quotient of what is no finite number is none.
+        // NaN where both sums are infinite.
         if ratio.is_finite() { (ratio - 1.0 - by_chance).max(0.0) } else { 0.0 }
     }
 
@@ -129,10 +129,10 @@ impl RadiusStatistics {
         self.light
     }
 
-    /// The share of new photons to keep where blur and noise in balance ask for `alpha`.
+    /// The share of new photons to retain, which is `alpha` where blur and noise are in balance.
     pub(crate) fn alpha(&self, alpha: Alpha) -> Alpha {
-        let earlier = alpha.get();
-        Alpha::new(earlier / (earlier + (1.0 - earlier) * self.balance())).unwrap_or(alpha)
+        let a = alpha.get();
+        Alpha::new(a / (a + (1.0 - a) * self.balance())).unwrap_or(alpha)
     }
 
     pub(crate) fn write(&self, out: &mut Writer) {
@@ -157,7 +157,7 @@ impl RadiusStatistics {
 mod tests {
     use super::*;
 
-    /// What a disc of radius 1 knows of `n` photons a unit of area, dimmed as `lit` says: laid out evenly, with the noise of random ones.
+    /// The moments of a disc of radius 1 with `n` photons a unit of area, dimmed as `lit` says: laid out evenly, with the noise of random ones.
     fn radius_statistics(n: f64, lit: impl Fn(f64, f64) -> f64) -> RadiusStatistics {
         const RINGS: i32 = 200;
         let mut e = RadiusStatistics::default();
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn uniform_light_keeps_its_radius_whatever_its_photons() {
+    fn uniform_light_never_shrinks_its_radius_whatever_its_photons() {
         for n in [1.0, 1e3, 1e9] {
             assert_eq!(radius_statistics(n, |_, _| 1.0).alpha(Alpha::default()).get(), 1.0);
         }
@@ -194,17 +194,17 @@ mod tests {
         assert!((radius_statistics(n).balance() - 1.0).abs() < 0.02, "{}", radius_statistics(n).balance());
         assert!((radius_statistics(n).alpha(Alpha::default()).get() - 2.0 / 3.0).abs() < 0.01);
         assert_eq!(radius_statistics(0.9 * CAUTION * 3.0 / (PI * c * c)).balance(), 0.0, "it may be noise");
-        assert_eq!(radius_statistics(100.0 * n).balance(), MAX);
+        assert_eq!(radius_statistics(100.0 * n).balance(), MAX_BALANCE);
     }
 
     #[test]
     fn edges_through_the_middle_are_seen_and_gentle_slopes_are_not() {
         let edge = radius_statistics(100.0, |x, _| f64::from(u8::from(x > 0.0)));
         assert!(edge.laplacian.abs() < 1e-3 * edge.light, "both sides cancel");
-        assert_eq!(edge.balance(), MAX);
+        assert_eq!(edge.balance(), MAX_BALANCE);
         let slope = |n: f64| radius_statistics(n, |x, _| 1.0 + 0.1 * x);
         assert!(slope(1e3).balance() < 0.1);
-        assert_eq!(slope(1e9).balance(), MAX, "in the end all blur outweighs noise");
+        assert_eq!(slope(1e9).balance(), MAX_BALANCE, "in the end all blur outweighs noise");
     }
 
     #[test]

@@ -21,8 +21,8 @@ use super::slots::EarlierBatches;
 use crate::error::ErrorSums;
 use crate::settings::{RenderSettings, SettingChange};
 
-/// About so many hit points tell what is seen.
-pub(super) const LOOKED_AT: usize = 4096;
+/// About this many hit points stand for all of them.
+pub(super) const MAX_PROBED: usize = 4096;
 
 /// A render under way.
 pub(crate) struct Ppm {
@@ -38,7 +38,7 @@ pub(crate) struct Ppm {
     pub(super) chunks: Vec<Chunk>,
     pub(super) map: PhotonMap,
     pub(super) earlier: EarlierBatches,
-    /// Photons of a batch at most: [`MAX_PHOTONS`] but in tests.
+    /// The largest number of photons in a batch: [`MAX_PHOTONS`], except in tests.
     pub(super) max_in_batch: u64,
     pub(super) ledger: Ledger,
     pub(super) lights: Vec<LightUse>,
@@ -74,10 +74,10 @@ impl Ppm {
         let normals = lobe_use(&scene).shading_normals;
         let hit_points =
             HitPoints::new(&eye.hit_points, &eye.gloss, eye.pixel_start(), normals, shadow_rays, cancel)?;
-        let asks = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;
-        let hit_points = if asks { hit_points.with_radius_statistics() } else { hit_points };
+        let has_statistics = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;
+        let hit_points = if has_statistics { hit_points.with_radius_statistics() } else { hit_points };
         let start = Start { hit_points: hit_points.len() as u64, eye_rays: eye.rays, dropped: eye.dropped };
-        let step = (eye.hit_points.len() / LOOKED_AT).max(1);
+        let step = (eye.hit_points.len() / MAX_PROBED).max(1);
         let disc = |h: &HitPoint| (h.position, h.radius2.sqrt());
         let seen: Vec<(Vec3, f32)> = eye.hit_points.iter().step_by(step).map(disc).collect();
         let sources = scene.sources(&seen);

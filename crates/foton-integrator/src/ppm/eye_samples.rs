@@ -1,4 +1,4 @@
-//! The eye pass as progressive photon mapping asks for it.
+//! The eye pass of progressive photon mapping.
 
 use foton_math::Purpose;
 use foton_scene::Scene;

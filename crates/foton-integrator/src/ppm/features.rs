@@ -1,6 +1,7 @@
 //! What a render models, and why: each part is in the passes only if the scene or the settings ask for it.
 
-use foton_scene::{Emitter, Scene};
+use foton_scene::{Census, Emitter, Scene};
+use foton_transport::LobeUse;
 use foton_transport::camera_paths::Gloss;
 
 use super::adaptive::RadiusStatistics;
@@ -28,165 +29,161 @@ pub struct Feature {
     pub bytes_per_pixel: usize,
 }
 
+impl Feature {
+    /// A part that costs no memory for each hit point or pixel. `why` has what was found, and what was not.
+    const fn new(name: &'static str, on: bool, why: [&'static str; 2], cost: &'static str) -> Self {
+        let [found, absent] = why;
+        let why = if on { found } else { absent };
+        Self { name, on, why, cost, bytes_per_hit_point: 0, bytes_per_pixel: 0 }
+    }
+
+    const fn with_bytes(self, bytes_per_hit_point: usize, bytes_per_pixel: usize) -> Self {
+        Self { bytes_per_hit_point, bytes_per_pixel, ..self }
+    }
+}
+
 /// All parts that can be left out, with whether they are.
 #[must_use]
 pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
-    let census = scene.census();
-    let lobes = lobe_use(scene);
-    let feature = |name, on, found, absent, cost, bytes_per_hit_point, bytes_per_pixel| Feature {
-        name,
-        on,
-        why: if on { found } else { absent },
-        cost,
-        bytes_per_hit_point,
-        bytes_per_pixel,
-    };
-    let shadow_rays = settings.ppm.direct_light == DirectLight::ShadowRays;
-    let layers = Radiance::<3>::BYTES_PER_PIXEL - Radiance::<1>::BYTES_PER_PIXEL;
-    vec![
-        feature(
+    let (census, lobes) = (scene.census(), lobe_use(scene));
+    let aims = scene.emitters().iter().any(Emitter::aims_at_casters);
+    let parts =
+        eye_paths(census, lobes).into_iter().chain(surfaces(census, lobes)).chain(emitters(census, aims));
+    parts.chain(asked_for(settings)).collect()
+}
+
+fn eye_paths(census: &Census, lobes: LobeUse) -> [Feature; 5] {
+    [
+        Feature::new(
             "followed paths",
             lobes.specular,
-            "mirrors, glass, narrow gloss or openings",
-            "every surface spreads light",
+            ["mirrors, glass, narrow gloss or openings", "every surface spreads light"],
             "eye rays beyond the first",
-            0,
-            0,
         ),
-        feature(
+        Feature::new(
             "splitting at glass",
             census.refraction,
-            "surfaces refract",
-            "nothing refracts",
+            ["surfaces refract", "nothing refracts"],
             "up to hit_points_per_sample hit points a sample",
-            0,
-            0,
         ),
-        feature(
+        Feature::new(
             "narrow gloss",
             lobes.specular_gloss,
-            "lobes of roughness up to 0.1 are followed, each in one direction a sample",
-            "no followed lobe is rough",
+            [
+                "lobes of roughness up to 0.1 count as specular, each sampled once per eye sample",
+                "no specular lobe is rough",
+            ],
             "noise that one eye pass freezes: more --spp lowers it",
-            0,
-            0,
         ),
-        feature(
+        Feature::new(
             "looking at lights from narrow gloss",
             lobes.highlights,
-            "small lamps, points, spots and suns are rarely met by following",
-            "no narrow gloss, or no light but from the sky",
+            [
+                "eye paths rarely meet small area emitters, points, spots and suns",
+                "no narrow gloss, or no light but from the environment",
+            ],
             "up to 17 shadow rays where an eye path meets narrow gloss",
-            0,
-            0,
         ),
-        feature(
+        Feature::new(
             "photons in narrow gloss",
             lobes.highlights_by_photons,
-            "mirrors and smooth glass may throw light of points, spots and suns on it, where no eye path finds that",
-            "no narrow gloss, no such light, or nothing that throws it there",
-            "a hit point wherever narrow gloss is followed, two in rough glass",
-            size_of::<Option<Gloss>>(),
-            0,
-        ),
-        feature(
+            [
+                "mirrors and smooth glass may cast light of points, spots and suns on it, which no eye path finds",
+                "no narrow gloss, no such light, or nothing that casts it there",
+            ],
+            "a hit point wherever narrow gloss is sampled, two in rough glass",
+        )
+        .with_bytes(size_of::<Option<Gloss>>(), 0),
+    ]
+}
+
+fn surfaces(census: &Census, lobes: LobeUse) -> [Feature; 5] {
+    [
+        Feature::new(
             "glossy hit points",
             lobes.gathered_gloss,
-            "gathered lobes that are not Lambertian",
-            "all gathered lobes are Lambertian",
+            ["gathered lobes that are not Lambertian", "all gathered lobes are Lambertian"],
             "a BSDF's value for each photon that counts there",
-            size_of::<Option<Gloss>>(),
-            0,
-        ),
-        feature(
+        )
+        .with_bytes(size_of::<Option<Gloss>>(), 0),
+        Feature::new(
             "rough coats",
             census.rough_coats,
-            "clear coats with facets",
-            "no coat is rough",
-            "an integral a material before the first pass, a series of eight terms a value",
-            0,
-            0,
+            ["rough clear coats", "no coat is rough"],
+            "an integral per material before the first pass, a series of eight terms per value",
         ),
-        feature(
+        Feature::new(
             "shading normals' correction",
             lobes.shading_normals,
-            "interpolated normals on surfaces that spread light",
-            "such surfaces are flat or round",
+            ["interpolated normals on surfaces that spread light", "such surfaces are flat or round"],
             "a direction decoded for each photon that counts",
-            3 * size_of::<f32>(),
-            0,
-        ),
-        feature(
+        )
+        .with_bytes(3 * size_of::<f32>(), 0),
+        Feature::new(
             "textures",
             census.textures,
-            "colours come from textures",
-            "all colours are constant",
-            "a lookup at each surface, 24 bytes a triangle",
-            0,
-            0,
+            ["colours come from textures", "all colours are constant"],
+            "a lookup at each surface, 24 bytes per triangle",
         ),
-        feature(
+        Feature::new(
             "anisotropic frames",
             census.anisotropy,
-            "roughness differs along u and v",
-            "roughness is the same all around",
+            ["roughness differs along u and v", "roughness is the same all around"],
             "a tangent at each surface",
-            0,
-            0,
         ),
-        feature(
+    ]
+}
+
+fn emitters(census: &Census, aims_at_casters: bool) -> [Feature; 2] {
+    [
+        Feature::new(
             "environment",
             census.environment,
-            "light comes from infinity",
-            "no light comes from infinity",
+            ["light comes from infinity", "no light comes from infinity"],
             "radiance for rays that escape, photons that miss",
-            0,
-            0,
         ),
-        feature(
+        Feature::new(
             "aiming at casters",
-            scene.emitters().iter().any(Emitter::aims_at_casters),
-            "light from infinity, and mirrors or glass in a small part of the scene",
-            "no light from infinity, or nothing small to aim at",
-            "two densities a photon",
-            0,
-            0,
+            aims_at_casters,
+            [
+                "light from infinity, and mirrors or glass in a small part of the scene",
+                "no light from infinity, or nothing small to aim at",
+            ],
+            "two pdfs per photon",
         ),
-        feature(
+    ]
+}
+
+fn asked_for(settings: &RenderSettings) -> [Feature; 4] {
+    let layers = Radiance::<3>::BYTES_PER_PIXEL - Radiance::<1>::BYTES_PER_PIXEL;
+    [
+        Feature::new(
             "shadow rays",
-            shadow_rays,
-            "asked for by --direct",
-            "direct light comes by photons",
-            "a ray a hit point and pass",
-            size_of::<ShadowOrigin>(),
-            0,
-        ),
-        feature(
+            settings.ppm.direct_light == DirectLight::ShadowRays,
+            ["asked for by --direct", "direct light comes by photons"],
+            "a ray per hit point and pass",
+        )
+        .with_bytes(size_of::<ShadowOrigin>(), 0),
+        Feature::new(
             "light by path class",
             settings.layers,
-            "asked for by --layers",
-            "no layer asks for it",
+            ["asked for by --layers", "no layer asks for it"],
             "sums three times as large",
-            24,
-            layers,
-        ),
-        feature(
+        )
+        .with_bytes(24, layers),
+        Feature::new(
             "radii that adapt",
             settings.ppm.radius_rule == RadiusRule::Adaptive,
-            "asked for by --radius-rule",
-            "radii shrink as photons are found",
+            ["asked for by --radius-rule", "radii shrink as photons are found"],
             "five moments of each photon that counts",
-            size_of::<RadiusStatistics>(),
-            0,
-        ),
-        feature(
+        )
+        .with_bytes(size_of::<RadiusStatistics>(), 0),
+        Feature::new(
             "live error",
             settings.error,
-            "the error is asked for",
-            "nothing asks how wrong the image is",
+            ["the error is asked for", "the error is not asked for"],
             "two moments of each photon that counts, squares of each pass",
-            ErrorSums::BYTES_PER_HIT_POINT,
-            ErrorSums::BYTES_PER_PIXEL,
-        ),
+        )
+        .with_bytes(ErrorSums::BYTES_PER_HIT_POINT, ErrorSums::BYTES_PER_PIXEL),
     ]
 }

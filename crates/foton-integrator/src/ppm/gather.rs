@@ -9,7 +9,7 @@ use foton_transport::camera_paths::Gloss;
 use foton_transport::photon_map::{LANES, Packet, Photon};
 
 use super::lanes::{Face, cosine_ratio, counting_lanes, distances2, offsets, shading_factor};
-use super::slots::{Asked, Found};
+use super::slots::{ClassTerm, Found};
 use super::tally::Tally;
 
 /// Sums the photons that count for Lambertian hit points. `SHADED` corrects for interpolated normals.
@@ -18,7 +18,7 @@ pub(super) fn collect<const LAYERS: usize, const SHADED: bool, const MOMENTS: bo
     packet: &Packet,
     shading_normals: &[[f32; LANES]; 3],
     photons: &[Photon],
-    asked: &Asked,
+    term: &ClassTerm,
     found: &mut Found<LAYERS>,
     tally: &mut Tally,
 ) {
@@ -30,7 +30,7 @@ pub(super) fn collect<const LAYERS: usize, const SHADED: bool, const MOMENTS: bo
         }
         let mut factor = [1.0; LANES];
         if SHADED {
-            // What does not count is zero from here on: masks that are asked for again below were taken apart lane by lane.
+            // What does not count is zero from here on: the compiler takes masks that are tested again below apart lane by lane.
             factor = shading_factor(packet, shading_normals, photon);
             for l in 0..LANES {
                 factor[l] = f32::from_bits(factor[l].to_bits() & counts[l]);
@@ -54,9 +54,9 @@ pub(super) fn collect<const LAYERS: usize, const SHADED: bool, const MOMENTS: bo
                 let term = luminance * factor[l] * distance2[l];
                 found.moment[l] += f32::from_bits(term.to_bits() & counts[l]);
             }
-            if asked.is_of(photon) {
+            if term.is_of(photon) {
                 for l in 0..LANES {
-                    let answer = asked.answer(luminance * factor[l], distance2[l], l);
+                    let answer = term.of(luminance * factor[l], distance2[l], l);
                     found.answer[l] += f32::from_bits(answer.to_bits() & counts[l]);
                 }
             }
@@ -80,7 +80,7 @@ pub(super) fn collect_gloss<const LAYERS: usize, const MOMENTS: bool>(
     packet: &Packet,
     gloss: &[Option<Gloss>],
     photons: &[Photon],
-    asked: &Asked,
+    term: &ClassTerm,
     found: &mut Found<LAYERS>,
     tally: &mut Tally,
 ) {
@@ -96,7 +96,7 @@ pub(super) fn collect_gloss<const LAYERS: usize, const MOMENTS: bool>(
         let offset = if MOMENTS { offsets(packet, photon) } else { [[0.0; LANES]; 3] };
         let layer = &mut found.flux[Found::<LAYERS>::layer(photon)];
         for l in (0..LANES).filter(|&l| counts[l] != 0) {
-            // EarlierBatches lobes weigh all photons, followed ones those alone that no eye path could bring.
+            // Gathered lobes weigh all photons, specular ones only those whose light no eye path can find.
             let Some(gloss) = gloss[l].as_ref().filter(|g| !g.specular || photon.is_lone()) else { continue };
             found.count[l] += 1;
             let geometric = face.cosine(wi, packet, (gloss.frame.normal / 127.0).to_array(), l).abs() * 127.0;
@@ -112,8 +112,8 @@ pub(super) fn collect_gloss<const LAYERS: usize, const MOMENTS: bool>(
             if MOMENTS {
                 let luminance = weighed.luminance();
                 found.moment[l] += luminance * distance2[l];
-                if asked.is_of(photon) {
-                    found.answer[l] += asked.answer(luminance, distance2[l], l);
+                if term.is_of(photon) {
+                    found.answer[l] += term.of(luminance, distance2[l], l);
                 }
                 found.disc.light[l] += luminance;
                 found.disc.squares[l] += luminance * luminance;

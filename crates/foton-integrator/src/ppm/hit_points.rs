@@ -52,9 +52,6 @@ impl HitPoints {
     ///
     /// # Errors
     /// When cancelled.
-    ///
-    /// # Errors
-    /// When cancelled.
     pub(crate) fn new(
         found: &[HitPoint],
         gloss: &[Gloss],
@@ -127,8 +124,8 @@ impl HitPoints {
         self.gloss_slots.get(slot.checked_sub(self.first_glossy * LANES)?)?.as_ref()
     }
 
-    /// Whether any weighs light by where it comes from.
-    pub(crate) const fn ask_for_directions(&self) -> bool {
+    /// Whether any hit point needs the directions of photons.
+    pub(crate) const fn need_directions(&self) -> bool {
         !(self.gloss_slots.is_empty() && self.shading_normals.is_empty())
     }
 
@@ -137,7 +134,7 @@ impl HitPoints {
         self.slot_of.len()
     }
 
-    /// What is noted of a pixel whose sum was not finite, by its first hit point.
+    /// The record of a pixel whose sum was not finite, by its first hit point.
     pub(crate) fn left_out_at(&self, first: u32) -> LeftOut {
         let slot = self.slot_of[first as usize] as usize;
         self.packets[slot / LANES].left_out(Quantity::PixelSum, slot % LANES)

@@ -1,4 +1,4 @@
-//! What a person may ask of a render while it runs: single hit points, the photons of the last pass, the spread of radii.
+//! Queries of a render while it runs: single hit points, the photons of the last pass, the spread of radii.
 //!
 //! Nothing here is on the path of a pass. World units.
 

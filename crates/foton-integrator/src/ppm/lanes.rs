@@ -35,7 +35,7 @@ pub(super) fn counting_lanes(packet: &Packet, photon: &Photon) -> [u32; LANES] {
     counts
 }
 
-/// From a photon to each lane: once more, so that what asks for no moments is left as it is.
+/// From a photon to each lane: computed again, so that the loop without moments stays as it is.
 #[inline(always)]
 pub(super) fn offsets(packet: &Packet, photon: &Photon) -> [[f32; LANES]; 3] {
     let mut offsets = packet.position;

@@ -1,4 +1,4 @@
-//! Light as it is summed: in one, or by path class where someone asked for layers.
+//! Light as it is summed: in one, or by path class where layers are asked for.
 
 use foton_math::Rgb;
 use foton_scene::Scene;
@@ -8,8 +8,8 @@ use foton_transport::photon_map::{LANES, PathClass};
 
 use super::hit_points::{HitPoints, Irradiance};
 use super::radiance::Radiance;
-use super::shadow_rays;
-use crate::error::{self, ErrorSums, Question};
+use super::shadow_rays::{self, PassKey};
+use crate::error::{self, ErrorSums, PassFacts};
 use crate::settings::RenderSettings;
 
 /// Light of one pass at the hit points, and of all passes in the pixels.
@@ -77,7 +77,7 @@ impl Light {
         &mut self,
         scene: &Scene,
         hit_points: &HitPoints,
-        key: (u64, u64, u64),
+        key: PassKey,
     ) -> (u64, Omissions) {
         each!(self, s => shadow_rays::add(scene, hit_points, &mut s.irradiance_slots, key))
     }
@@ -87,23 +87,13 @@ impl Light {
         each!(self, s => s.radiance.add(hit_points, &s.irradiance_slots))
     }
 
-    /// Tells the error of a pass that was added; `photons` are those of the pass, `power` is a photon's on average.
-    pub(crate) fn add_error(
-        &self,
-        error: &mut ErrorSums,
-        hit_points: &HitPoints,
-        (photons, power): (u64, f64),
-        (question, shadow_rays, before): (Question, bool, u64),
-    ) {
+    /// Adds a pass, which is in the pixels already, to the error.
+    pub(crate) fn add_error(&self, error: &mut ErrorSums, hit_points: &HitPoints, facts: PassFacts) {
         each!(self, s => error.add(&error::Pass {
             hit_points,
             irradiance_slots: &s.irradiance_slots,
             radiance: &s.radiance,
-            photons,
-            power,
-            question,
-            shadow_rays,
-            before,
+            facts,
         }));
     }
 
@@ -122,7 +112,7 @@ impl Light {
         each!(self, s => s.radiance.pixel(pixel, photons))
     }
 
-    /// Reflected radiance of one class; `None` where classes are not kept apart.
+    /// Reflected radiance of one class; `None` where classes are not summed separately.
     pub(crate) fn class(&self, class: PathClass, photons: u64) -> Option<Vec<Rgb>> {
         match self {
             Self::Whole(_) => None,

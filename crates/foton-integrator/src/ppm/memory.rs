@@ -25,7 +25,7 @@ const FILL: f64 = 0.8;
 /// Photons stored per photon emitted, a bound for closed scenes of high albedo: measured 2.5 to 3.5.
 const STORED_PER_EMITTED: f64 = 4.0;
 
-/// Pixels that the pilot looks at, spread evenly.
+/// Pixels of the pilot, spread evenly.
 const PILOT_PIXELS: u32 = 4096;
 
 /// A render's memory, from a pilot of the eye pass over some of the pixels.
@@ -47,7 +47,7 @@ pub struct MemoryEstimate {
     pub layout_bytes: f64,
 }
 
-/// Most hit points, with room for the lanes of packets that stay empty: they are numbered by 32 bits.
+/// The largest number of hit points, with room for the lanes of packets that stay empty: they are numbered by 32 bits.
 const MAX_HIT_POINTS: f64 = FILL * u32::MAX as f64 * 0.9;
 
 impl MemoryEstimate {
@@ -70,7 +70,7 @@ impl MemoryEstimate {
         Some(format!("this render needs about {self}; {:.0} MiB may be used", limit / f64::from(1 << 20)))
     }
 
-    /// The most that is held at one time. Photons come after hit points have been laid out.
+    /// The largest number of bytes that are held at one time. Photons come after hit points have been laid out.
     #[must_use]
     pub fn peak_bytes(&self) -> f64 {
         let lasting = self.scene_bytes + self.hit_point_bytes + self.pixel_bytes;
@@ -96,14 +96,14 @@ impl MemoryEstimate {
     pub fn pilot(scene: &Scene, settings: &RenderSettings, threads: usize) -> Self {
         let sensor = &scene.sensors()[settings.sensor];
         let pixels = u64::from(sensor.width) * u64::from(sensor.height);
-        let looked_at = pixels.min(u64::from(PILOT_PIXELS));
+        let sampled = pixels.min(u64::from(PILOT_PIXELS));
         let one_sample = RenderSettings { samples_per_pixel: std::num::NonZeroU32::MIN, ..settings.clone() };
         let pass = eye_pass(scene, &one_sample, settings.max_depth_in(scene), Purpose::Pilot);
-        let pilot = pass.follow((0..looked_at).map(|i| (i * pixels / looked_at) as u32), &Cancel::default());
+        let pilot = pass.follow((0..sampled).map(|i| (i * pixels / sampled) as u32), &Cancel::default());
         let (found, glossy) = (pilot.hit_points.len(), pilot.gloss.len());
         let samples = pixels as f64 * f64::from(settings.samples_per_pixel.get());
-        let hit_points = found as f64 / looked_at as f64 * samples;
-        let glossy = glossy as f64 / looked_at as f64 * samples;
+        let hit_points = found as f64 / sampled as f64 * samples;
+        let glossy = glossy as f64 / sampled as f64 * samples;
         let layers = if settings.layers { 3.0 } else { 1.0 };
         let shadow = settings.ppm.direct_light == DirectLight::ShadowRays;
         let shaded = lobe_use(scene).shading_normals;

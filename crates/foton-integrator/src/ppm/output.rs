@@ -65,7 +65,7 @@ impl Ppm {
         Some(Layer { name: kind.name().to_owned(), channels })
     }
 
-    /// A layer of light; `None` for one that is not kept, or no light.
+    /// A layer of light; `None` for one that is not summed, or not of light.
     #[must_use]
     pub(crate) fn colour_layer(&self, kind: LayerKind) -> Option<Image> {
         let class = |class| self.light.class(class, self.photons_emitted);

@@ -7,10 +7,10 @@ use rayon::prelude::*;
 
 use super::hit_points::{HitPoints, Irradiance};
 
-/// Pixels that one task looks after.
+/// Pixels of one task.
 const BLOCK: usize = 1024;
 
-/// Sums of radiance per pixel; `LAYERS` is 3 to keep path classes apart, or 1.
+/// Sums of radiance per pixel; `LAYERS` is 3 to sum path classes separately, or 1.
 pub(crate) struct Radiance<const LAYERS: usize> {
     /// Radiance that each pixel sees of emitters, directly or by specular bounces.
     pub(crate) emission: Vec<Rgb>,
@@ -70,7 +70,7 @@ impl<const LAYERS: usize> Radiance<LAYERS> {
             .reduce(Omissions::default, Omissions::followed_by)
     }
 
-    /// Reflected radiance of one class (or of all, where classes are not kept apart) after `photons` in all.
+    /// Reflected radiance of one class (or of all, where classes are not separate) after `photons` in all.
     pub(crate) fn layer(&self, layer: usize, photons: u64) -> Vec<Rgb> {
         let scale = if photons == 0 { 0.0 } else { 1.0 / photons as f64 };
         let rgb = |s: &[f64; 3]| Rgb::from_array(s.map(|c| (c * scale) as f32));

@@ -10,12 +10,12 @@ use crate::error::Question;
 #[derive(Clone, Copy)]
 pub(crate) struct Rule {
     pub(crate) alpha: Alpha,
-    /// Whether it goes by what is known of bias.
+    /// Whether radii adapt to bias.
     pub(crate) adapts: bool,
     /// What all r² are multiplied by, where they shrink together.
     pub(crate) common: Option<f64>,
     pub(crate) batch: Batch,
-    /// What the error asks of one class.
+    /// What the error sums over one class.
     pub(crate) question: Question,
     pub(crate) arch: Arch,
 }

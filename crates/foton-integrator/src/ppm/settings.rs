@@ -3,8 +3,8 @@
 use std::fmt;
 use std::num::NonZeroU32;
 
-/// The share of each pass's new photons that a hit point keeps, in (0, 1]: small shrinks radii fast (less bias, more noise),
-/// 1 never shrinks them.
+/// The fraction of each pass's new photons that a hit point retains, in (0, 1]: a small one shrinks radii fast (less bias, more
+/// noise), and 1 never shrinks them.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Alpha(f64);
 

@@ -12,8 +12,18 @@ use rayon::prelude::*;
 
 use super::hit_points::{HitPoints, Irradiance};
 
-/// Slots that one task looks after.
+/// Slots of one task.
 const BLOCK: usize = 256 * LANES;
+
+/// What the random numbers and the weights of a pass's shadow rays go by.
+#[derive(Clone, Copy)]
+pub(crate) struct PassKey {
+    pub(crate) seed: u64,
+    /// Passes before this one.
+    pub(crate) pass: u64,
+    /// Photons of this pass.
+    pub(crate) photons: u64,
+}
 
 /// Adds this pass's estimate of direct irradiance, times `photons` so that it can join sums that are divided by the number of
 /// photons. Returns the number of rays, and what was left out because it was not finite.
@@ -21,7 +31,7 @@ pub(crate) fn add<const LAYERS: usize>(
     scene: &Scene,
     hit_points: &HitPoints,
     irradiance_slots: &mut [Irradiance<LAYERS>],
-    (seed, pass, photons): (u64, u64, u64),
+    PassKey { seed, pass, photons }: PassKey,
 ) -> (u64, Omissions) {
     let layer = if LAYERS == 1 { 0 } else { PathClass::Direct as usize };
     irradiance_slots

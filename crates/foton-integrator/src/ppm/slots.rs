@@ -9,7 +9,7 @@ use foton_transport::photon_map::{LANES, Packet, Photon};
 use super::adaptive::{DiscMoments, RadiusStatistics};
 use super::hit_points::Irradiance;
 use super::statistics::Statistics;
-use crate::error::Question;
+use crate::error::{Question, SlotMoments};
 
 /// Light found by a packet's lanes.
 pub(crate) struct Found<const LAYERS: usize> {
@@ -17,21 +17,21 @@ pub(crate) struct Found<const LAYERS: usize> {
     pub(crate) count: [u32; LANES],
     /// Σ d² Φ in luminance, where the error is asked for.
     pub(crate) moment: [f32; LANES],
-    /// What [`Asked`] says of the photons of one class, where the error is asked for.
+    /// [`ClassTerm`] summed over the photons of one class, where the error is asked for.
     pub(crate) answer: [f32; LANES],
     /// Where radii adapt.
     pub(crate) disc: DiscMoments,
 }
 
-/// A pass's question in numbers: w (a w + b d² + c) is summed over the photons of a class, w their luminance.
-pub(crate) struct Asked {
+/// The term w (a w + b d² + c) that a pass sums over the photons of one class, w their luminance.
+pub(crate) struct ClassTerm {
     class: usize,
     a: f32,
     b: [f32; LANES],
     c: f32,
 }
 
-impl Asked {
+impl ClassTerm {
     /// w² for the noise; w · 6(s − ½), s = d²/r², for the blur.
     #[inline(always)]
     pub(crate) fn new(question: Question, packet: &Packet) -> Self {
@@ -48,7 +48,7 @@ impl Asked {
     }
 
     #[inline(always)]
-    pub(crate) fn answer(&self, w: f32, distance2: f32, lane: usize) -> f32 {
+    pub(crate) fn of(&self, w: f32, distance2: f32, lane: usize) -> f32 {
         w * (self.a * w + self.b[lane] * distance2 + self.c)
     }
 }
@@ -82,16 +82,26 @@ impl<const LAYERS: usize> Found<LAYERS> {
     }
 
     /// Σ 6(s − ½) Φ/(π r²) with s = d²/r², and the answer about a class: see [`crate::error`].
-    pub(crate) fn write_moments(&self, packet: &Packet, question: Question, moments: &mut [[f32; 2]]) {
+    pub(crate) fn write_moments(&self, packet: &Packet, question: Question, moments: &mut [SlotMoments]) {
         for (l, moment) in moments.iter_mut().enumerate() {
             let radius2 = packet.radius2[l];
             let flux = self.luminance(l);
             // Lanes without a hit point have found nothing.
             let per_area = 1.0 / (PI * radius2);
             let answer = self.answer[l] * if question.noise { per_area * per_area } else { per_area };
-            *moment = [(6.0 * self.moment[l] / radius2 - 3.0 * flux) * per_area, answer];
+            let bias = (6.0 * self.moment[l] / radius2 - 3.0 * flux) * per_area;
+            *moment = SlotMoments { bias, answer };
         }
     }
+}
+
+/// The [`DiscMoments`] of one slot, and Σ Φ d².
+#[derive(Clone, Copy, Default)]
+pub(crate) struct DiscSums {
+    light: f32,
+    squares: f32,
+    offset: [f32; 3],
+    moment: f32,
 }
 
 /// What the batches of a pass leave for the last one beside what its results have room for, by slot; nothing where there is one.
@@ -99,38 +109,38 @@ impl<const LAYERS: usize> Found<LAYERS> {
 pub(crate) struct EarlierBatches {
     /// Photons found.
     pub(crate) counts: Vec<u64>,
-    /// Where radii adapt: Σ Φ, Σ Φ², Σ Φ d and Σ Φ d² (see [`DiscMoments`]).
-    pub(crate) shapes: Vec<[f32; 6]>,
+    /// Where radii adapt.
+    pub(crate) discs: Vec<DiscSums>,
 }
 
 impl EarlierBatches {
-    /// Room for so many slots.
+    /// Room for that many slots.
     pub(crate) fn of(slots: usize, adapts: bool) -> Self {
-        Self { counts: vec![0; slots], shapes: vec![[0.0; 6]; if adapts { slots } else { 0 }] }
+        Self { counts: vec![0; slots], discs: vec![DiscSums::default(); if adapts { slots } else { 0 }] }
     }
 
     /// Bytes held.
     pub(crate) const fn bytes(&self) -> usize {
-        self.counts.capacity() * size_of::<u64>() + self.shapes.capacity() * size_of::<[f32; 6]>()
+        self.counts.capacity() * size_of::<u64>() + self.discs.capacity() * size_of::<DiscSums>()
     }
 
     /// Bytes held a slot.
     pub(crate) const fn bytes_per_slot(adapts: bool) -> usize {
-        size_of::<u64>() + if adapts { size_of::<[f32; 6]>() } else { 0 }
+        size_of::<u64>() + if adapts { size_of::<DiscSums>() } else { 0 }
     }
 }
 
 /// What a gather fills, of some packets.
 pub(crate) struct Slots<'a, const LAYERS: usize> {
     pub(crate) statistics: &'a mut [Statistics],
-    /// Squared radii below which none shrinks.
+    /// Smallest squared radii.
     pub(crate) smallest2: &'a [f32],
     pub(crate) irradiance: &'a mut [Irradiance<LAYERS>],
     /// Empty unless the error is asked for.
-    pub(crate) moments: &'a mut [[f32; 2]],
+    pub(crate) moments: &'a mut [SlotMoments],
     /// Of [`EarlierBatches`].
     pub(crate) counts: &'a mut [u64],
-    pub(crate) shapes: &'a mut [[f32; 6]],
+    pub(crate) discs: &'a mut [DiscSums],
     /// Empty unless radii adapt.
     pub(crate) radius_statistics: &'a mut [RadiusStatistics],
 }
@@ -145,7 +155,7 @@ impl<const LAYERS: usize> Slots<'_, LAYERS> {
             irradiance: &mut self.irradiance[lanes.clone()],
             moments: self.moments.get_mut(lanes.clone()).unwrap_or_default(),
             counts: self.counts.get_mut(lanes.clone()).unwrap_or_default(),
-            shapes: self.shapes.get_mut(lanes.clone()).unwrap_or_default(),
+            discs: self.discs.get_mut(lanes.clone()).unwrap_or_default(),
             radius_statistics: self.radius_statistics.get_mut(lanes).unwrap_or_default(),
         }
     }
@@ -159,22 +169,22 @@ impl<const LAYERS: usize> Slots<'_, LAYERS> {
                 }
             }
         }
-        for (l, [moment, answer]) in self.moments.iter().enumerate() {
-            found.moment[l] += moment;
-            found.answer[l] += answer;
+        for (l, earlier) in self.moments.iter().enumerate() {
+            found.moment[l] += earlier.bias;
+            found.answer[l] += earlier.answer;
         }
-        for (l, [light, squares, x, y, z, moment]) in self.shapes.iter().enumerate() {
-            found.disc.light[l] += light;
-            found.disc.squares[l] += squares;
-            for (sums, earlier) in found.disc.offset.iter_mut().zip([x, y, z]) {
+        for (l, earlier) in self.discs.iter().enumerate() {
+            found.disc.light[l] += earlier.light;
+            found.disc.squares[l] += earlier.squares;
+            for (sums, earlier) in found.disc.offset.iter_mut().zip(earlier.offset) {
                 sums[l] += earlier;
             }
-            found.moment[l] += if self.moments.is_empty() { *moment } else { 0.0 };
+            found.moment[l] += if self.moments.is_empty() { earlier.moment } else { 0.0 };
         }
     }
 
-    /// Keeps sums for the next batch: flux and moments that no area has divided yet.
-    pub(crate) fn keep(&mut self, found: &Found<LAYERS>) {
+    /// Stores sums for the next batch: flux and moments that no area has divided yet.
+    pub(crate) fn store(&mut self, found: &Found<LAYERS>) {
         for (l, earlier) in self.irradiance.iter_mut().enumerate() {
             for (earlier, flux) in earlier.iter_mut().zip(&found.flux) {
                 *earlier = Rgb::new(flux[0][l], flux[1][l], flux[2][l]);
@@ -182,11 +192,15 @@ impl<const LAYERS: usize> Slots<'_, LAYERS> {
         }
         self.counts.iter_mut().zip(found.count).for_each(|(sum, count)| *sum += u64::from(count));
         for (l, moment) in self.moments.iter_mut().enumerate() {
-            *moment = [found.moment[l], found.answer[l]];
+            *moment = SlotMoments { bias: found.moment[l], answer: found.answer[l] };
         }
-        for (l, shape) in self.shapes.iter_mut().enumerate() {
-            let [x, y, z] = [0, 1, 2].map(|axis| found.disc.offset[axis][l]);
-            *shape = [found.disc.light[l], found.disc.squares[l], x, y, z, found.moment[l]];
+        for (l, disc) in self.discs.iter_mut().enumerate() {
+            *disc = DiscSums {
+                light: found.disc.light[l],
+                squares: found.disc.squares[l],
+                offset: found.disc.offset.map(|row| row[l]),
+                moment: found.moment[l],
+            };
         }
     }
 }

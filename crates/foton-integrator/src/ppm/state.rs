@@ -81,7 +81,24 @@ impl Ppm {
             (passes, emitted, last, changes);
         self.settings.ppm.alpha = alpha;
         self.settings.ppm.photons_per_pass = photons;
-        let ledger = &mut self.ledger;
+        self.restore_accounts(&mut input)?;
+        self.restore_hit_points(&mut input)?;
+        match &mut self.light {
+            Light::Whole(sums) => sums.read(&mut input)?,
+            Light::ByClass(sums) => sums.read(&mut input)?,
+        }
+        let error = self.error.as_mut();
+        input.expect(usize::from(error.is_some()))?;
+        if let Some(error) = error {
+            error.read(&mut input)?;
+        }
+        input.finish()?;
+        self.mark_all_cells();
+        Ok(())
+    }
+
+    /// Where power went, what the photons of each emitter were good for, and what went missing at each material.
+    fn restore_accounts(&mut self, input: &mut Reader<'_>) -> Result<(), StateError> {
         let Ledger {
             emitted,
             absorbed,
@@ -92,7 +109,7 @@ impl Ppm {
             shading_gain,
             lost,
             dropped,
-        } = ledger;
+        } = &mut self.ledger;
         for sum in [emitted, absorbed, escaped, roulette, truncated, shading_normals, shading_gain, lost] {
             *sum = input.finite()?;
         }
@@ -105,10 +122,14 @@ impl Ppm {
         for loss in &mut self.losses {
             *loss = Loss { truncated: input.finite()?, dropped: input.count()? };
         }
+        Ok(())
+    }
+
+    fn restore_hit_points(&mut self, input: &mut Reader<'_>) -> Result<(), StateError> {
         let hit_points = &mut self.hit_points;
         input.expect(hit_points.statistics_slots.len())?;
         for (slot, statistics) in hit_points.statistics_slots.iter_mut().enumerate() {
-            let read = Statistics::read(&mut input)?;
+            let read = Statistics::read(input)?;
             // Slots without a hit point stay without.
             if (read.radius2() < 0.0) != (statistics.radius2() < 0.0) {
                 return Err(StateError::Impossible);
@@ -117,19 +138,8 @@ impl Ppm {
             hit_points.packets[slot / LANES].radius2[slot % LANES] = statistics.radius2() as f32;
         }
         for radius_statistics in &mut hit_points.radius_statistics_slots {
-            *radius_statistics = RadiusStatistics::read(&mut input)?;
+            *radius_statistics = RadiusStatistics::read(input)?;
         }
-        match &mut self.light {
-            Light::Whole(sums) => sums.read(&mut input)?,
-            Light::ByClass(sums) => sums.read(&mut input)?,
-        }
-        let error = self.error.as_mut();
-        input.expect(usize::from(error.is_some()))?;
-        if let Some(error) = error {
-            error.read(&mut input)?;
-        }
-        input.finish()?;
-        self.mark_all_cells();
         Ok(())
     }
 }

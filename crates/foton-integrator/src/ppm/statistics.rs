@@ -1,4 +1,4 @@
-//! The progressive update of one hit point: its radius shrinks so that photon density is kept.
+//! The progressive update of one hit point: its radius shrinks so that the density of photons is preserved.
 //!
 //! In the running-mean form of `[PPM08]`: with M photons in the disc of this pass, N' = N + αM and r'² = ρ r² with
 //! ρ = (N + αM)/(N + M). Light is summed as Φ/(π r²) with the radius of its own pass and needs no correction afterwards, so
@@ -9,7 +9,7 @@ use foton_transport::codec::{Reader, StateError, Writer};
 
 use super::settings::Alpha;
 
-/// What a hit point has seen.
+/// The photon statistics of a hit point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistics {
     /// N = Σ αⱼ Mⱼ.
@@ -24,7 +24,7 @@ impl Statistics {
     /// A slot without a hit point.
     pub(crate) const EMPTY_SLOT: Self = Self { accumulated: 0.0, radius2: -1.0, found: 0 };
 
-    /// A hit point that has seen nothing yet. `radius2` in square scene units.
+    /// A hit point without photons. `radius2` in square scene units.
     #[must_use]
     pub const fn new(radius2: f32) -> Self {
         Self { accumulated: 0.0, radius2: radius2 as f64, found: 0 }
@@ -65,7 +65,7 @@ impl Statistics {
             return false;
         }
         let (n, m, alpha) = (self.accumulated, photons as f64, alpha.get());
-        // 1 − (1−α)M/(N+M) keeps its digits when N is far larger than M; (N+αM)/(N+M) would not.
+        // 1 − (1−α)M/(N+M) loses no digits when N is far larger than M; (N+αM)/(N+M) would not.
         let rho = if n == 0.0 { alpha } else { 1.0 - (1.0 - alpha) * m / (n + m) };
         self.accumulated = n + alpha * m;
         self.shrink(photons, rho, smallest2)
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn the_density_of_kept_photons_is_that_of_found_ones_with_alpha_changing() {
+    fn the_density_of_retained_photons_is_that_of_found_ones_with_alpha_changing() {
         // N/r² = Σ Mⱼ/rⱼ².
         let mut stream = Stream::new(1, Purpose::Test, 0, 0);
         let mut s = Statistics::new(3.0);

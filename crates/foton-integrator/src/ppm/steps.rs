@@ -3,19 +3,20 @@
 use foton_transport::light_paths::{Batch, PhotonPass};
 use foton_transport::{Cancel, Cancelled, Halt, LeftOut, NotFinite, Stage};
 
-use super::algorithm::{LOOKED_AT, Ppm};
+use super::algorithm::{MAX_PROBED, Ppm};
 use super::counts::Counts;
 use super::light::Light;
 use super::lobes::LOBE_POLICY;
 use super::report::PassReport;
 use super::rule::Rule;
 use super::settings::{DirectLight, RadiusRule};
+use super::shadow_rays::PassKey;
 use super::slots::EarlierBatches;
 use super::sweep::{Photons, sweep};
 use super::tally::Tally;
-use crate::error::{ErrorSums, Question};
+use crate::error::{ErrorSums, PassFacts, Question};
 
-/// Cells are marked anew when the mean r² has shrunk by this factor since the last time.
+/// Cells are marked again when the mean r² has shrunk by this factor since the last time.
 const MARK_AGAIN: f64 = 0.7;
 
 impl Ppm {
@@ -28,7 +29,7 @@ impl Ppm {
         self.not_finite.clone().or(here).map_or(Ok(()), |place| Err(Box::new(place).into()))
     }
 
-    /// Makes ready for the batches of a pass.
+    /// Prepares for the batches of a pass.
     pub(super) fn begin_pass(&mut self) -> Counts {
         let photons = u64::from(self.settings.ppm.photons_after(self.passes).get());
         let slots = self.hit_points.statistics_slots.len();
@@ -59,7 +60,7 @@ impl Ppm {
             grid: &self.grid,
             stores_direct: self.settings.ppm.direct_light == DirectLight::Photons,
             policy: LOBE_POLICY,
-            directions: self.hit_points.ask_for_directions(),
+            directions: self.hit_points.need_directions(),
             arch: self.arch,
             max_depth: self.settings.max_depth_in(&self.scene),
             seed: self.settings.seed,
@@ -126,11 +127,11 @@ impl Ppm {
         counts.add(&self.chunks, &tally);
     }
 
-    /// Adds direct light by shadow rays, if it is asked for, once hit points are refined.
+    /// Adds direct light by shadow rays, if settings ask for them, once hit points are refined.
     pub(super) fn add_shadow_rays(&mut self, counts: &mut Counts, watch: &mut dyn FnMut(Stage)) {
         if self.settings.ppm.direct_light == DirectLight::ShadowRays {
             watch(Stage::ShadowRays);
-            let key = (self.settings.seed, self.passes, counts.photons);
+            let key = PassKey { seed: self.settings.seed, pass: self.passes, photons: counts.photons };
             let (rays, omissions) = self.light.add_direct(&self.scene, &self.hit_points, key);
             counts.rays += rays;
             counts.leave_out(omissions);
@@ -150,9 +151,14 @@ impl Ppm {
         self.photons_emitted += photons;
         let power = self.mean_power();
         if let Some(error) = &mut self.error {
-            let by_shadow_rays = self.settings.ppm.direct_light == DirectLight::ShadowRays;
-            let asked = (Question::after(self.passes), by_shadow_rays, self.passes);
-            self.light.add_error(error, &self.hit_points, (photons, power), asked);
+            let facts = PassFacts {
+                photons,
+                power,
+                question: Question::after(self.passes),
+                shadow_rays: self.settings.ppm.direct_light == DirectLight::ShadowRays,
+                before: self.passes,
+            };
+            self.light.add_error(error, &self.hit_points, facts);
         }
         self.last_photons = photons;
         self.passes += 1;
@@ -174,7 +180,7 @@ impl Ppm {
     fn mean_power(&self) -> f64 {
         let stored = self.map.photons();
         if self.sources.is_aimed() && !stored.is_empty() {
-            let step = stored.len().div_ceil(LOOKED_AT);
+            let step = stored.len().div_ceil(MAX_PROBED);
             let (sum, count) = stored
                 .iter()
                 .step_by(step)
@@ -184,7 +190,7 @@ impl Ppm {
         self.ledger.emitted / self.photons_emitted.max(1) as f64
     }
 
-    /// Photons that no disc can reach any more need not be stored: marks cells anew once discs are clearly smaller.
+    /// Photons that no disc can reach any more need not be stored: marks cells again once discs are clearly smaller.
     fn mark_cells(&mut self, tally: &Tally) {
         if self.marked_radius2.is_infinite() {
             self.marked_radius2 = tally.radius2;

@@ -10,14 +10,15 @@ use super::gather::{collect, collect_gloss};
 use super::hit_points::{HitPoints, Irradiance};
 use super::refine::refine;
 use super::rule::Rule;
-use super::slots::{Asked, EarlierBatches, Found, Slots};
+use super::slots::{ClassTerm, EarlierBatches, Found, Slots};
 use super::tally::Tally;
+use crate::error::SlotMoments;
 
 /// What is gathered beside light: nothing, or what the error is estimated from and radii that adapt go by.
 const NO_MOMENTS: bool = false;
 const MOMENTS: bool = true;
 
-/// Packets that one task looks after.
+/// Packets of one task.
 const BLOCK: usize = 256;
 
 /// The photons of a batch, and where they are found.
@@ -30,14 +31,14 @@ pub(super) struct Photons<'a> {
 /// Gathers the photons of a batch for all hit points. With the last batch of a pass they are refined, and `irradiance_slots`
 /// hold the pass's estimates; before, they and the other slots hold sums.
 ///
-/// `LAYERS` is 3 to keep path classes apart, or 1. `moment_slots` get what the bias is estimated from, where there are any.
+/// `LAYERS` is 3 to sum path classes separately, or 1. `moment_slots` get what the bias is estimated from, where there are any.
 /// `earlier` has room where a pass has more than one batch.
 pub(super) fn sweep<const LAYERS: usize>(
     hit_points: &mut HitPoints,
     photons: Photons<'_>,
     rule: Rule,
     irradiance_slots: &mut [Irradiance<LAYERS>],
-    moment_slots: &mut [[f32; 2]],
+    moment_slots: &mut [SlotMoments],
     earlier: &mut EarlierBatches,
 ) -> Tally {
     if hit_points.radius_statistics_slots.is_empty() {
@@ -52,12 +53,12 @@ fn sweep_with<const LAYERS: usize, const MOMENTS: bool>(
     photons: Photons<'_>,
     rule: Rule,
     irradiance_slots: &mut [Irradiance<LAYERS>],
-    moment_slots: &mut [[f32; 2]],
+    moment_slots: &mut [SlotMoments],
     earlier: &mut EarlierBatches,
 ) -> Tally {
     let blocks = hit_points.packets.len().div_ceil(BLOCK);
     let moments = by_block(moment_slots, blocks);
-    let (counts, shapes) = (by_block(&mut earlier.counts, blocks), by_block(&mut earlier.shapes, blocks));
+    let (counts, discs) = (by_block(&mut earlier.counts, blocks), by_block(&mut earlier.discs, blocks));
     let radius_statistics = by_block(&mut hit_points.radius_statistics_slots, blocks);
     let shading = &hit_points.shading_normals;
     let (first_glossy, gloss_slots) = (hit_points.first_glossy, &hit_points.gloss_slots);
@@ -68,20 +69,20 @@ fn sweep_with<const LAYERS: usize, const MOMENTS: bool>(
         .zip(hit_points.smallest2_slots.par_chunks(BLOCK * LANES))
         .zip(irradiance_slots.par_chunks_mut(BLOCK * LANES))
         .zip(moments)
-        .zip(counts.into_par_iter().zip(shapes))
+        .zip(counts.into_par_iter().zip(discs))
         .zip(radius_statistics)
         .enumerate()
         .map(
             |(
                 block,
                 (
-                    (((((packets, statistics), smallest2), irradiance), moments), (counts, shapes)),
+                    (((((packets, statistics), smallest2), irradiance), moments), (counts, discs)),
                     radius_statistics,
                 ),
             )| {
                 let first = block * BLOCK;
                 let slots =
-                    Slots { statistics, smallest2, irradiance, moments, counts, shapes, radius_statistics };
+                    Slots { statistics, smallest2, irradiance, moments, counts, discs, radius_statistics };
                 let block = Block { first, first_glossy, packets, slots, shading, gloss_slots };
                 rule.arch.dispatch(OfBlock::<LAYERS, MOMENTS> { block, photons, rule })
             },
@@ -98,7 +99,7 @@ fn by_block<T>(slots: &mut [T], blocks: usize) -> Vec<&mut [T]> {
     (0..blocks).map(|_| shares.next().unwrap_or_default()).collect()
 }
 
-/// Packets that one task looks after, and all that belongs to them.
+/// The packets of one task, and all that belongs to them.
 struct Block<'a, const LAYERS: usize> {
     /// Index of the first packet.
     first: usize,
@@ -133,26 +134,24 @@ impl<const LAYERS: usize, const MOMENTS: bool> WithSimd for OfBlock<'_, LAYERS, 
             runs.clear();
             grid.for_each_run(&packet.bounds(), |first, end| runs.push((first, end)));
             *found = Found::NONE;
-            let asked = Asked::new(rule.question, packet);
+            let term = ClassTerm::new(rule.question, packet);
             if let Some(glossy) = index.checked_sub(first_glossy) {
                 let gloss = &gloss_slots[glossy * LANES..(glossy + 1) * LANES];
                 for &(first, end) in &runs {
                     let photons = map.run(first, end);
-                    collect_gloss::<LAYERS, MOMENTS>(packet, gloss, photons, &asked, &mut found, &mut tally);
+                    collect_gloss::<LAYERS, MOMENTS>(packet, gloss, photons, &term, &mut found, &mut tally);
                 }
             } else if let Some(normals) = shading.get(index) {
                 for &(first, end) in &runs {
                     let photons = map.run(first, end);
-                    collect::<LAYERS, true, MOMENTS>(
-                        packet, normals, photons, &asked, &mut found, &mut tally,
-                    );
+                    collect::<LAYERS, true, MOMENTS>(packet, normals, photons, &term, &mut found, &mut tally);
                 }
             } else {
                 let normals = &[[0.0; LANES]; 3];
                 for &(first, end) in &runs {
                     let photons = map.run(first, end);
                     collect::<LAYERS, false, MOMENTS>(
-                        packet, normals, photons, &asked, &mut found, &mut tally,
+                        packet, normals, photons, &term, &mut found, &mut tally,
                     );
                 }
             }
@@ -161,7 +160,7 @@ impl<const LAYERS: usize, const MOMENTS: bool> WithSimd for OfBlock<'_, LAYERS, 
                 slots.add_earlier(&mut found);
             }
             if !rule.batch.is_last() {
-                slots.keep(&found);
+                slots.store(&found);
                 continue;
             }
             if MOMENTS {

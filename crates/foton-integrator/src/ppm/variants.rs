@@ -1,7 +1,7 @@
 //! Renders that differ only in how they refine, over the same photons: each pass is traced once and gathered by all of them.
 //!
-//! Photon paths know nothing of hit points: neither α nor radii, nor whether direct light comes by shadow rays, change them.
-//! Each variant has the bits of a run of its own; only what its lights' photons came near is told of the widest. Not here: what the differences are worth (`foton-measure`).
+//! Photon paths do not depend on hit points: neither α nor radii, nor whether direct light comes by shadow rays, change them.
+//! Each variant has the bits of a run of its own; only the use of emitters is that of the widest. Not here: what the differences are worth (`foton-measure`).
 
 use std::sync::Arc;
 

@@ -20,7 +20,7 @@ pub enum SweepError {
     Write(#[from] WriteError),
     /// A result that took long cannot be written where it belongs; it is elsewhere.
     #[error("{cause}; it is {} instead", spare.display())]
-    Kept {
+    Rescued {
         /// Why.
         cause: WriteError,
         /// Where it is.

@@ -1,4 +1,4 @@
-//! Where in the image errors are told apart: everywhere that anything reflects, where light is smooth, and the rest.
+//! The parts of the image with figures of their own: everywhere that anything reflects, where light is smooth, and the rest.
 
 /// Pixels to each side that must show one shape, and over which light is compared.
 const REACH: usize = 3;

@@ -99,6 +99,18 @@ pub enum Event {
     Note(String),
 }
 
+impl Event {
+    fn of_job(job: &Job, found: &[Point], is_old: bool) -> Self {
+        Self::Job {
+            photons: job.photons.get(),
+            configurations: job.configurations.len(),
+            passes: found.iter().map(|p| p.pass).max().unwrap_or(0),
+            least_error: found.iter().map(|p| p.error).fold(f64::INFINITY, f64::min),
+            is_old,
+        }
+    }
+}
+
 /// What a sweep has made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
@@ -159,34 +171,21 @@ impl Sweep {
         let mut points: Vec<Vec<Point>> = Vec::new();
         let mut skipped = Vec::new();
         for (i, job) in jobs.iter().enumerate() {
-            let old = store.points(job)?;
-            let is_old = old.is_some();
-            let found = match old {
-                Some(points) => points,
-                None if is_too_large(job, points.first()) => {
-                    skipped.push(count(job.photons.get().into()));
-                    continue;
-                }
-                None => {
-                    let left = self.budget.saturating_sub(begin.elapsed());
-                    if (i > 0 && left.is_zero()) || is_stopped() {
-                        continue;
-                    }
-                    let todo: f64 = jobs[i..].iter().map(|job| weight(job, &centre)).sum();
-                    let time = left.mul_f64(weight(job, &centre) / todo);
-                    match self.run_job(&runner, &store, job, (time, begin), tell)? {
-                        Some(points) => points,
-                        None => break,
-                    }
-                }
+            let left = self.budget.saturating_sub(begin.elapsed());
+            let (found, is_old) = if let Some(points) = store.points(job)? {
+                (points, true)
+            } else if is_too_large(job, points.first()) {
+                skipped.push(count(job.photons.get().into()));
+                continue;
+            } else if (i > 0 && left.is_zero()) || is_stopped() {
+                continue;
+            } else {
+                let todo: f64 = jobs[i..].iter().map(|job| weight(job, &centre)).sum();
+                let time = left.mul_f64(weight(job, &centre) / todo);
+                let Some(points) = self.run_job(&runner, &store, job, (time, begin), tell)? else { break };
+                (points, false)
             };
-            tell(&Event::Job {
-                photons: job.photons.get(),
-                configurations: job.configurations.len(),
-                passes: found.iter().map(|p| p.pass).max().unwrap_or(0),
-                least_error: found.iter().map(|p| p.error).fold(f64::INFINITY, f64::min),
-                is_old,
-            });
+            tell(&Event::of_job(job, &found, is_old));
             points.push(found);
         }
         if !skipped.is_empty() {
@@ -280,7 +279,7 @@ impl Sweep {
         let reference =
             Reference::render(&self.scene, &self.centre, time, &mut is_enough, &is_cancelled, cancel)?;
         let reference = reference.ok_or(SweepError::Dark)?;
-        store.keep_reference(&reference)?;
+        store.write_reference(&reference)?;
         store.reference(eye)?.ok_or(SweepError::Dark)
     }
 

@@ -9,7 +9,7 @@ use foton_integrator::{
 
 use crate::plot::short;
 
-/// Shares of new photons kept.
+/// Values of α.
 const ALPHAS: [f64; 7] = [0.5, 0.6, 2.0 / 3.0, 0.7, 0.8, 0.9, 1.0];
 
 /// Factors on first radii.
@@ -21,7 +21,7 @@ const PHOTONS: std::ops::RangeInclusive<u32> = 14..=22;
 /// What one run differs in from others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Configuration {
-    /// Share of new photons kept.
+    /// Fraction of new photons retained.
     pub alpha: Alpha,
     /// Photons a pass, once passes have grown.
     pub photons: NonZeroU32,
@@ -49,7 +49,7 @@ impl Configuration {
         }
     }
 
-    /// RenderSettings with this configuration.
+    /// Render settings with this configuration.
     #[must_use]
     pub fn settings(&self, base: &RenderSettings) -> RenderSettings {
         RenderSettings {
@@ -144,7 +144,7 @@ pub(crate) struct Job {
 }
 
 impl Job {
-    /// RenderSettings of its runs; after those of its configurations, where the centre is among them, the centre's with layers.
+    /// Render settings of its runs; after those of its configurations, where the centre is among them, the centre's with layers.
     pub(crate) fn settings(&self, base: &RenderSettings) -> Vec<RenderSettings> {
         let centre = Configuration::of(base);
         let mut settings: Vec<RenderSettings> =

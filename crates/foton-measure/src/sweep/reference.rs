@@ -1,7 +1,7 @@
 //! What runs are compared with: an image that someone gives, or a long run of the sweep's own.
 //!
-//! A run of its own sees the same eye samples as what is judged: neither side then has the other's antialiasing error. It keeps
-//! a small radius from first to last (α 1), so that all its passes are independent and their scatter says how noisy it is, and
+//! A run of its own sees the same eye samples as what is judged: neither side then has the other's antialiasing error. Its
+//! radius is small and stays the same (α = 1), so that all its passes are independent and their scatter says how noisy it is, and
 //! takes direct light by shadow rays. Its radius falls with its time as n^(−1/6), as a run's at α = 2/3 does: its noise and what is
 //! left of its blur stay in proportion. An image that is given has no noise of its own known, and differs by what few eye
 //! samples miss.
@@ -25,9 +25,9 @@ use foton_scene::Scene;
 
 use super::masks::{self, Masks};
 
-/// Passes at least: fewer say too little of their own noise.
+/// The smallest number of passes: fewer say too little about their own noise.
 const FEWEST: u64 = 16;
-/// Photons a pass at most.
+/// The largest number of photons per pass.
 const MAX_PHOTONS: NonZeroU32 = NonZeroU32::new(1 << 16).expect("above 0");
 /// Radius over the centre's first radius at `TIME` seconds of rendering.
 const SCALE: f64 = 0.15;

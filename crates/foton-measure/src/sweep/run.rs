@@ -16,8 +16,8 @@ use crate::CompareError;
 /// Passes are judged whenever photons have grown by this factor.
 const SPACING: f64 = 1.9;
 
-/// Judged images of the first seed that are kept: those at equal times are among the last.
-const IMAGES_KEPT: usize = 4;
+/// Pictures are taken from this many of the latest judged passes of the first seed: those at equal times are among them.
+const MAX_LATEST: usize = 4;
 
 /// A run of one seed at one pass.
 #[derive(Clone, Debug)]
@@ -87,87 +87,27 @@ struct Way {
     reports: Vec<PassReport>,
 }
 
-impl Runner<'_> {
-    /// Runs a job for about `time`. With `central`, its centre is also judged by path class, and pictures are kept.
+impl<'a> Runner<'a> {
+    /// Runs a job for about `time`. If it contains `centre`, that is also judged by path class, and pictures are collected.
     pub(crate) fn run(
-        &self,
-        job: &Job,
-        centre: &Configuration,
+        &'a self,
+        job: &'a Job,
+        centre: &'a Configuration,
         time: Duration,
         tell: &mut dyn FnMut(u64, u64),
     ) -> Result<Finished, Unfinished> {
         let is_central = job.configurations.contains(centre);
         let settings = job.settings(self.base);
-        let mut finished = Finished::default();
-        // Passes that are judged, and photons by then.
-        let mut passes: Vec<(u64, u64)> = Vec::new();
-        let mut table: Vec<Vec<(Judge, Vec<Row>)>> = Vec::new();
+        let mut runs = JobRuns { runner: self, job, centre, is_central, settings, checkpoints: Vec::new() };
+        let mut pictures = Vec::new();
         for seed in 0..self.seeds {
-            let begin = Instant::now();
-            let slot = time.div_f64(self.seeds.max(1) as f64);
-            let mut way = self.start(&settings, seed)?;
-            let mut kept: Vec<Vec<Picture>> = Vec::new();
-            let mut checkpoint = 0;
-            loop {
-                if (self.is_stopped)() {
-                    return Err(Unfinished::Stopped);
-                }
-                way.advance(self.cancel)?;
-                let pass = way.reports[0].pass;
-                tell(seed, pass);
-                let is_last = if seed == 0 {
-                    begin.elapsed() >= slot && pass >= 2
-                } else {
-                    passes.last().is_some_and(|(last, _)| pass >= *last)
-                };
-                let is_due = if seed == 0 {
-                    is_due(&passes, &way.reports[0], is_last)
-                } else {
-                    passes.iter().any(|(p, _)| *p == pass)
-                };
-                if is_due {
-                    if seed == 0 {
-                        passes.push((pass, way.reports[0].photons));
-                        table.push(
-                            settings
-                                .iter()
-                                .map(|s| (Judge::new(self.reference, s.layers && is_central), Vec::new()))
-                                .collect(),
-                        );
-                    }
-                    let pictures =
-                        self.judge(&way, seed, &job.configurations, centre, &mut table[checkpoint])?;
-                    if seed == 0 && is_central {
-                        kept.push(pictures);
-                        if kept.len() > IMAGES_KEPT {
-                            kept.remove(0);
-                        }
-                    }
-                    checkpoint += 1;
-                }
-                if is_last {
-                    break;
-                }
-            }
             if seed == 0 {
-                finished.pictures = at_equal_times(&kept);
+                pictures = runs.first_seed(time.div_f64(self.seeds as f64), tell)?;
+            } else {
+                runs.next_seed(seed, tell)?;
             }
         }
-        for checkpoint in table {
-            let own = job.configurations.len();
-            let mut gathered: Vec<Gathered> = checkpoint
-                .into_iter()
-                .map(|(judge, rows)| Gathered { spread: judge.spread(self.reference), rows })
-                .collect();
-            if let Some(by_class) = gathered.get(own).map(|g| g.spread.classes) {
-                gathered.truncate(own);
-                for g in gathered.iter_mut().filter(|g| g.rows[0].configuration == *centre) {
-                    g.spread.classes.clone_from(&by_class);
-                }
-            }
-            finished.gathered.extend(gathered);
-        }
-        Ok(finished)
+        Ok(Finished { gathered: runs.gathered(), pictures })
     }
 
     fn start(&self, settings: &[RenderSettings], seed: u64) -> Result<Way, Unfinished> {
@@ -180,27 +120,124 @@ impl Runner<'_> {
         let runs = runs.ok_or(Unfinished::Stopped)?;
         Ok(Way { runs, clock, reports: Vec::new() })
     }
+}
 
-    /// Judges all runs as they stand; returns their images.
-    fn judge(
-        &self,
-        way: &Way,
-        seed: u64,
-        configurations: &[Configuration],
-        centre: &Configuration,
-        cells: &mut [(Judge, Vec<Row>)],
+/// A pass after which all runs of a job are judged, seed after seed.
+struct Checkpoint {
+    pass: u64,
+    photons: u64,
+    /// One for each run.
+    cells: Vec<Cell>,
+}
+
+/// What is known of one configuration at one pass.
+struct Cell {
+    judge: Judge,
+    rows: Vec<Row>,
+}
+
+/// A job on its way. The first seed decides, by the time, which passes are judged; the others follow it.
+struct JobRuns<'a> {
+    runner: &'a Runner<'a>,
+    job: &'a Job,
+    centre: &'a Configuration,
+    is_central: bool,
+    settings: Vec<RenderSettings>,
+    checkpoints: Vec<Checkpoint>,
+}
+
+impl JobRuns<'_> {
+    /// Runs the first seed for about `time`, and returns pictures at about equal times.
+    fn first_seed(
+        &mut self,
+        time: Duration,
+        tell: &mut dyn FnMut(u64, u64),
     ) -> Result<Vec<Picture>, Unfinished> {
+        let begin = Instant::now();
+        let mut way = self.runner.start(&self.settings, 0)?;
+        let mut latest: Vec<Vec<Picture>> = Vec::new();
+        loop {
+            let report = self.advance(&mut way, 0, tell)?;
+            let is_last = begin.elapsed() >= time && report.pass >= 2;
+            if is_due(self.checkpoints.last(), &report, is_last) {
+                let judge =
+                    |s: &RenderSettings| Judge::new(self.runner.reference, s.layers && self.is_central);
+                let cells =
+                    self.settings.iter().map(|s| Cell { judge: judge(s), rows: Vec::new() }).collect();
+                self.checkpoints.push(Checkpoint { pass: report.pass, photons: report.photons, cells });
+                let pictures = self.judge(&way, 0, self.checkpoints.len() - 1)?;
+                if self.is_central {
+                    latest.push(pictures);
+                    if latest.len() > MAX_LATEST {
+                        latest.remove(0);
+                    }
+                }
+            }
+            if is_last {
+                return Ok(at_equal_times(&latest));
+            }
+        }
+    }
+
+    /// Runs another seed up to the last pass of the first.
+    fn next_seed(&mut self, seed: u64, tell: &mut dyn FnMut(u64, u64)) -> Result<(), Unfinished> {
+        let mut way = self.runner.start(&self.settings, seed)?;
+        for checkpoint in 0..self.checkpoints.len() {
+            while way.reports.first().is_none_or(|report| report.pass < self.checkpoints[checkpoint].pass) {
+                self.advance(&mut way, seed, tell)?;
+            }
+            self.judge(&way, seed, checkpoint)?;
+        }
+        Ok(())
+    }
+
+    /// One pass of all runs of a seed, unless someone has stopped the sweep.
+    fn advance(
+        &self,
+        way: &mut Way,
+        seed: u64,
+        tell: &mut dyn FnMut(u64, u64),
+    ) -> Result<PassReport, Unfinished> {
+        if (self.runner.is_stopped)() {
+            return Err(Unfinished::Stopped);
+        }
+        way.advance(self.runner.cancel)?;
+        let report = way.reports[0];
+        tell(seed, report.pass);
+        Ok(report)
+    }
+
+    /// What all seeds have found: for each judged pass each configuration of the job.
+    fn gathered(self) -> Vec<Gathered> {
+        let own = self.job.configurations.len();
+        let mut all = Vec::new();
+        for checkpoint in self.checkpoints {
+            let gather =
+                |cell: Cell| Gathered { spread: cell.judge.spread(self.runner.reference), rows: cell.rows };
+            let mut gathered: Vec<Gathered> = checkpoint.cells.into_iter().map(gather).collect();
+            if let Some(by_class) = gathered.get(own).map(|g| g.spread.classes) {
+                gathered.truncate(own);
+                for g in gathered.iter_mut().filter(|g| g.rows[0].configuration == *self.centre) {
+                    g.spread.classes.clone_from(&by_class);
+                }
+            }
+            all.extend(gathered);
+        }
+        all
+    }
+
+    /// Judges all runs of a seed as they stand at a checkpoint; returns their images.
+    fn judge(&mut self, way: &Way, seed: u64, checkpoint: usize) -> Result<Vec<Picture>, Unfinished> {
         let mut pictures = Vec::new();
-        for (i, ((run, report), (judge, rows))) in
-            way.runs.runs().iter().zip(&way.reports).zip(cells).enumerate()
-        {
+        let cells = &mut self.checkpoints[checkpoint].cells;
+        for (i, ((run, report), cell)) in way.runs.runs().iter().zip(&way.reports).zip(cells).enumerate() {
             let image = run.image();
-            let judged = judge.add(run, &image, self.reference).map_err(Unfinished::Compare)?;
+            let judged = cell.judge.add(run, &image, self.runner.reference).map_err(Unfinished::Compare)?;
             // Beyond the job's own there is the centre with layers.
-            let configuration = configurations.get(i).copied();
+            let configuration = self.job.configurations.get(i).copied();
             let (error, spent) = (judged.error[0], way.clock.of(i));
-            rows.push(Row {
-                configuration: configuration.unwrap_or(*centre),
+            cell.rows.push(Row {
+                configuration: configuration.unwrap_or(*self.centre),
                 seed,
                 report: *report,
                 spent,
@@ -226,18 +263,17 @@ impl Way {
 }
 
 /// Whether a pass is to be judged: the first, the last, and each by which photons have about doubled.
-fn is_due(passes: &[(u64, u64)], report: &PassReport, is_last: bool) -> bool {
-    let grown = |(_, photons): &(u64, u64)| report.photons as f64 >= SPACING * *photons as f64;
-    is_last || passes.last().is_none_or(grown)
+fn is_due(before: Option<&Checkpoint>, report: &PassReport, is_last: bool) -> bool {
+    is_last || before.is_none_or(|before| report.photons as f64 >= SPACING * before.photons as f64)
 }
 
 /// Of each configuration the picture whose time is nearest to the shortest of their last times.
-fn at_equal_times(kept: &[Vec<Picture>]) -> Vec<Picture> {
-    let Some(last) = kept.last() else { return Vec::new() };
+fn at_equal_times(latest: &[Vec<Picture>]) -> Vec<Picture> {
+    let Some(last) = latest.last() else { return Vec::new() };
     let time = last.iter().map(|p| p.cpu).fold(f64::INFINITY, f64::min);
     let off = |p: &Picture| (p.cpu.max(1e-9) / time.max(1e-9)).ln().abs();
     (0..last.len())
-        .filter_map(|i| kept.iter().map(|all| &all[i]).min_by(|a, b| off(a).total_cmp(&off(b))))
+        .filter_map(|i| latest.iter().map(|all| &all[i]).min_by(|a, b| off(a).total_cmp(&off(b))))
         .cloned()
         .collect()
 }

@@ -89,7 +89,7 @@ impl Store {
             }
             None => write(&path, &format!("{identity}\n"))?,
         }
-        // Before a minute is spent on what could not be kept.
+        // Before a minute is spent on what could not be written.
         for name in ["runs.csv", "summary.csv", "index.html", "parts/_", "images/_"] {
             check_writable(&store.path(name))?;
         }
@@ -111,17 +111,17 @@ impl Store {
         table::read_summary(&text).map(Some).ok_or(SweepError::Table { path })
     }
 
-    /// Keeps what a job found. The summary comes last: where it is, all is.
+    /// Writes what a job found. The summary comes last: where it is, all is.
     pub(crate) fn finish(&self, job: &Job, runs: &str, points: &[Point]) -> Result<(), SweepError> {
         let runs = table::runs_heading() + runs;
         let summary = table::summary_heading() + &table::summary(points);
         let summary_path = self.part(job, "summary");
-        if let Err(error) = keep(&self.part(job, "runs"), |path| write_text(path, &runs)) {
+        if let Err(error) = write_or_rescue(&self.part(job, "runs"), |path| write_text(path, &runs)) {
             // Both are worth having, but not one of them in its place.
             write_spare(&summary_path, |path| write_text(path, &summary));
             return Err(error);
         }
-        keep(&summary_path, |path| write_text(path, &summary))
+        write_or_rescue(&summary_path, |path| write_text(path, &summary))
     }
 
     /// Joins the parts of all finished jobs; returns the tables.
@@ -152,20 +152,20 @@ impl Store {
         Ok(path)
     }
 
-    /// Keeps a reference of the sweep's own.
-    pub(crate) fn keep_reference(&self, reference: &Reference) -> Result<(), SweepError> {
+    /// Writes a reference of the sweep's own.
+    pub(crate) fn write_reference(&self, reference: &Reference) -> Result<(), SweepError> {
         let mut metadata = Metadata::default();
         metadata.set(ORIGIN, &reference.origin);
         let path = self.path("reference.exr");
         // Last: where it is, all is.
-        match self.keep_moments(reference, &metadata) {
-            Ok(()) => keep(&path, |path| write_exr(path, &reference.image, &[], &metadata)),
-            Err(cause) => Err(kept(cause, &path, |path| write_exr(path, &reference.image, &[], &metadata))),
+        match self.write_moments(reference, &metadata) {
+            Ok(()) => write_or_rescue(&path, |path| write_exr(path, &reference.image, &[], &metadata)),
+            Err(cause) => Err(rescue(cause, &path, |path| write_exr(path, &reference.image, &[], &metadata))),
         }
     }
 
     /// What a reference has beside its image.
-    fn keep_moments(&self, reference: &Reference, metadata: &Metadata) -> Result<(), WriteError> {
+    fn write_moments(&self, reference: &Reference, metadata: &Metadata) -> Result<(), WriteError> {
         let (width, height) = (reference.image.width, reference.image.height);
         let of = |pixel: &dyn Fn(usize) -> [f64; 3]| Image {
             width,
@@ -184,7 +184,7 @@ impl Store {
         write_exr(&self.path("reference-variance.exr"), &image, &[], metadata)
     }
 
-    /// The reference that was kept, if any.
+    /// The reference that an earlier run wrote, if any.
     pub(crate) fn reference(&self, eye: &Render) -> Result<Option<Reference>, SweepError> {
         if !self.path("reference.exr").is_file() {
             return Ok(None);
@@ -204,7 +204,7 @@ impl Store {
         Ok(Reference::new(eye, image, Some(classes), (Some(variance), Some(wide)), origin))
     }
 
-    /// Keeps pictures at equal times and maps of their errors, all on one scale.
+    /// Writes pictures at equal times and maps of their errors, all on one scale.
     pub(crate) fn pictures(&self, pictures: &[Picture], reference: &Image) -> Result<(), SweepError> {
         if pictures.is_empty() {
             return Ok(());
@@ -238,7 +238,7 @@ impl Store {
         write(&self.path("images/list.txt"), &list)
     }
 
-    /// The pictures that were kept, the reference first.
+    /// The pictures that were written, the reference first.
     pub(crate) fn read_pictures(&self) -> Result<Vec<Shown>, SweepError> {
         let Some(list) = read(&self.path("images/list.txt"))? else { return Ok(Vec::new()) };
         let bytes = |name: &str| {
@@ -279,14 +279,14 @@ fn write_text(path: &Path, text: &str) -> Result<(), WriteError> {
     atomic_write(path, |file| file.write_all(text.as_bytes()))
 }
 
-/// Writes what took long to find. Where that fails, the error says where it is instead.
-fn keep(path: &Path, write: impl Fn(&Path) -> Result<(), WriteError>) -> Result<(), SweepError> {
-    write(path).map_err(|cause| kept(cause, path, write))
+/// Writes what took long to find, elsewhere if it cannot be written where it belongs; the error then says where.
+fn write_or_rescue(path: &Path, write: impl Fn(&Path) -> Result<(), WriteError>) -> Result<(), SweepError> {
+    write(path).map_err(|cause| rescue(cause, path, write))
 }
 
-fn kept(cause: WriteError, path: &Path, write: impl Fn(&Path) -> Result<(), WriteError>) -> SweepError {
+fn rescue(cause: WriteError, path: &Path, write: impl Fn(&Path) -> Result<(), WriteError>) -> SweepError {
     match write_spare(path, write) {
-        Some(spare) => SweepError::Kept { cause, spare },
+        Some(spare) => SweepError::Rescued { cause, spare },
         None => cause.into(),
     }
 }
@@ -308,7 +308,7 @@ mod tests {
         let part = store.part(&jobs[0], "runs");
         let error = store.finish(&jobs[0], "a,run\n", &[]).expect_err("no folder");
         let said = error.to_string();
-        let SweepError::Kept { spare, .. } = error else { panic!("{said}") };
+        let SweepError::Rescued { spare, .. } = error else { panic!("{said}") };
         let inside = folder.join("parts");
         let expected = format!(
             "cannot write {}: the folder {} does not exist; it is {} instead",
@@ -317,7 +317,7 @@ mod tests {
             spare.display()
         );
         assert_eq!(said, expected);
-        assert!(fs::read_to_string(&spare).expect("kept").ends_with("a,run\n"));
+        assert!(fs::read_to_string(&spare).expect("rescued").ends_with("a,run\n"));
         // Its summary is beside it, under the same number.
         let name = spare.file_name().expect("a name").to_string_lossy().replace("runs", "summary");
         assert!(fs::read_to_string(spare.with_file_name(&name)).is_ok(), "{name}");

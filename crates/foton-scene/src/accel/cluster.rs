@@ -2,7 +2,7 @@
 //! that choose each other are joined, round by round. `[MB18]`
 //!
 //! Some scenes give each round one pair to join: boxes that are equal, or of which each holds the one before, choose in a row. So
-//! all rounds together may look at a number of boxes that grows with the scene's alone; what is then left is divided from the top
+//! all rounds together may visit a number of boxes that is proportional to the scene's; what is then left is divided from the top
 //! ([`super::divide`]). In scenes that are no such heap, rounds halve what is left and end long before.
 
 use foton_math::Cancelled;
@@ -16,17 +16,17 @@ use rayon::prelude::*;
 use super::divide::divide;
 use crate::build::Gauge;
 
-/// Neighbours on each side that are looked at.
+/// Neighbours on each side that are considered.
 const NEIGHBOURS: usize = 6;
 
-/// Rounds at the beginning that look at one neighbour on each side only.
+/// Rounds at the beginning that consider one neighbour on each side only.
 const QUICK_ROUNDS: usize = 2;
 
-/// Boxes that all rounds look at, for each box of the scene. The shipped scenes need 3 to 5.
-const LOOKS_PER_BOX: usize = 24;
+/// Boxes that all rounds visit, for each box of the scene. The shipped scenes need 3 to 5.
+const VISITS_PER_BOX: usize = 24;
 
-/// Boxes that may be looked at in any scene: so few take no time.
-const FREE_LOOKS: usize = 1 << 18;
+/// Boxes that may be visited in any scene: so few take no time.
+const FREE_VISITS: usize = 1 << 18;
 
 /// Of all nodes, this share is put elsewhere at first, where that makes rays cheaper, and then ever fewer.
 const MOVED_SHARE: f32 = 0.02;
@@ -86,14 +86,14 @@ impl Rounds {
     fn join_all(&mut self, tree: &mut Vec<Bvh2Node>, gauge: &Gauge<'_>) -> Result<usize, Cancelled> {
         let boxes = self.nodes.len();
         tree.resize((2 * boxes).saturating_sub(1), Bvh2Node::default());
-        let (mut free, mut rounds, mut looks) = (tree.len(), 0, FREE_LOOKS + LOOKS_PER_BOX * boxes);
+        let (mut free, mut rounds, mut visits) = (tree.len(), 0, FREE_VISITS + VISITS_PER_BOX * boxes);
         while self.nodes.len() > 1 {
             let before = self.nodes.len();
-            let Some(left) = looks.checked_sub(before) else {
+            let Some(left) = visits.checked_sub(before) else {
                 let below = divide(&mut self.nodes, &mut tree[..free], gauge)?;
                 return Ok(rounds + below);
             };
-            looks = left;
+            visits = left;
             if rounds < QUICK_ROUNDS {
                 self.choose_next();
             } else {
@@ -126,19 +126,19 @@ impl Rounds {
         let mut costs = [[0.0; NEIGHBOURS]; NEIGHBOURS];
         for (i, node) in self.nodes.iter().enumerate() {
             gauge.check_at(i)?;
-            let (mut least, mut choice) = (f32::INFINITY, 0);
+            let (mut min_cost, mut choice) = (f32::INFINITY, 0);
             for back in (1..=NEIGHBOURS.min(i)).rev() {
                 let cost = costs[(i - back) % NEIGHBOURS][back - 1];
-                if cost <= least {
-                    (least, choice) = (cost, -(back as i8));
+                if cost <= min_cost {
+                    (min_cost, choice) = (cost, -(back as i8));
                 }
             }
             let costs = &mut costs[i % NEIGHBOURS];
             for (ahead, other) in self.nodes[i + 1..].iter().take(NEIGHBOURS).enumerate() {
                 let cost = joined_area(node, other);
                 costs[ahead] = cost;
-                if cost <= least {
-                    (least, choice) = (cost, ahead as i8 + 1);
+                if cost <= min_cost {
+                    (min_cost, choice) = (cost, ahead as i8 + 1);
                 }
             }
             self.choices[i] = choice;

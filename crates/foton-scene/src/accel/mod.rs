@@ -20,7 +20,7 @@ use node::{BoxRay, Child, Node, QUAD, Quad, Target, WIDTH};
 /// Boxes grow by this share of the scene's half-size on each side: rounding errors of the triangle test, with a margin.
 const PADDING: f32 = 1e-6;
 
-/// Nodes that are looked at for each primitive that may be visited near a box: in most scenes far fewer are.
+/// Nodes that a query near a box may visit for each primitive that it may: in most scenes it visits far fewer.
 const NODES_PER_VISIT: usize = 64;
 
 /// Places on a ray's stack before it spills to the heap.
@@ -166,10 +166,10 @@ impl Accel {
         false
     }
 
-    /// Calls `visit` with the index of each primitive whose box, or that of its leaf, meets a box, until about `most` were visited:
-    /// where very many lie in one place, looking at all from each would never end.
-    pub(crate) fn for_each_near(&self, near: &Aabb, most: usize, mut visit: impl FnMut(usize)) {
-        let (mut left, mut nodes) = (most, most.saturating_mul(NODES_PER_VISIT));
+    /// Calls `visit` with the index of each primitive whose box, or that of its leaf, meets a box, until about `max` were visited:
+    /// where very many lie in one place, visiting all from each would never end.
+    pub(crate) fn for_each_near(&self, near: &Aabb, max: usize, mut visit: impl FnMut(usize)) {
+        let (mut left, mut nodes) = (max, max.saturating_mul(NODES_PER_VISIT));
         let mut stack = Stack::new();
         if !self.nodes.is_empty() {
             stack.push(Place { t: 0.0, child: Child::node(0) });

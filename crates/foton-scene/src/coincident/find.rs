@@ -9,7 +9,7 @@ use crate::scene::Scene;
 
 use super::share::{Coincidences, MAX_NEAR, Share};
 
-/// Of those so many are kept.
+/// The largest number of partners that are recorded for a primitive.
 const MAX_PARTNERS: usize = 16;
 
 impl Coincidences {

@@ -1,6 +1,6 @@
 //! Which primitives and shapes lie in one another.
 
-/// Of the primitives near another, so many are looked at: a heap of thousands in one place must not take for ever.
+/// The largest number of primitives that are tested near another: a heap of thousands in one place must not take for ever.
 pub(super) const MAX_NEAR: usize = 512;
 
 /// What a primitive has in common with others.

@@ -1,9 +1,9 @@
 //! The eye pass: from the sensor through mirrors, glass and narrow gloss to the surfaces that spread light, once.
 //!
-//! At each surface the lobes that spread light are kept by a hit point and the others are followed. Where there are several
-//! to follow, a path splits, weighted by Fresnel, while its weight and depth are worth it and the sample's share of hit
-//! points lasts; after that it takes one by chance. Light seen by followed bounces only is added up here: no photon is stored
-//! for it anywhere.
+//! At each surface a hit point gathers light for the lobes that spread it, and the path goes on by the specular ones. Where there
+//! are several of those, it splits, weighted by Fresnel, while its weight and depth are worth it and the sample's share of hit
+//! points lasts; after that it chooses one at random. Emission seen by specular bounces alone is added up here, and no photons
+//! are stored for it.
 
 use std::num::NonZeroU32;
 
@@ -15,7 +15,7 @@ use super::radius::FirstRadius;
 use crate::lobes::{LobePolicy, LobeUse};
 use crate::not_finite::LeftOut;
 
-/// What the shape-id layer says where a pixel sees nothing.
+/// The value of the shape-id layer where a pixel sees nothing.
 pub const NO_SHAPE: u32 = u32::MAX;
 
 /// What the eye pass finds in some pixels.
@@ -33,9 +33,9 @@ pub struct EyePaths {
     pub shapes: Vec<u32>,
     /// Rays traced.
     pub rays: u64,
-    /// Paths given up because their weight or light was not a finite number.
+    /// Paths dropped because their weight or light was not a finite number.
     pub dropped: u64,
-    /// The first value of those that was none.
+    /// The first of those values.
     pub left_out: Option<LeftOut>,
 }
 

@@ -1,11 +1,11 @@
-//! Highlights of lights in narrow gloss, by looking at the lights.
+//! Highlights in narrow gloss, by sampling emitters (next-event estimation).
 //!
-//! An eye path that follows a rough lobe in one direction meets a sky, often a large lamp, rarely a small one, and a point, a
-//! spot or the sun never. So lights are also looked up from where a rough lobe of a metal or coat is followed: those without
-//! extent all of them, of lamps one. A lamp is then found in two ways, weighted by the balance heuristic [VEA97, §9.2].
-//! What lies in between blocks; but what lights without extent send straight through thin glass, masks and nothing is weighed by
-//! those, since no path finds it otherwise. What mirrors and glass bend of such light comes as photons to hit points of such
-//! lobes' own ([`Gloss::narrow`](super::hit_point::Gloss)).
+//! An eye path that samples a rough specular lobe once meets an environment, often a large area emitter, rarely a small one, and
+//! a delta emitter never. So emitters are also sampled from rough specular lobes of metals and coats: all delta emitters, and one
+//! area emitter. Light of area emitters is then found in two ways, weighted by the balance heuristic [VEA97, §9.2]. Surfaces in
+//! between block, except that light of delta emitters passes straight through thin glass, masks and null surfaces, attenuated by
+//! them, since no path finds it otherwise. Such light that mirrors and glass deflect arrives as photons, at hit points for these
+//! lobes alone ([`Gloss::narrow`](super::hit_point::Gloss)).
 
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Frame, Ray, Rgb, Stream};
@@ -16,10 +16,21 @@ use crate::lobes::LobeSplit;
 use crate::shading::leaves_wrongly;
 use crate::straight;
 
-/// So many lights without extent are all looked up; of more, so many are chosen by chance.
-const MAX: usize = 16;
+/// Up to this many delta emitters are all sampled; of more, this many are chosen at random.
+const MAX_DELTA_EMITTERS: usize = 16;
 
-/// Where an eye path follows rough lobes.
+/// Random numbers for a point on an area emitter.
+#[derive(Clone, Copy)]
+pub(super) struct EmitterDraw {
+    /// Chooses the emitter.
+    pub(super) emitter: f32,
+    /// Chooses a primitive of it.
+    pub(super) part: f32,
+    /// Chooses a point of that.
+    pub(super) point: Vec2,
+}
+
+/// A point with rough specular lobes on an eye path.
 #[derive(Clone, Copy)]
 pub(super) struct Glossy<'a> {
     pub scene: &'a Scene,
@@ -30,79 +41,82 @@ pub(super) struct Glossy<'a> {
     pub frame: &'a Frame,
     /// Where the path came from, local.
     pub wo: Vec3,
-    /// The most edges from here to a light.
+    /// The largest number of edges from here to an emitter.
     pub edges: u32,
 }
 
 impl Glossy<'_> {
-    /// Radiance towards `wo`, off the followed lobes, from lights that are looked up; a lamp is chosen and sampled by `u`.
-    /// Adds to the number of rays.
-    pub(super) fn looked_up(&self, u: (f32, f32, Vec2), stream: &mut Stream, rays: &mut u64) -> Rgb {
+    /// Radiance towards `wo` that the specular lobes reflect or transmit of sampled emitters; `u` chooses a point on an area
+    /// emitter. Adds to the number of rays.
+    pub(super) fn highlights(&self, u: EmitterDraw, stream: &mut Stream, rays: &mut u64) -> Rgb {
         let census = self.scene.census();
         let mut sum = Rgb::BLACK;
         if census.delta_emitters {
             sum += self.delta_emitters(stream, rays);
         }
         if census.area_emitters {
-            sum += self.lamp(u, rays);
+            sum += self.area_emitter(u, rays);
         }
         sum
     }
 
-    /// The pdf (sr⁻¹) with which a glossy specular lobe is followed into `wi`; 0 for rough glass, which finds emitters by following
-    /// alone.
+    /// The pdf (sr⁻¹) of sampling `wi` by a glossy specular lobe; 0 for rough glass, since only sampling its lobes finds area emitters.
     pub(super) fn pdf(scattering: &Scattering, split: LobeSplit, wo: Vec3, wi: Vec3) -> f32 {
         if split.follows_gloss() { scattering.glossy_pdf(wo, wi) } else { 0.0 }
     }
 
-    /// Of two ways to find a lamp, the share of following a lobe with the given density (sr⁻¹) into it from `position`.
-    pub(super) fn share_of_following(scene: &Scene, lamp: &Surface, position: Vec3, density: f32) -> f32 {
-        let looking = scene.area_emitter_pdf(lamp, position);
-        if looking > 0.0 { density / (density + looking) } else { 1.0 }
+    /// The balance heuristic's weight of meeting an area emitter by sampling a lobe with this pdf (sr⁻¹) at `position`.
+    pub(super) fn bsdf_sampling_weight(scene: &Scene, hit: &Surface, position: Vec3, pdf: f32) -> f32 {
+        let emitter_pdf = scene.area_emitter_pdf(hit, position);
+        if emitter_pdf > 0.0 { pdf / (pdf + emitter_pdf) } else { 1.0 }
     }
 
     fn delta_emitters(&self, stream: &mut Stream, rays: &mut u64) -> Rgb {
         let (emitters, found) = (self.scene.emitters(), self.scene.delta_emitters());
-        if found.len() <= MAX {
-            return found.iter().map(|&i| self.look_at(i as usize, (0.0, Vec2::ZERO), |_| 1.0, rays)).sum();
+        if found.len() <= MAX_DELTA_EMITTERS {
+            return found
+                .iter()
+                .map(|&i| self.sample_emitter(i as usize, (0.0, Vec2::ZERO), |_| 1.0, rays))
+                .sum();
         }
         let mut sum = Rgb::BLACK;
-        for _ in 0..MAX {
+        for _ in 0..MAX_DELTA_EMITTERS {
             if let Some((i, chance)) = self.scene.choose_emitter(f64::from(stream.next_1d()))
                 && emitters[i].is_delta()
             {
-                sum += self.look_at(i, (0.0, Vec2::ZERO), |_| 1.0, rays) / (MAX as f32 * chance as f32);
+                sum += self.sample_emitter(i, (0.0, Vec2::ZERO), |_| 1.0, rays)
+                    / (MAX_DELTA_EMITTERS as f32 * chance as f32);
             }
         }
         sum
     }
 
-    fn lamp(&self, (u_emitter, u_part, u): (f32, f32, Vec2), rays: &mut u64) -> Rgb {
-        let Some((i, chance)) = self.scene.choose_emitter(f64::from(u_emitter)) else { return Rgb::BLACK };
+    fn area_emitter(&self, u: EmitterDraw, rays: &mut u64) -> Rgb {
+        let Some((i, chance)) = self.scene.choose_emitter(f64::from(u.emitter)) else { return Rgb::BLACK };
         if !self.scene.emitters()[i].is_area() {
             return Rgb::BLACK;
         }
         let chance = chance as f32;
-        let share = |[looking, following]: [f32; 2]| chance * looking / (chance * looking + following);
-        self.look_at(i, (u_part, u), share, rays) / chance
+        let weight = |[emitter, bsdf]: [f32; 2]| chance * emitter / (chance * emitter + bsdf);
+        self.sample_emitter(i, (u.part, u.point), weight, rays) / chance
     }
 
-    /// What one sampled point of an emitter adds, times a share made of the densities of looking there and of following a
-    /// lobe there.
-    fn look_at(
+    /// The radiance due to one sampled point of an emitter, times a weight made of the pdfs of sampling it on the emitter and by the
+    /// BSDF.
+    fn sample_emitter(
         &self,
         index: usize,
         (u_part, u): (f32, Vec2),
-        share: impl Fn([f32; 2]) -> f32,
+        weight: impl Fn([f32; 2]) -> f32,
         rays: &mut u64,
     ) -> Rgb {
         let emitter = &self.scene.emitters()[index];
         let at = emitter.illuminate(self.surface.position, self.surface.normal, u_part, u);
         let Some(light) = at else { return Rgb::BLACK };
         let wi = self.frame.to_local(light.direction);
-        let following = Self::pdf(self.scattering, self.split, self.wo, wi);
-        if emitter.is_area() && following <= 0.0 {
-            // Glass: its lobes find lamps by following alone.
+        let bsdf_pdf = Self::pdf(self.scattering, self.split, self.wo, wi);
+        if emitter.is_area() && bsdf_pdf <= 0.0 {
+            // Glass: only sampling its lobes finds area emitters.
             return Rgb::BLACK;
         }
         let value = self.scattering.eval(self.wo, wi, self.split.specular) * wi.z.abs();
@@ -115,13 +129,13 @@ impl Glossy<'_> {
         let origin = self.surface.ray_origin(light.direction);
         let t_max = light.distance * (1.0 - SHORTENED);
         let ray = Ray { origin, direction: light.direction, t_min: 0.0, t_max };
-        let passed = if emitter.is_area() {
-            // Followed paths find it behind what they pass straight through, and weigh it there by itself.
+        let transmittance = if emitter.is_area() {
+            // Paths that pass straight through surfaces find it by themselves, with its full weight.
             *rays += 1;
             if self.scene.occluded(ray) { Rgb::BLACK } else { Rgb::WHITE }
         } else {
-            straight::share(self.scene, ray, self.edges, rays)
+            straight::transmittance(self.scene, ray, self.edges, rays)
         };
-        value * light.radiance_over_pdf * passed * share([light.density, following])
+        value * light.radiance_over_pdf * transmittance * weight([light.density, bsdf_pdf])
     }
 }

@@ -25,7 +25,7 @@ pub struct HitPoint {
     pub slab2: f32,
     /// The squared radius below which it does not shrink.
     pub smallest2: f32,
-    /// The most edges that a photon's path may have here.
+    /// The largest number of edges that a photon's path may have here.
     pub remaining_edges: u8,
     /// See [`Surface::patch_towards`](foton_scene::Surface::patch_towards).
     pub patch: u8,
@@ -42,7 +42,7 @@ pub struct Gloss {
     pub wo: Vec3,
     /// The lobes that it weights light with.
     pub lobes: LobeFlags,
-    /// Whether the eye path follows them as well, so that only light counts that it cannot find.
+    /// Whether they are specular: it then gathers only light that eye paths cannot find.
     pub specular: bool,
 }
 

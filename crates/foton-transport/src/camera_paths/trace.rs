@@ -8,7 +8,7 @@ use super::pixel_samples::PixelSamples;
 use super::walk::{SamplePoints, Walk};
 use crate::not_finite::{self, LeftOut, Quantity};
 
-/// Pixels that one task looks after.
+/// Pixels of one task.
 const CHUNK: usize = 1024;
 
 impl EyePass<'_> {
@@ -54,7 +54,7 @@ impl EyePass<'_> {
             let mut scramble = Stream::new(self.seed, self.purpose, 0, u64::from(pixel));
             let places = PixelSamples::new(&mut scramble);
             let facets = PixelSamples::new(&mut scramble);
-            let lamps = PixelSamples::new(&mut scramble);
+            let emitters = PixelSamples::new(&mut scramble);
             paths.shapes.push(NO_SHAPE);
             for sample in 0..samples {
                 if cancel.is_requested() {
@@ -64,7 +64,7 @@ impl EyePass<'_> {
                 let points = SamplePoints {
                     place: places.point(sample),
                     facet: facets.point(sample),
-                    lamp: lamps.point(sample),
+                    emitter: emitters.point(sample),
                 };
                 let stream = Stream::new(self.seed, self.purpose, 1, index);
                 let sum = emission

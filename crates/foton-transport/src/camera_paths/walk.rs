@@ -7,7 +7,7 @@ use foton_math::{Ray, Rgb, Stream};
 use foton_scene::{LobeFlags, Scattering, Surface, Transport};
 
 use super::eye_pass::{EyePass, EyePaths};
-use super::highlights::Glossy;
+use super::highlights::{EmitterDraw, Glossy};
 use super::hit_point::{Gloss, HitPoint};
 use super::radius::slab2;
 use crate::lobes::LobeSplit;
@@ -22,11 +22,11 @@ const SPLIT_EDGES: u32 = 8;
 const ROULETTE_EDGES: u32 = 16;
 const SURVIVAL: f32 = 0.9;
 
-/// What a hit point weights light with.
+/// The lobes that a hit point weights light with.
 #[derive(Clone, Copy)]
 struct Part {
     lobes: LobeFlags,
-    /// Whether the path follows these lobes as well: for photons that it cannot find the light of.
+    /// Whether they are specular: for light that the path cannot find by sampling them.
     specular: bool,
     /// Whether light arrives at the other side, through rough glass.
     behind: bool,
@@ -41,7 +41,7 @@ pub(super) struct Branch {
     edges: u32,
     /// Length of the edges before `ray`.
     distance: f32,
-    /// The pdf (sr⁻¹) of its direction, where emitters are looked up as well; 0 where they are not.
+    /// The pdf (sr⁻¹) of its direction, where emitters are sampled as well; 0 where they are not.
     pdf: f32,
 }
 
@@ -49,17 +49,17 @@ pub(super) struct Branch {
 pub(super) struct Walk<'a, 'b> {
     pass: &'a EyePass<'b>,
     stream: Stream,
-    /// Stratified over the pixel's samples, for the first rough lobe that is followed.
+    /// Stratified over the pixel's samples, for the first rough specular lobe.
     facet: Option<Vec2>,
-    /// The same for the lamp that is looked at from there.
-    lamp: Option<Vec2>,
+    /// The same for the point on an area emitter that is sampled from there.
+    emitter_point: Option<Vec2>,
     solid_angle: f32,
     /// Whether the pixel's shape is still to be noted.
     first: bool,
     paths: &'a mut EyePaths,
     branches: &'a mut Vec<Branch>,
     emission: Rgb,
-    /// Ends that this sample may still come to: hit points stored, and branches under way.
+    /// Ends that this sample may have: hit points stored, and branches under way.
     leaves: u32,
 }
 
@@ -67,10 +67,10 @@ pub(super) struct Walk<'a, 'b> {
 pub(super) struct SamplePoints {
     /// Where in the pixel.
     pub(super) place: Vec2,
-    /// For the first rough lobe that is followed.
+    /// For the first rough specular lobe.
     pub(super) facet: Vec2,
-    /// For the lamp that is looked at from there.
-    pub(super) lamp: Vec2,
+    /// For the point on an area emitter that is sampled from there.
+    pub(super) emitter: Vec2,
 }
 
 impl<'a, 'b> Walk<'a, 'b> {
@@ -87,7 +87,7 @@ impl<'a, 'b> Walk<'a, 'b> {
             pass,
             stream,
             facet: Some(points.facet),
-            lamp: Some(points.lamp),
+            emitter_point: Some(points.emitter),
             solid_angle: 0.0,
             first,
             paths,
@@ -131,7 +131,7 @@ impl<'a, 'b> Walk<'a, 'b> {
         if visible {
             let mut emitted = branch.weight * scene.emitted(&surface, wo);
             if branch.pdf > 0.0 && !emitted.is_black() {
-                emitted *= Glossy::share_of_following(scene, &surface, branch.ray.origin, branch.pdf);
+                emitted *= Glossy::bsdf_sampling_weight(scene, &surface, branch.ray.origin, branch.pdf);
             }
             self.see(emitted, surface.position, Some(surface.shape));
         }
@@ -198,7 +198,7 @@ impl<'a, 'b> Walk<'a, 'b> {
         });
     }
 
-    /// Adds emitted light that the path sees. Where it is no number the sample is given up at its end, and its place noted here.
+    /// Adds emitted light that the path sees. If it is not finite, its place is noted here and the sample is dropped at its end.
     fn see(&mut self, light: Rgb, position: Vec3, shape: Option<u32>) {
         if !light.is_finite() {
             let surface = shape.map_or(not_finite::Surface::Unknown, not_finite::Surface::Shape);
@@ -223,6 +223,23 @@ impl<'a, 'b> Walk<'a, 'b> {
         false
     }
 
+    /// The weight with which a path goes on; `None` where it ends.
+    fn roulette(&mut self, branch: &Branch) -> Option<Rgb> {
+        if branch.edges < ROULETTE_EDGES {
+            return Some(branch.weight);
+        }
+        (self.stream.next_1d() < SURVIVAL).then(|| branch.weight / SURVIVAL)
+    }
+
+    /// Adds what a rough specular lobe reflects of sampled emitters.
+    fn sample_emitters(&mut self, weight: Rgb, at: &Glossy<'_>) {
+        let point = self.emitter_point.take().unwrap_or_else(|| self.stream.next_2d());
+        let u = EmitterDraw { emitter: self.stream.next_1d(), part: self.stream.next_1d(), point };
+        let highlight = weight * at.highlights(u, &mut self.stream, &mut self.paths.rays);
+        self.see(highlight, at.surface.position, Some(at.surface.shape));
+    }
+
+    /// Goes on by the specular lobes of a surface: all of them where the path may split, else one chosen by chance.
     fn follow_lobes(
         &mut self,
         branch: &Branch,
@@ -231,13 +248,7 @@ impl<'a, 'b> Walk<'a, 'b> {
         split: LobeSplit,
         distance: f32,
     ) {
-        let mut weight = branch.weight;
-        if branch.edges >= ROULETTE_EDGES {
-            if self.stream.next_1d() >= SURVIVAL {
-                return;
-            }
-            weight = weight / SURVIVAL;
-        }
+        let Some(weight) = self.roulette(branch) else { return };
         let wo = -branch.ray.direction;
         let frame = self.pass.scene.shading_frame(surface, shading_normal_towards(surface, wo));
         let local = frame.to_local(wo);
@@ -245,23 +256,20 @@ impl<'a, 'b> Walk<'a, 'b> {
             Some(_) => Some(self.facet.take().unwrap_or_else(|| self.stream.next_2d())),
             None => None,
         };
+        let weighted = Branch { weight, ..*branch };
         if self.pass.uses.highlights_by_photons && split.follows_gloss() {
-            let lit = Branch { weight, ..*branch };
             let part = Part { lobes: split.specular, specular: true, behind: false };
-            self.store(&lit, surface, scattering, distance, part);
+            self.store(&weighted, surface, scattering, distance, part);
             if scattering.bsdf.transmits() {
-                self.store(&lit, surface, scattering, distance, Part { behind: true, ..part });
+                self.store(&weighted, surface, scattering, distance, Part { behind: true, ..part });
             }
         }
-        let looks_up = self.pass.uses.highlights && facet.is_some();
-        if looks_up {
+        let samples_emitters = self.pass.uses.highlights && facet.is_some();
+        if samples_emitters {
             let edges = self.pass.max_depth - branch.edges;
             let scene = self.pass.scene;
             let at = Glossy { scene, surface, scattering, split, frame: &frame, wo: local, edges };
-            let point = self.lamp.take().unwrap_or_else(|| self.stream.next_2d());
-            let u = (self.stream.next_1d(), self.stream.next_1d(), point);
-            let highlight = weight * at.looked_up(u, &mut self.stream, &mut self.paths.rays);
-            self.see(highlight, surface.position, Some(surface.shape));
+            self.sample_emitters(weight, &at);
         }
         let facet = facet.unwrap_or_default();
         let lobes = scattering.lobes(local, Transport::Radiance, facet, split.specular);
@@ -271,7 +279,7 @@ impl<'a, 'b> Walk<'a, 'b> {
             && self.leaves < self.pass.hit_points_per_sample.get();
         let single;
         let chosen: &[_] = if follows_all || count < 2 {
-            // What is kept here and each lobe beyond the first is one more end.
+            // The hit point here and each lobe beyond the first is one more end.
             self.leaves += (count + u32::from(split.gathers())).saturating_sub(1);
             &lobes
         } else {
@@ -290,13 +298,13 @@ impl<'a, 'b> Walk<'a, 'b> {
             }
             let sampled = frame.to_outer(lobe.wi).normalize();
             let direction = on_the_right_side(surface, wo, sampled, lobe.wi.z * local.z > 0.0);
-            let is_sampled = looks_up && direction == sampled;
+            let is_unmirrored = samples_emitters && direction == sampled;
             self.branches.push(Branch {
                 ray: Ray::new(surface.ray_origin(direction), direction),
                 weight,
                 edges: branch.edges + 1,
                 distance,
-                pdf: if is_sampled { Glossy::pdf(scattering, split, local, lobe.wi) } else { 0.0 },
+                pdf: if is_unmirrored { Glossy::pdf(scattering, split, local, lobe.wi) } else { 0.0 },
             });
         }
     }

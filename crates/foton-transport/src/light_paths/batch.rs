@@ -1,11 +1,11 @@
-//! A pass in batches: photons are traced, sorted and gathered so many at a time, and memory stops growing with the pass.
+//! A pass in batches of photons that are traced, sorted and gathered together, so that memory does not grow with the pass.
 //!
 //! How a pass falls into batches depends on its photons alone, never on memory or threads, for light is summed batch by batch
 //! and the order of a sum is in its bits. Photons are dealt out in turn: each batch is stratified over the emitters as its pass is.
 
 use std::ops::Range;
 
-/// A pass of up to so many photons is one batch.
+/// A pass of up to this many photons is one batch.
 pub const MAX_PHOTONS: u64 = 1 << 20;
 
 /// One batch of a pass: photons `number`, `number + of`, `number + 2 of` …
@@ -16,9 +16,9 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// The batches of a pass of `photons`, at most `most` in each. At least one, since a pass without photons is one too.
-    pub fn all(photons: u64, most: u64) -> impl Iterator<Item = Self> {
-        let of = photons.div_ceil(most).max(1);
+    /// The batches of a pass of `photons`, at most `max` in each. At least one, since a pass without photons is one too.
+    pub fn all(photons: u64, max: u64) -> impl Iterator<Item = Self> {
+        let of = photons.div_ceil(max).max(1);
         (0..of).map(move |number| Self { number, of })
     }
 
@@ -52,19 +52,19 @@ mod tests {
 
     #[test]
     fn each_photon_is_in_one_batch_and_no_batch_is_too_large() {
-        for (photons, most) in [(0, 5), (1, 5), (5, 5), (6, 5), (23, 5), (30, 7), (1000, 1)] {
-            let batches: Vec<Batch> = Batch::all(photons, most).collect();
+        for (photons, max) in [(0, 5), (1, 5), (5, 5), (6, 5), (23, 5), (30, 7), (1000, 1)] {
+            let batches: Vec<Batch> = Batch::all(photons, max).collect();
             let mut seen: Vec<u64> = batches.iter().flat_map(|b| b.indices(0..b.photons(photons))).collect();
             seen.sort_unstable();
-            assert_eq!(seen, (0..photons).collect::<Vec<_>>(), "{photons} by {most}");
-            assert!(batches.iter().all(|b| b.photons(photons) <= most));
+            assert_eq!(seen, (0..photons).collect::<Vec<_>>(), "{photons} by {max}");
+            assert!(batches.iter().all(|b| b.photons(photons) <= max));
             assert!(batches[0].is_first() && batches[batches.len() - 1].is_last());
             assert_eq!(batches.iter().filter(|b| b.is_first() || b.is_last()).count(), batches.len().min(2));
         }
     }
 
     #[test]
-    fn passes_up_to_the_most_are_one_batch_in_the_order_of_their_indices() {
+    fn passes_up_to_the_maximum_are_one_batch_in_the_order_of_their_indices() {
         let [batch] = Batch::all(MAX_PHOTONS, MAX_PHOTONS).collect::<Vec<_>>()[..] else { panic!("one") };
         assert!(batch.is_first() && batch.is_last());
         assert!(batch.indices(3..6).eq(3..6));

@@ -5,10 +5,10 @@ use foton_math::warp;
 
 use super::pass::{Path, WAVE};
 
-/// Rows are filled by so many at once, as far as there are photons.
+/// Rows are filled in blocks of this length, as far as there are photons.
 const AT_ONCE: usize = 16;
 
-/// Numbers that each edge of a path may draw, and that come before the first.
+/// Random dimensions that each edge of a path may use, and that are reserved before the first.
 const DIMENSIONS: u64 = 8;
 
 /// The numbers of a photon at the end of its ray.
@@ -24,7 +24,7 @@ pub(super) struct Draw {
     pub(super) survival: f32,
 }
 
-/// Those of a wave.
+/// The numbers of a wave.
 pub(super) struct Draws {
     /// As in [`Draw`]: lobe, direction, survival.
     numbers: [[f32; WAVE]; 4],
@@ -56,7 +56,7 @@ impl Draws {
         }
     }
 
-    /// Those of one photon of the wave.
+    /// The numbers of one photon of the wave.
     #[inline(always)]
     pub(super) fn of(&self, i: usize) -> Draw {
         let (i, [lobe, x, y, survival], [dx, dy, dz]) = (i % WAVE, &self.numbers, &self.diffuse);

@@ -8,7 +8,7 @@ use super::batch::Batch;
 use crate::lobes::LobePolicy;
 use crate::photon_map::{Grid, PathClass};
 
-/// Photons followed side by side: few enough for the nearest cache.
+/// Photons traced side by side: few enough for the first-level cache.
 pub(super) const WAVE: usize = 256;
 
 /// Everything a photon pass needs to know.
@@ -17,13 +17,13 @@ pub struct PhotonPass<'a> {
     pub scene: &'a Scene,
     /// Where they start.
     pub sources: &'a Sources,
-    /// Where hit points may ask for them.
+    /// Where hit points may gather them.
     pub grid: &'a Grid,
     /// Whether photons that come straight from an emitter are stored: not where shadow rays bring that light.
     pub stores_direct: bool,
     /// Which lobes hit points gather photons for.
     pub policy: LobePolicy,
-    /// Whether any hit point asks where a photon came from.
+    /// Whether any hit point needs a photon's direction.
     pub directions: bool,
     /// The instruction set to run on; it changes no bit.
     pub arch: Arch,

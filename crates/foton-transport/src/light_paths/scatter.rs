@@ -54,7 +54,7 @@ impl PhotonPass<'_> {
         stored
     }
 
-    /// The same for everything but Lambertian surfaces. Kept apart, so that the loop around the others stays small.
+    /// The same for everything but Lambertian surfaces. A function of its own, so that the loop around the others stays small.
     #[inline(never)]
     fn scatter_otherwise(
         &self,
@@ -110,9 +110,9 @@ impl PhotonPass<'_> {
     ) {
         let wo = -path.ray.direction;
         let &Leaving { direction, weight, normal, bounce, reflects } = leaving;
-        let specular = bounce != Bounce::Gathered;
+        let is_specular = bounce != Bounce::Gathered;
         let scattered = path.power * weight;
-        let correction = if !specular && leaves_wrongly(surface, wo, direction, reflects) {
+        let correction = if !is_specular && leaves_wrongly(surface, wo, direction, reflects) {
             0.0
         } else if bounce == Bounce::Straight {
             1.0
@@ -121,17 +121,7 @@ impl PhotonPass<'_> {
         };
         let corrected = scattered * correction;
         if !corrected.is_finite() {
-            // Dropped before it reaches a sum: one NaN would be all that is left of the image.
-            chunk.ledger.dropped += 1;
-            chunk.ledger.lost += energy(path.power);
-            chunk.losses[self.material(surface)].dropped += 1;
-            chunk.leave_out(LeftOut {
-                quantity: Quantity::ScatteredPower,
-                light: Some(path.emitter),
-                surface: not_finite::Surface::Shape(surface.shape),
-                position: surface.position,
-            });
-            return;
+            return self.drop_photon(path, surface, chunk);
         }
         chunk.ledger.absorbed += left_out(path.power, weight);
         if correction != 1.0 {
@@ -149,7 +139,7 @@ impl PhotonPass<'_> {
         }
         let Some(power) = roulette(corrected, path.power, u, &mut chunk.ledger) else { return };
         let direction =
-            if specular { on_the_right_side(surface, wo, direction, reflects) } else { direction };
+            if is_specular { on_the_right_side(surface, wo, direction, reflects) } else { direction };
         next.push(Path {
             ray: Ray::new(surface.ray_origin(direction), direction),
             power,
@@ -159,6 +149,20 @@ impl PhotonPass<'_> {
             edges: path.edges + 1,
             emitter: path.emitter,
             stream: path.stream.clone(),
+        });
+    }
+
+    /// Drops a photon whose power is no longer a number, before it reaches a sum: one NaN would be all that is left of the image.
+    #[cold]
+    fn drop_photon(&self, path: &Path, surface: &Surface, chunk: &mut Chunk) {
+        chunk.ledger.dropped += 1;
+        chunk.ledger.lost += energy(path.power);
+        chunk.losses[self.material(surface)].dropped += 1;
+        chunk.leave_out(LeftOut {
+            quantity: Quantity::ScatteredPower,
+            light: Some(path.emitter),
+            surface: not_finite::Surface::Shape(surface.shape),
+            position: surface.position,
         });
     }
 
@@ -180,7 +184,7 @@ impl PhotonPass<'_> {
         self.scene.shapes()[surface.shape as usize].material as usize
     }
 
-    /// Stores the photon if a hit point may ask for it. Whether it has been stored anywhere so far.
+    /// Stores the photon if a hit point may gather it. Whether it has been stored anywhere so far.
     #[inline(always)]
     fn store(&self, path: &Path, surface: &Surface, wo: Vec3, chunk: &mut Chunk) -> bool {
         if path.class == PathClass::Direct && !self.stores_direct {

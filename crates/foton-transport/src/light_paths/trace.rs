@@ -1,4 +1,4 @@
-//! A batch of photons: from emitters, from surface to surface, stored wherever light spreads near a hit point.
+//! Tracing a batch of photons: from emitters, from surface to surface, stored wherever light spreads near a hit point.
 
 use std::ops::Range;
 
@@ -80,7 +80,7 @@ impl PhotonPass<'_> {
         })
     }
 
-    /// Emits a photon, unless there is no emitter or its power is no number.
+    /// Emits a photon, unless there is no emitter or its power is not finite.
     #[inline(always)]
     fn start(&self, index: u64, chunk: &mut Chunk, paths: &mut Vec<Path>) {
         let stream = Stream::new(self.seed, Purpose::Photon, self.pass, index);

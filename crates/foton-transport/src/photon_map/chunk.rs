@@ -8,7 +8,7 @@ use crate::not_finite::LeftOut;
 /// Photons that one task emits.
 pub const CHUNK: u64 = 4096;
 
-/// What one task emits. Kept between passes, so that photons need no new memory once it has grown.
+/// What one task emits. Reused from pass to pass, so that photons need no new memory once it has grown.
 #[derive(Default)]
 pub struct Chunk {
     /// Photons that were stored, in the order of emission.

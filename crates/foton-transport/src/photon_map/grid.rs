@@ -17,10 +17,10 @@ use super::packet::{LANES, Packet};
 /// Cells an edge of which is this many of the median radius: measured to be the best trade of candidates against rows.
 const CELL_IN_RADII: f32 = 2.6;
 
-/// Cells at most: 2^20 of them take 256 KiB with their ranks.
+/// The largest number of cells: 2^20 of them take 256 KiB with their ranks.
 pub const MAX_CELLS: u32 = 1 << 20;
 
-/// Cells grow where hit points reach beyond so many times their median distance from the middle.
+/// Cells grow where hit points reach beyond this many times their median distance from the middle.
 const FAR: f32 = 16.0;
 
 /// 64 cells along x.
@@ -41,7 +41,7 @@ struct Growth {
 }
 
 impl Growth {
-    /// That of these packets, if they reach far.
+    /// The growth for these packets, if they reach far.
     fn of(packets: &[Packet], bounds: &Aabb, cancel: &Cancel) -> Result<Option<Self>, Cancelled> {
         let median = |axis: usize| {
             cancel.check()?;
@@ -79,7 +79,7 @@ impl Growth {
     }
 }
 
-/// The grid. Its cells are fixed by the first radii: results depend on their order. What is touched may be marked anew.
+/// The grid. Its cells are fixed by the first radii: results depend on their order. Touched cells may be marked again.
 pub struct Grid {
     growth: Option<Growth>,
     /// Where cells begin, after their growth.
@@ -232,7 +232,7 @@ fn mark_row(bits: &[AtomicU64], first: u32, last: u32) {
         let from = if word == first_word { u64::MAX << (first % 64) } else { u64::MAX };
         let to = if word == last_word { u64::MAX >> (63 - last % 64) } else { u64::MAX };
         let (mask, bits) = (from & to, &bits[word as usize]);
-        // Most are set already, and to look is cheaper than to write.
+        // Most are set already, and reading is cheaper than writing.
         if bits.load(Ordering::Relaxed) & mask != mask {
             bits.fetch_or(mask, Ordering::Relaxed);
         }

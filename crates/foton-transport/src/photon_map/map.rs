@@ -19,7 +19,7 @@ impl PhotonMap {
         let total: usize = chunks.iter().map(|c| c.photons.len()).sum();
         self.photons.resize(total, Photon::NONE);
         self.count(chunks, cells as usize);
-        // Each task owns a range of cells of about equally many photons, looks at every cell number and moves its own.
+        // Each task owns a range of cells of about equally many photons, scans every cell number and moves its own.
         let tasks = rayon::current_num_threads().clamp(1, 64);
         let mut ranges = Vec::with_capacity(tasks);
         let mut rest = &mut self.photons[..];
@@ -84,7 +84,7 @@ impl PhotonMap {
         &self.photons[self.cell_start[first as usize] as usize..self.cell_start[end as usize] as usize]
     }
 
-    /// Bytes that sorting takes for its counters, at most: each thread has one for each cell, and those for all photons stay.
+    /// The largest number of bytes for the counters of the sort: each thread has one for each cell, and those for all photons stay.
     pub const fn counter_bytes(photons_emitted: u64, cells: u32, threads: usize) -> u64 {
         let chunks = photons_emitted.div_ceil(CHUNK);
         let parts = if chunks < threads as u64 { chunks } else { threads as u64 };
@@ -105,7 +105,7 @@ mod tests {
     use foton_math::{Purpose, Rgb, Stream};
 
     #[test]
-    fn photons_of_a_cell_keep_the_order_of_emission_for_any_number_of_threads() {
+    fn photons_of_a_cell_stay_in_the_order_of_emission_for_any_number_of_threads() {
         let cells = 37;
         let mut stream = Stream::new(3, Purpose::Test, 0, 0);
         let chunks: Vec<Chunk> = (0..9)

@@ -63,7 +63,7 @@ impl Packet {
         packet
     }
 
-    /// What is noted of a value at a lane that was not finite.
+    /// The record of a value at a lane that was not finite.
     pub fn left_out(&self, quantity: Quantity, l: usize) -> LeftOut {
         let of = |rows: &[[f32; LANES]; 3]| Vec3::from_array(rows.map(|row| row[l]));
         let surface = Surface::Below(of(&self.normal) * 127.0);
@@ -115,7 +115,7 @@ struct Point {
     index: u32,
 }
 
-/// Groups those hit points that `belongs` picks into packets: halved at the median of the longest axis until at most [`LANES`] are close together.
+/// Groups the hit points that `belongs` selects into packets: halved at the median of the longest axis until at most [`LANES`] are close together.
 /// Returns indices into `found`; the same for any number of threads.
 ///
 /// # Errors
@@ -212,7 +212,7 @@ mod tests {
     #[test]
     fn grouping_that_is_cancelled_gives_no_groups_wherever_that_comes() {
         let found = scattered(2_000);
-        let grouped = |questions| group(&found, |_| true, &Cancel::after(questions));
+        let grouped = |checks| group(&found, |_| true, &Cancel::after(checks));
         let needed = (0..10_000).find(|&n| grouped(n).is_ok()).expect("in the end");
         assert!(needed > found.len() as u64 / LANES as u64, "{needed}");
     }

@@ -11,7 +11,7 @@ use crate::lobes::Bounce;
 pub enum PathClass {
     /// Straight from an emitter, also through what lets it pass as if nothing were there: LD.
     Direct = 0,
-    /// By mirrors, glass and gloss that eye paths follow only, and not straight on by all of them: LS⁺D.
+    /// By specular lobes alone, of which at least one deflected it: LS⁺D.
     Caustic = 1,
     /// By at least one surface that spreads light: L(S|D)*DS*D.
     Indirect = 2,
@@ -31,14 +31,14 @@ impl PathClass {
     }
 }
 
-/// Octahedral bits an axis of a stored direction: an error of at most 0.0021 radians, a fiftieth of the narrowest lobe that hit
-/// points keep.
+/// Octahedral bits an axis of a stored direction: an error of at most 0.0021 radians, a fiftieth of the narrowest gathered
+/// lobe.
 const DIRECTION_BITS: u32 = 11;
 
 /// Where in the code the number of the patch begins.
 const PATCH_SHIFT: u32 = 2 * DIRECTION_BITS;
 
-/// The class of caustic photons that came from a light without extent by single directions alone.
+/// The class of caustic photons that came from a delta emitter by single directions alone.
 const LONE: u32 = 3;
 
 /// A photon where it met a surface that spreads light.
@@ -62,7 +62,7 @@ impl Photon {
     pub const NONE: Self =
         Self { position: Vec3::ZERO, normal: [0; 3], edges: 0, power: Rgb::BLACK, code: 0 };
 
-    /// A photon of `power` that arrives from the unit direction `from`, where anyone asks, on the side of the unit `normal` and
+    /// A photon of `power` that arrives from the unit direction `from`, if any hit point needs that, on the side of the unit `normal` and
     /// on the patch of that number.
     #[inline]
     pub fn new(
@@ -90,20 +90,20 @@ impl Photon {
         octahedral::decode::<DIRECTION_BITS>(self.code & ((1 << PATCH_SHIFT) - 1))
     }
 
-    /// The number of edges with the patch above it: what a hit point asks for together.
+    /// The number of edges with the patch in the bits above it, which a hit point tests together.
     #[inline(always)]
     pub fn edges_on_patch(&self) -> i32 {
         i32::from(self.edges) | patch_mark((self.code >> PATCH_SHIFT) as u8)
     }
 
-    /// The same, marked where nothing but photons can bring it to a narrow lobe: see [`Photon::is_lone`].
+    /// The same, marked if its light reaches narrow specular lobes by photons alone: see [`Photon::is_lone`].
     #[inline]
     pub const fn marked(self, lone: bool) -> Self {
         if lone { Self { code: self.code | LONE << 30, ..self } } else { self }
     }
 
-    /// Whether it came from a light without extent by mirrors and smooth glass alone, at least one of them: of the light on a
-    /// lobe that eye paths follow they find all but this.
+    /// Whether it came from a delta emitter by mirrors and smooth glass alone, at least one of them: the only light on a specular
+    /// lobe that eye paths cannot find.
     #[inline]
     pub const fn is_lone(&self) -> bool {
         self.code >> 30 == LONE

@@ -27,10 +27,10 @@ fn settings() -> RenderSettings {
     }
 }
 
-fn start(settings: RenderSettings, most: u64) -> Ppm {
+fn start(settings: RenderSettings, max_in_batch: u64) -> Ppm {
     Ppm::start(scene(), settings, &mut |_| (), &Cancel::default())
         .expect("not cancelled")
-        .with_batches_of(most)
+        .with_batches_of(max_in_batch)
 }
 
 fn advance(ppm: &mut Ppm) -> PassReport {
@@ -54,7 +54,7 @@ fn a_pass_in_batches_is_the_pass_at_once() {
         let (at_once, in_parts) = (advance(&mut whole), advance(&mut parts));
         assert_eq!(at_once, in_parts, "counted by the pass, not by the batch");
     }
-    let colour = |ppm: &Ppm, kind| match ppm.layer(kind).expect("kept").channels {
+    let colour = |ppm: &Ppm, kind| match ppm.layer(kind).expect("summed").channels {
         LayerData::Rgb(image) => image.pixels,
         _ => panic!("{kind:?} is colour"),
     };
@@ -63,11 +63,11 @@ fn a_pass_in_batches_is_the_pass_at_once() {
         let pairs = p.iter().zip(q).flat_map(|(p, q)| p.to_array().into_iter().zip(q.to_array()));
         pairs.map(|(p, q)| (p - q).abs() / p.max(1e-6)).fold(0.0, f32::max)
     };
-    let most = off(&whole.image().pixels, &parts.image().pixels);
-    assert!(most <= 1e-6, "{most}");
+    let error = off(&whole.image().pixels, &parts.image().pixels);
+    assert!(error <= 1e-6, "{error}");
     for kind in [LayerKind::Direct, LayerKind::Caustic, LayerKind::Indirect] {
-        let most = off(&colour(&whole, kind), &colour(&parts, kind));
-        assert!(most <= 1e-5, "{kind:?}: {most}");
+        let error = off(&colour(&whole, kind), &colour(&parts, kind));
+        assert!(error <= 1e-5, "{kind:?}: {error}");
     }
     for kind in [LayerKind::Radius, LayerKind::PhotonCount, LayerKind::Emission, LayerKind::ShapeId] {
         assert_eq!(whole.layer(kind), parts.layer(kind), "{kind:?}");
@@ -169,8 +169,8 @@ fn a_start_that_is_cancelled_ends_in_that_wherever_it_comes() {
 #[test]
 fn a_batch_that_is_shown_stands_for_its_pass() {
     // Photons as dots: those of the last batch come from everywhere, and are as bright in all as those of a pass.
-    let shown = |most| {
-        let mut ppm = start(settings(), most);
+    let shown = |max_in_batch| {
+        let mut ppm = start(settings(), max_in_batch);
         advance(&mut ppm);
         let photons = ppm.stored_photons(usize::MAX);
         (photons.len() as f64, photons.iter().map(|p| f64::from(p.power.g)).sum::<f64>())

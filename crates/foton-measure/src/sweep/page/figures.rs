@@ -188,10 +188,10 @@ impl Report<'_> {
     pub(crate) fn front(&self) -> Vec<&Point> {
         let mut sorted: Vec<&Point> = self.points.iter().collect();
         sorted.sort_by(|a, b| a.cpu.total_cmp(&b.cpu));
-        let mut least = f64::INFINITY;
+        let mut min_error = f64::INFINITY;
         sorted.retain(|p| {
-            p.error < least && {
-                least = p.error;
+            p.error < min_error && {
+                min_error = p.error;
                 true
             }
         });

@@ -143,7 +143,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "a sweep's results are rescued",
         file: "crates/foton-measure/src/sweep/store.rs",
-        from: "Some(spare) => SweepError::Kept { cause, spare },",
+        from: "Some(spare) => SweepError::Rescued { cause, spare },",
         to: "Some(_) => cause.into(),",
         target: MEASURE,
         test: "what_took_long_is_elsewhere_when_the_folder_has_vanished",

@@ -30,7 +30,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "materials keep their faces when triangles are gone",
-        file: "crates/foton-format/src/mesh/obj.rs",
+        file: "crates/foton-format/src/mesh/obj/mod.rs",
         from: "while gone.next_if(|&at| at < before).is_some() {",
         to: "while gone.next_if(|&at| at < before).is_some() && false {",
         target: FORMAT,
@@ -71,8 +71,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "files too large to read are refused",
         file: "crates/foton-input/src/open.rs",
-        from: "if metadata.len() > limit.most() {",
-        to: "if metadata.len() > limit.most() && false {",
+        from: "if metadata.len() > limit.max_bytes() {",
+        to: "if metadata.len() > limit.max_bytes() && false {",
         target: INPUT,
         test: "no_more_is_read_than_may_be",
     },
@@ -174,7 +174,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "nothing is quoted of a file that is no OBJ file",
-        file: "crates/foton-format/src/mesh/obj.rs",
+        file: "crates/foton-format/src/mesh/obj/parser.rs",
         from: "false if !is_of_kind(bytes, cancel) =>",
         to: "false if !is_of_kind(bytes, cancel) && bytes.is_empty() =>",
         target: BAD_FILES,
@@ -223,8 +223,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "a file is not read beyond its limit",
         file: "crates/foton-input/src/open.rs",
-        from: "Ok(length) if (bytes.len() + length) as u64 > limit.most() => return",
-        to: "Ok(length) if (bytes.len() + length) as u64 > limit.most() << 6 => return",
+        from: "Ok(length) if (bytes.len() + length) as u64 > limit.max_bytes() => {",
+        to: "Ok(length) if (bytes.len() + length) as u64 > limit.max_bytes() << 6 => {",
         target: INPUT,
         test: "no_more_is_read_than_may_be",
     },

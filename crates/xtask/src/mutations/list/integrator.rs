@@ -15,18 +15,18 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "photons bring light of points to narrow lobes",
         file: "crates/foton-integrator/src/ppm/gather.rs",
-        from: "!g.narrow || photon.is_lone()",
-        to: "!g.narrow",
+        from: "!g.specular || photon.is_lone()",
+        to: "!g.specular",
         target: SURFACES,
-        test: "light_by_mirrors_and_through_clear_things_shows_on_both_sides_of_the_followed_roughness",
+        test: "light_by_mirrors_and_through_clear_things_shows_on_both_sides_of_the_specular_roughness",
     },
     Mutation {
-        what: "of narrow lobes photons bring nothing that followed paths find",
+        what: "of narrow lobes photons bring nothing that eye paths find",
         file: "crates/foton-transport/src/light_paths/scatter.rs",
         from: "&& self.scene.emitters()[path.emitter as usize].is_delta()",
         to: "",
         target: SURFACES,
-        test: "photons_in_narrow_gloss_bring_only_what_followed_paths_cannot",
+        test: "photons_in_narrow_gloss_bring_only_what_eye_paths_cannot",
     },
     Mutation {
         what: "shadow rays see through what photons pass straight",
@@ -63,7 +63,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "what earlier batches say of radii is added",
         file: "crates/foton-integrator/src/ppm/slots.rs",
-        from: "found.disc.squares[l] += squares;",
+        from: "found.disc.squares[l] += earlier.squares;",
         to: "",
         target: INTEGRATOR,
         test: "radii_that_adapt_do_so_by_all_batches_of_a_pass",
@@ -178,7 +178,7 @@ pub(super) const LIST: &[Mutation] = &[
         from: "(self.floor * area.sqrt()).clamp(resolved, first)",
         to: "(0.0 * self.floor * area.sqrt()).clamp(resolved, first)",
         target: ANALYTIC,
-        test: "a_beam_between_the_eye_samples_keeps_its_flux",
+        test: "a_beam_between_the_eye_samples_loses_no_flux",
     },
     Mutation {
         what: "what discs hide widens the error's upper end",
@@ -190,7 +190,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "behind shadow rays what no photon has found is unknown",
-        file: "crates/foton-integrator/src/error/mod.rs",
+        file: "crates/foton-integrator/src/error/pass.rs",
         from: "is_unknown |= one_photon > mean;",
         to: "is_unknown |= one_photon < 0.0;",
         target: ANALYTIC,

@@ -135,7 +135,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "a side without a BSDF has an opacity",
-        file: "crates/foton-scene/src/scene.rs",
+        file: "crates/foton-scene/src/scene/scattering.rs",
         from: "None if material.opacity.is_some() => &BLACK,",
         to: "None if material.opacity.is_some() && self.census.spheres == u64::MAX => &BLACK,",
         target: SURFACES,
@@ -191,15 +191,15 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "rectangles that abut are one surface",
-        file: "crates/foton-scene/src/build/patches.rs",
-        from: "probed(accel, i, free[i], &keeps)",
-        to: "probed(accel, i, free[i] & 0, &keeps)",
+        file: "crates/foton-scene/src/build/patches/mod.rs",
+        from: "probed(accel, i, free[i], &stores)",
+        to: "probed(accel, i, free[i] & 0, &stores)",
         target: GEOMETRY,
         test: "rectangles_that_abut_continue_each_other_with_and_without_equal_corners",
     },
     Mutation {
         what: "what lies under a surface does not continue it",
-        file: "crates/foton-scene/src/build/patches.rs",
+        file: "crates/foton-scene/src/build/patches/probe.rs",
         from: "(!overlaps).then_some((other, cosine < 0.0))",
         to: "(!overlaps || step > 0.0).then_some((other, cosine < 0.0))",
         target: GEOMETRY,
@@ -207,7 +207,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "folds end a surface",
-        file: "crates/foton-scene/src/build/patches.rs",
+        file: "crates/foton-scene/src/build/patches/side.rs",
         from: "let goes_on = self.inward.dot(other.inward) < -MIN_COSINE;",
         to: "let goes_on = self.inward.dot(other.inward) < 2.0;",
         target: GEOMETRY,
@@ -232,10 +232,10 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "photons are aimed at what is seen",
         file: "crates/foton-scene/src/sources.rs",
-        from: "most.radius * WIDE > self.bounds.radius()",
-        to: "most.radius * WIDE > 0.0 * self.bounds.radius()",
+        from: "decisive.radius * WIDE > self.bounds.radius()",
+        to: "decisive.radius * WIDE > 0.0 * self.bounds.radius()",
         target: ANALYTIC,
-        test: "a_far_lamp_lights_by_photons_as_by_shadow_rays",
+        test: "a_far_emitter_lights_by_photons_as_by_shadow_rays",
     },
     Mutation {
         what: "all ways to aim a photon are weighed",
@@ -248,8 +248,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "rounds of joining boxes end",
         file: "crates/foton-scene/src/accel/cluster.rs",
-        from: "const LOOKS_PER_BOX: usize = 24;",
-        to: "const LOOKS_PER_BOX: usize = 1 << 30;",
+        from: "const VISITS_PER_BOX: usize = 24;",
+        to: "const VISITS_PER_BOX: usize = 1 << 30;",
         target: SCENE,
         test: "a_heap_of_ties_takes_work_in_proportion_to_its_size",
     },

@@ -1,5 +1,7 @@
 //! Surfaces that light passes, that lie in one another, or that are smooth by their normals alone.
 
+mod narrow_gloss;
+
 use std::f64::consts::PI;
 use std::num::NonZeroU32;
 use std::sync::Arc;
@@ -56,7 +58,7 @@ fn masked(mut sketch: Sketch, opacity: f32, both_sides: bool) -> Sketch {
     sketch
 }
 
-fn lamp(sketch: Sketch, centre: DVec3, half: f64) -> Sketch {
+fn area_emitter(sketch: Sketch, centre: DVec3, half: f64) -> Sketch {
     let radiance = Some(Rgb::splat((1.0 / (half * half)) as f32));
     sketch.rectangle(centre, DVec3::X * half, DVec3::Z * half, grey(0.0), radiance)
 }
@@ -77,7 +79,7 @@ fn a_mask_lets_light_through_from_behind_too() {
             grey(0.7),
             None,
         );
-        lamp(room, DVec3::new(0.0, 1.9, 1.0), 0.3).max_depth(6)
+        area_emitter(room, DVec3::new(0.0, 1.9, 1.0), 0.3).max_depth(6)
     };
     let card = |opacity| {
         let backwards = wall().rectangle(DVec3::Z * 0.5, DVec3::X, -DVec3::Y, grey(0.5), None);
@@ -100,7 +102,7 @@ fn a_mask_lets_light_through_from_behind_too() {
             if opacity == 0.0 {
                 near("card", (seen, sigma), open, 0.01);
             } else {
-                // The card hides its share of the wall, and throws light of the lamp at it.
+                // The card hides its share of the wall, and casts light of the emitter on it.
                 assert!(
                     seen >= 0.0 && seen < 0.9 * open.0 && (seen > 0.0) == (share > 0.0),
                     "{opacity}: {seen}"
@@ -118,7 +120,7 @@ fn glass_that_stands_in_the_plane_of_a_floor_is_one_with_it() {
         let floor = |s: Sketch| s.rectangle(DVec3::ZERO, DVec3::X * 4.0, DVec3::NEG_Z * 4.0, grey(0.5), None);
         let s = Sketch::default().camera(DVec3::new(2.0, 4.0, 5.0), DVec3::Y * 0.4, 26.0, 12);
         let s = if floor_first { block(floor(s)) } else { floor(block(s)) };
-        lamp(s, DVec3::Y * 5.0, 1.0).max_depth(12)
+        area_emitter(s, DVec3::Y * 5.0, 1.0).max_depth(12)
     };
     let cube = place * DAffine3::from_translation(DVec3::Y);
     let whole = |s: Sketch| s.shape(Geometry::Mesh(Arc::new(Mesh::cube())), cube, glass(1.5), None);
@@ -236,7 +238,7 @@ fn shadow_rays_see_through_what_photons_pass_straight() {
         );
         let s = between(s).max_depth(8);
         let above = DVec3::new(-0.5, 2.0, 0.3);
-        if by_point { s.point(above, 60.0) } else { lamp(s, above, 0.3) }
+        if by_point { s.point(above, 60.0) } else { area_emitter(s, above, 0.3) }
     };
     let sheet = |s: Sketch, height: f64, bsdf| {
         s.rectangle(DVec3::Y * height, DVec3::X * 0.8, DVec3::NEG_Z * 0.8, bsdf, None)
@@ -263,149 +265,5 @@ fn shadow_rays_see_through_what_photons_pass_straight() {
             let rays = seeds(&sketch, &by_rays, 6, 4);
             near(&format!("sheet {i}, {ground:?}"), photons, rays, 0.015);
         }
-    }
-}
-
-/// A name, what is added to the scene, whether the sun shines, whether the gloss is a coat.
-type Way<'a> = (&'a str, &'a dyn Fn(Sketch) -> Sketch, bool, bool);
-
-/// Light of a point, a spot or the sun that comes by way of something clear shows in a lobe that is followed as in one that is kept.
-#[test]
-fn light_by_mirrors_and_through_clear_things_shows_on_both_sides_of_the_followed_roughness() {
-    let lit = |by: &dyn Fn(Sketch) -> Sketch, sun: bool, alpha: f32, coated: bool| {
-        let material = if coated {
-            Bsdf::Plastic(Plastic {
-                int_ior: 1.5,
-                ext_ior: 1.0,
-                diffuse_reflectance: Colour::Constant(Rgb::BLACK),
-                specular_reflectance: WHITE,
-                nonlinear: false,
-                roughness: Some(Microfacets::isotropic(MicrofacetDistribution::Ggx, alpha)),
-            })
-        } else {
-            white_metal(alpha)
-        };
-        let s = Sketch::default().camera(DVec3::new(4.0, 3.0, 0.0), DVec3::ZERO, 26.0, 12).rectangle(
-            DVec3::ZERO,
-            DVec3::X * 3.0,
-            DVec3::NEG_Z * 3.0,
-            material,
-            None,
-        );
-        let mut s = by(s).max_depth(8);
-        if sun {
-            s.0.emitters.push(EmitterDescription {
-                name: "sun".into(),
-                kind: EmitterKind::Directional {
-                    direction: DVec3::new(-1.0, -0.75, 0.0),
-                    irradiance: Rgb::splat(5.0),
-                },
-            });
-            return s;
-        }
-        s.point(DVec3::new(-2.0, 1.5, 0.0), 120.0)
-    };
-    let wall = |s: Sketch, bsdf| {
-        s.rectangle(DVec3::new(-3.0, 2.0, 0.0), DVec3::NEG_Z * 3.0, DVec3::Y * 3.0, bsdf, None)
-    };
-    let sheet = |s: Sketch, bsdf| {
-        s.rectangle(DVec3::new(-1.6, 1.2, 0.0), DVec3::X * 1.2, DVec3::NEG_Z * 1.2, bsdf, None)
-    };
-    let slab = |s: Sketch| {
-        let at = DAffine3::from_translation(DVec3::new(-1.6, 1.2, 0.0));
-        let flat = DAffine3::from_scale(DVec3::new(1.2, 0.1, 1.2));
-        s.shape(Geometry::Mesh(Arc::new(Mesh::cube())), at * flat, glass(1.5), None)
-    };
-    let by_mirror = |s: Sketch| wall(s, MIRROR);
-    let by_pane = |s: Sketch| wall(sheet(s, pane()), pane());
-    let by_mask = |s: Sketch| masked(sheet(s, grey(0.0)), 0.5, true);
-    let by_nothing = |s: Sketch| wall(sheet(s, Bsdf::Null(Null)), MIRROR);
-    let ways: [Way<'_>; 7] = [
-        ("mirror", &by_mirror, false, false),
-        ("coat by a mirror", &by_mirror, false, true),
-        ("sun by a mirror", &by_mirror, true, false),
-        ("panes", &by_pane, false, false),
-        ("mask", &by_mask, false, false),
-        ("nothing and a mirror", &by_nothing, false, false),
-        ("slab", &slab, false, false),
-    ];
-    let base = RenderSettings {
-        ppm: PpmSettings { radius: Some(0.08), ..settings(60_000, 4).ppm },
-        ..settings(60_000, 4)
-    };
-    for (way, by, sun, coated) in ways {
-        let followed = seeds(&lit(by, sun, 0.0999, coated), &base, 3, 4);
-        let kept = seeds(&lit(by, sun, 0.1001, coated), &base, 3, 4);
-        assert!(followed.0 > 0.0 && followed.1 < 0.05 * followed.0, "{way}: {followed:?}");
-        near(way, followed, kept, 0.03);
-    }
-}
-
-/// Where there is a point, hit points of narrow lobes are there; they count nothing of a lamp, which followed paths find.
-#[test]
-fn photons_in_narrow_gloss_bring_only_what_followed_paths_cannot() {
-    let scene = |lamp: bool, point: bool| {
-        let s = Sketch::default()
-            .camera(DVec3::new(2.0, 3.0, 0.0), DVec3::ZERO, 16.0, 6)
-            .rectangle(DVec3::ZERO, DVec3::X * 2.0, DVec3::NEG_Z * 2.0, white_metal(0.09), None)
-            .rectangle(DVec3::new(-1.5, 1.5, 0.0), DVec3::NEG_Z * 1.5, DVec3::Y * 1.3, MIRROR, None)
-            .max_depth(8);
-        let s = if point { s.point(DVec3::new(-1.0, 1.2, 0.1), 100.0) } else { s };
-        if !lamp {
-            return s;
-        }
-        let radiance = 100.0 / (4.0 * PI * PI * 0.12 * 0.12);
-        s.sphere(DVec3::new(-1.0, 1.5, 0.0), 0.12, grey(0.0), Some(Rgb::splat(radiance as f32)))
-    };
-    let base = RenderSettings {
-        ppm: PpmSettings { radius: Some(0.05), ..settings(30_000, 64).ppm },
-        ..settings(30_000, 64)
-    };
-    let [a, b, both] = [(true, false), (false, true), (true, true)]
-        .map(|(lamp, point)| seeds(&scene(lamp, point), &base, 2, 4));
-    near("both lights", both, (a.0 + b.0, a.1.hypot(b.1)), 0.02);
-}
-
-/// A lamp so small that it is nearly a point, which followed paths find by themselves: the hit points of narrow lobes, rough glass
-/// among them, add nothing to it, and a true point in its place gives the same light.
-#[test]
-fn photons_in_narrow_gloss_bring_what_followed_paths_would_of_a_lamp_of_some_size() {
-    let rough_glass = |alpha: f32| {
-        Bsdf::Dielectric(Dielectric {
-            int_ior: 1.5,
-            ext_ior: 1.0,
-            specular_reflectance: WHITE,
-            specular_transmittance: WHITE,
-            roughness: Some(Microfacets::isotropic(MicrofacetDistribution::Ggx, alpha)),
-        })
-    };
-    let scene = |material, below: bool, point: bool| {
-        let s = Sketch::default()
-            .camera(DVec3::new(2.0, 3.0, 0.0), DVec3::ZERO, 16.0, 6)
-            .rectangle(DVec3::ZERO, DVec3::X * 2.0, DVec3::NEG_Z * 2.0, material, None)
-            .max_depth(8);
-        // A mirror beside the light throws it on the sheet, from above or from below.
-        let side = if below { -1.0 } else { 1.0 };
-        let at = DVec3::new(-1.0, side * 1.5, 0.0);
-        let s =
-            s.rectangle(DVec3::new(-1.5, side * 1.5, 0.0), DVec3::NEG_Z * 1.5, DVec3::Y * 1.3, MIRROR, None);
-        if point {
-            return s.point(at, 100.0);
-        }
-        let radius = 0.12;
-        let radiance = 100.0 / (4.0 * PI * PI * radius * radius);
-        s.sphere(at, radius, grey(0.0), Some(Rgb::splat(radiance as f32)))
-    };
-    for (material, below) in
-        [(white_metal(0.09), false), (rough_glass(0.25), false), (rough_glass(0.25), true)]
-    {
-        let few = RenderSettings {
-            ppm: PpmSettings { radius: Some(0.05), ..settings(60_000, 16).ppm },
-            ..settings(60_000, 16)
-        };
-        let by_point = seeds(&scene(material, below, true), &few, 3, 4);
-        let many = settings(10_000, 256);
-        let by_lamp = seeds(&scene(material, below, false), &many, 1, 4);
-        near(&format!("{material:?} {below}"), by_point, by_lamp, 0.03);
     }
 }

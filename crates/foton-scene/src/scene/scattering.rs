@@ -1,0 +1,58 @@
+//! The BSDF at a point, its colours looked up.
+
+use foton_math::Rgb;
+
+use super::Scene;
+use crate::bsdf::Scattering;
+use crate::description::{Bsdf, Colour, Diffuse};
+use crate::surface::Surface;
+
+/// The side that a material does not describe.
+const BLACK: Bsdf = Bsdf::Diffuse(Diffuse { reflectance: Colour::Constant(Rgb::BLACK) });
+
+impl Scene {
+    /// How the surface scatters light on the side of `outward` (whether the light's direction is on the normal's side), with
+    /// its colours looked up. `None`: that side is black. A side without a BSDF takes all light that meets it, and where there is
+    /// an opacity the rest passes it all the same.
+    #[must_use]
+    #[inline(always)]
+    pub fn scattering(&self, surface: &Surface, outward: bool) -> Option<Scattering> {
+        let material = self.material(surface.shape);
+        let front = outward || material.front.transmits();
+        let bsdf = match &material.back {
+            _ if front => &material.front,
+            Some(back) => back,
+            None if material.opacity.is_some() => &BLACK,
+            None => return None,
+        };
+        let coats = self.coats.get(self.shapes[surface.shape as usize].material as usize);
+        let coat = coats.and_then(|c| c[usize::from(!front)]);
+        if !self.census.textures {
+            let constant = |c: Colour| if let Colour::Constant(c) = c { c } else { Rgb::BLACK };
+            let opacity = material.opacity.map_or(1.0, |c| constant(c).mean());
+            return Some(Scattering { bsdf: surface.between(*bsdf).map(constant), opacity, coat });
+        }
+        let mut known = None;
+        let mut uv = || *known.get_or_insert_with(|| self.texture_coordinate(surface));
+        let opacity = material.opacity.map_or(1.0, |c| match c {
+            Colour::Constant(c) => c.mean(),
+            Colour::Texture(t) => self.textures[t].scalar(uv()),
+        });
+        let colour = |c: Colour| match c {
+            Colour::Constant(c) => c,
+            Colour::Texture(t) => self.textures[t].colour(uv()),
+        };
+        Some(Scattering { bsdf: surface.between(*bsdf).map(colour), opacity: opacity.clamp(0.0, 1.0), coat })
+    }
+
+    /// The reflectance of a side that is Lambertian and nothing else, its colour looked up: what most photons meet, and with a
+    /// fraction of what [`Scene::scattering`] costs. `None` for all others.
+    #[must_use]
+    #[inline(always)]
+    pub fn lambertian(&self, surface: &Surface, outward: bool) -> Option<Rgb> {
+        match self.lambertian[surface.shape as usize][usize::from(!outward)]? {
+            Colour::Constant(c) => Some(c),
+            Colour::Texture(t) => Some(self.textures[t].colour(self.texture_coordinate(surface))),
+        }
+    }
+}
