@@ -2,12 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use foton_edit::{Camera, Edit, FieldId, Property, Side, Target, Value, camera_xml, focus_distance, inspect};
 use foton_format::{Options, Saved, open, read_str, save_edited};
 use foton_scene::Scene;
 use foton_scene::description::{Filter, FovAxis, SceneDescription};
-use foton_session::edit::{
-    Camera, Edit, FieldId, Property, Side, Target, Value, camera_xml, focus_distance, inspect,
-};
 
 fn assets() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets")

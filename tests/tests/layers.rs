@@ -17,8 +17,12 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("foton-format", &["foton-input", "foton-math", "foton-scene", "foton-film"]),
     ("foton-transport", &["foton-input", "foton-math", "foton-scene"]),
     ("foton-integrator", &["foton-input", "foton-math", "foton-scene", "foton-film", "foton-transport"]),
-    ("foton-session", &["foton-input", "foton-math", "foton-scene", "foton-integrator", "foton-film"]),
-    ("foton-preview", &["foton-input", "foton-math", "foton-film", "foton-session"]),
+    ("foton-edit", &["foton-input", "foton-math", "foton-scene"]),
+    (
+        "foton-session",
+        &["foton-input", "foton-math", "foton-scene", "foton-edit", "foton-integrator", "foton-film"],
+    ),
+    ("foton-preview", &["foton-input", "foton-math", "foton-film", "foton-edit", "foton-session"]),
     ("foton-measure", &["foton-input", "foton-math", "foton-scene", "foton-film", "foton-integrator"]),
     (
         "foton",
@@ -57,7 +61,7 @@ const OWNED: &[(&str, &str)] = &[
 ];
 
 /// These compute and nothing else: no files, no clocks, no network.
-const PURE: &[&str] = &["foton-integrator", "foton-scene", "foton-transport"];
+const PURE: &[&str] = &["foton-edit", "foton-integrator", "foton-scene", "foton-transport"];
 
 #[test]
 fn crates_depend_on_lower_layers_only() {

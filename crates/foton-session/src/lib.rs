@@ -1,5 +1,5 @@
-//! Runs a render: threads, stop rules, stage clocks, interruption, snapshots; edits its scene; and the [`Engine`], which a
-//! window steers. It knows no scene files, no terminal and no window.
+//! Runs a render: threads, stop rules, stage clocks, interruption, snapshots; and the [`Engine`], which a window
+//! steers. It knows no scene files, no terminal and no window.
 //!
 //! ```
 //! use foton_session::{Interrupt, Session, StopRule};
@@ -20,7 +20,6 @@
 
 pub mod checkpoint;
 mod clock;
-pub mod edit;
 pub mod engine;
 mod interrupt;
 mod metadata;

@@ -1,7 +1,7 @@
 //! The picture in the middle: where it lies, what the pointer does to it, and what is drawn over it.
 
 use egui::{Pos2, Rect, Sense, Vec2};
-use foton_session::edit::DragMode;
+use foton_edit::DragMode;
 use foton_session::engine::{Change, Command, Gesture, Picture as EnginePicture};
 
 use super::film_place::{Film, place};

@@ -1,6 +1,6 @@
 //! What is chosen: its material and numbers, all of them editable live.
 
-use foton_session::edit::{Control, Field, Value};
+use foton_edit::{Control, Field, Value};
 use foton_session::engine::{Change, Command};
 
 use super::widgets::{heading, slider};

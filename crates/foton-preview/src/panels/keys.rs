@@ -1,7 +1,7 @@
 //! Keyboard shortcuts. They rest while someone types.
 
 use egui::{Key, Modifiers};
-use foton_session::edit::DragMode;
+use foton_edit::DragMode;
 use foton_session::engine::{Activity, Change, Command, Gesture};
 
 use super::toolbar::{PICTURES, open_dialog, save_dialog};

@@ -1,8 +1,8 @@
 //! What is drawn over the picture: the outline of what is chosen, lights, photons, the disc under the pointer.
 
 use egui::{Color32, Pos2, Shape, Stroke};
+use foton_edit::Segment;
 use foton_session::PathClass;
-use foton_session::edit::Segment;
 use foton_session::engine::{Dot, Frame};
 
 use super::film_place::Film;

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use foton_edit::{DragMode, FieldId, Value};
 use foton_integrator::{DirectLight, RadiusFloor, RadiusRule, RenderSettings};
 
-use crate::edit::{DragMode, FieldId, Value};
 use crate::stop::StopRule;
 
 /// A scene to open.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use foton_edit::{Inspection, Segment, Target};
 use foton_film::{Image, Plane};
 use foton_integrator::{ErrorEstimate, Ledger, PathClass, Radii, RenderSettings};
 use foton_math::Rgb;
@@ -10,7 +11,6 @@ use foton_scene::BuildStep;
 
 use super::command::ViewMode;
 use crate::clock::StageTimes;
-use crate::edit::{Inspection, Segment, Target};
 use crate::stop::StopRule;
 
 /// What the engine is doing.

@@ -4,6 +4,10 @@ use std::any::Any;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use foton_edit::{
+    Camera, DragMode, DragPlane, Edit, FieldId, History, Outline, Segment, Target, UpAxis, Value, anchor,
+    camera_xml, focus_distance, inspect, markers, pick_any,
+};
 use foton_integrator::Cancel;
 use foton_math::glam::{DVec2, DVec3};
 use foton_scene::description::{SceneDescription, SensorDescription};
@@ -12,10 +16,6 @@ use foton_scene::{BuildError, BuildOptions, Scene};
 use super::command::{Gesture, Source};
 use super::frame::{SceneFacts, Selection, SensorFacts};
 use super::loader::Ready;
-use crate::edit::{
-    Camera, DragMode, DragPlane, Edit, FieldId, History, Outline, Segment, Target, UpAxis, Value, camera_xml,
-    focus_distance, inspect, markers, middle, pick_any,
-};
 use crate::metadata::SceneIdentity;
 
 /// A step of an arrow key, in pixels at the distance of what is chosen.
@@ -49,7 +49,7 @@ struct Chosen {
 impl Chosen {
     /// Where it was picked, now that the scene is as described.
     fn picked(&self, description: &SceneDescription) -> DVec3 {
-        middle(description, self.target).unwrap_or_default() + self.grip
+        anchor(description, self.target).unwrap_or_default() + self.grip
     }
 }
 
@@ -214,7 +214,7 @@ impl Stage {
         self.chosen = picked.map(|picked| Chosen {
             target: picked.target,
             outline: Outline::new(&self.description, picked.target),
-            grip: DVec3::from(picked.position) - middle(&self.description, picked.target).unwrap_or_default(),
+            grip: DVec3::from(picked.position) - anchor(&self.description, picked.target).unwrap_or_default(),
             drag: None,
         });
     }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use foton_edit::DragMode;
 use foton_integrator::{Cancel, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
@@ -14,7 +15,6 @@ use foton_scene::description::{
 use super::super::command::Source;
 use super::super::loader::{Loaded, Ready};
 use super::{Effect, Stage};
-use crate::edit::DragMode;
 use crate::metadata::SceneIdentity;
 
 /// A wall of many triangles before the camera, and a lamp.

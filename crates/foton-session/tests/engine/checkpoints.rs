@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use foton_session::edit::DragMode;
+use foton_edit::DragMode;
 use foton_session::engine::{Change, Command, Event, Frame, Gesture};
 use foton_session::{StopRule, checkpoint};
 

@@ -2,9 +2,9 @@
 
 use std::time::Duration;
 
+use foton_edit::{DragMode, FieldId, Property, Side, Target, Value};
 use foton_film::Image;
 use foton_session::StopRule;
-use foton_session::edit::{DragMode, FieldId, Property, Side, Target, Value};
 use foton_session::engine::{Activity, Change, Command, Frame, Gesture};
 
 use crate::rig::{BALL, Folder, Rig, SIZE, image};

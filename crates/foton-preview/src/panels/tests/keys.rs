@@ -1,7 +1,7 @@
 //! Keys: each does one thing, and none while someone types.
 
 use egui::{Key, Modifiers};
-use foton_session::edit::DragMode;
+use foton_edit::DragMode;
 use foton_session::engine::{Change, Gesture};
 
 use super::*;

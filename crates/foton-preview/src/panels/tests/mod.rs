@@ -12,9 +12,9 @@ use std::time::Duration;
 use egui::accesskit::{Action, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, Node};
+use foton_edit::{Control, Field, FieldId, Inspection, MaterialUse, Property, Side, Target, Value};
 use foton_film::{Image, ToneMap};
 use foton_math::Rgb;
-use foton_session::edit::{Control, Field, FieldId, Inspection, MaterialUse, Property, Side, Target, Value};
 use foton_session::engine::{
     Activity, BuildStep, Command, Configuration, Event, Frame, Numbers, Picture, SceneFacts, Selection,
     SensorFacts, Source, ViewMode,

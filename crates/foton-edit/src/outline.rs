@@ -11,9 +11,9 @@ use std::sync::Arc;
 use foton_math::glam::{DAffine3, DVec2, DVec3};
 use foton_scene::description::{Geometry, Mesh, SceneDescription, ShapeDescription};
 
-use super::Target;
 use super::geometry::object_bounds;
 use super::pick::marker_position;
+use super::target::Target;
 use super::view::View;
 
 /// A line on the film, in pixels from its top left corner; both ends at most one film's size outside.

@@ -7,9 +7,11 @@ use thiserror::Error;
 
 use foton_math::Rgb;
 
+use super::camera::Camera;
 use super::field::{Field, FieldId, Value};
 use super::inspect::{inspect, up_axis};
-use super::{Camera, Target, geometry, light, material};
+use super::target::Target;
+use super::{geometry, light, material};
 
 /// A change of a scene.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use foton_math::glam::{DAffine3, DMat3, DVec3};
 use foton_scene::description::{Filter, FovAxis, SensorDescription};
 
-use super::{Camera, UpAxis};
+use crate::{Camera, UpAxis};
 
 fn sensor(forward: DVec3, up: DVec3, mirrored: bool) -> SensorDescription {
     let forward = forward.normalize();
@@ -85,7 +85,7 @@ fn a_pan_of_pixels_moves_the_target_by_as_many() {
         let mut camera = Camera::new(&sensor, 4.0);
         let held = DVec3::from(camera.target);
         camera.pan(&sensor, 30.0, 12.0);
-        let view = super::view::View::new(&camera.applied_to(&sensor));
+        let view = crate::view::View::new(&camera.applied_to(&sensor));
         let at = view.project(held).unwrap() - view.film * 0.5;
         assert!((at - foton_math::glam::DVec2::new(30.0, 12.0)).length() < 1e-9, "{at}");
     }

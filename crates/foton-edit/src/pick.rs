@@ -4,7 +4,7 @@ use foton_math::glam::{DVec2, DVec3, Vec2};
 use foton_scene::Scene;
 use foton_scene::description::{EmitterKind, SceneDescription};
 
-use super::Target;
+use super::target::Target;
 use super::view::View;
 
 /// How far from a light's marker a click still means it, in pixels.
@@ -107,8 +107,9 @@ pub(crate) fn marker_position(description: &SceneDescription, emitter: usize, vi
     at.filter(visible)
 }
 
-/// A point of a surface or light that stands for the whole of it, in world units.
-pub(crate) fn middle(description: &SceneDescription, target: Target) -> Option<DVec3> {
+/// A point of a surface or light that stands for the whole of it, in world units; `None` for light from infinity.
+#[must_use]
+pub fn anchor(description: &SceneDescription, target: Target) -> Option<DVec3> {
     match target {
         Target::Shape(i) => Some(super::geometry::centre(description.shapes.get(i)?)),
         Target::Emitter(i) => match &description.emitters.get(i)?.kind {

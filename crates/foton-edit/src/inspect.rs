@@ -5,7 +5,8 @@ use foton_scene::description::{Geometry, SceneDescription};
 
 use super::camera::UpAxis;
 use super::field::{Field, FieldId, Fields};
-use super::{Target, geometry, light, material, pick};
+use super::target::Target;
+use super::{geometry, light, material, pick};
 
 /// A shape or light as the inspector shows it.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,7 +60,7 @@ pub(crate) fn up_axis(description: &SceneDescription) -> UpAxis {
 }
 
 fn position_fields(description: &SceneDescription, target: Target, fields: &mut Fields) {
-    let Some(middle) = pick::middle(description, target) else { return };
+    let Some(middle) = pick::anchor(description, target) else { return };
     for (axis, label) in (0u8..).zip(["X", "Y", "Z"]) {
         let help = "Of its middle, in the world.";
         let value = middle[usize::from(axis)];

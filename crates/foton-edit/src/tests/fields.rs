@@ -1,0 +1,127 @@
+//! The inspector's fields: what they show, and what setting them does.
+
+use super::*;
+
+#[test]
+fn powers_are_those_by_which_the_scene_shares_its_photons() {
+    let description = scene();
+    let built = Scene::build(&description).unwrap();
+    let scale2 = built.normalisation().scale().powi(2);
+    for (name, target) in [("lamp", LAMP), ("bulb", Target::Emitter(0)), ("key", Target::Emitter(1))] {
+        let emitter = built.emitters().iter().find(|e| e.name == name).unwrap();
+        let power = f64::from(emitter.power().mean()) / scale2;
+        let shown = number(&description, target, FieldId::Power);
+        assert!(close(shown, power), "{name}: {shown} {power}");
+        let doubled = set(&description, target, FieldId::Power, Value::Number(2.0 * shown));
+        assert!(close(number(&doubled, target, FieldId::Power), 2.0 * shown));
+    }
+}
+
+#[test]
+fn colour_and_brightness_of_a_light_are_apart() {
+    let description = scene();
+    let blue = set(&description, LAMP, FieldId::LightColour, Value::Colour([0.1, 0.2, 0.5]));
+    assert!(close(number(&blue, LAMP, FieldId::Brightness), 2.0));
+    let dim = set(&blue, LAMP, FieldId::Brightness, Value::Number(0.5));
+    let radiance = dim.shapes[3].radiance.unwrap().to_array();
+    assert!(radiance.iter().zip([0.1, 0.2, 0.5]).all(|(a, b)| (a - b).abs() < 1e-6), "{radiance:?}");
+}
+
+#[test]
+fn a_lights_size_keeps_its_power_and_its_place() {
+    let description = scene();
+    let small = set(&description, LAMP, FieldId::Radius, Value::Number(0.25));
+    assert!(close(number(&small, LAMP, FieldId::Radius), 0.25));
+    assert!(close(number(&small, LAMP, FieldId::Power), number(&description, LAMP, FieldId::Power)));
+    assert!(close(number(&small, LAMP, FieldId::Brightness), 32.0));
+    assert_eq!(anchor(&small, LAMP), anchor(&description, LAMP));
+    let cube = set(&description, CUBE, FieldId::Size, Value::Number(4.0));
+    assert!(close(number(&cube, CUBE, FieldId::Size), 4.0));
+    let middles = [&cube, &description].map(|d| anchor(d, CUBE).unwrap());
+    assert!(middles[0].distance(middles[1]) < 1e-12);
+}
+
+#[test]
+fn a_light_turns_to_where_its_angles_say() {
+    let description = scene();
+    for target in [Target::Emitter(1), Target::Emitter(2)] {
+        let turned = set(&description, target, FieldId::Elevation, Value::Number(60.0));
+        let turned = set(&turned, target, FieldId::Azimuth, Value::Number(-30.0));
+        assert!(close(number(&turned, target, FieldId::Elevation), 60.0));
+        assert!(close(number(&turned, target, FieldId::Azimuth), -30.0));
+        assert_eq!(anchor(&turned, target), anchor(&description, target));
+    }
+}
+
+#[test]
+fn every_field_takes_what_it_offers_and_builds() {
+    let description = scene();
+    let targets = (0..4).map(Target::Shape).chain((0..4).map(Target::Emitter));
+    for target in targets {
+        for field in inspect(&description, target).unwrap().fields {
+            let tried = match &field.control {
+                Control::Number { min, max, .. } => {
+                    assert!(
+                        !field.accepts(Value::Number(f64::NAN)) && !field.accepts(Value::Number(max * 2.0))
+                    );
+                    vec![Value::Number(*min), Value::Number(*max)]
+                }
+                Control::Colour => vec![Value::Colour([0.2, 0.4, 0.6])],
+                Control::Choice(options) => (0..options.len()).map(Value::Choice).collect(),
+                Control::Toggle => vec![Value::Toggle(true), Value::Toggle(false)],
+            };
+            for value in tried {
+                let after = set(&description, target, field.id, value);
+                Scene::build(&after).unwrap_or_else(|e| panic!("{:?} {value:?}: {e}", field.id));
+                let now = inspect(&after, target).unwrap();
+                let now = now.fields.into_iter().find(|f| f.id == field.id).unwrap().value;
+                match (now, value) {
+                    (Value::Number(a), Value::Number(b)) => {
+                        // West of south is east of it.
+                        let turn = if field.id == FieldId::Azimuth { (a - b).abs() % 360.0 } else { a - b };
+                        assert!(turn.abs() < 1e-3 * b.abs().max(1.0), "{:?}: {a}, not {b}", field.id);
+                    }
+                    (Value::Colour(_), Value::Colour(_)) => {}
+                    _ => assert_eq!(now, value, "{:?}", field.id),
+                }
+                let wrong = Edit::SetField { target, field: field.id, value: Value::Choice(999) };
+                assert!(wrong.apply(&description).is_err());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_kind_of_material_offers_its_own_fields() {
+    let field = |property| FieldId::Material(Side::Front, property);
+    let metal = set(&scene(), BALL, field(Property::Kind), Value::Choice(4));
+    let fields = inspect(&metal, BALL).unwrap().fields;
+    let choice = fields.iter().find(|f| f.id == field(Property::Metal)).unwrap();
+    let Control::Choice(options) = &choice.control else { panic!("a choice") };
+    let chosen = options.iter().position(|o| o == "silver (Ag)").unwrap();
+    assert_eq!(choice.value, Value::Choice(options.iter().position(|o| o == "gold (Au)").unwrap()));
+    let silver = set(&metal, BALL, field(Property::Metal), Value::Choice(chosen));
+    let silver = set(&silver, BALL, field(Property::Rough), Value::Toggle(true));
+    let silver = set(&silver, BALL, field(Property::Roughness), Value::Number(0.2));
+    assert!((number(&silver, BALL, field(Property::Eta(0))) - 0.155_276).abs() < 1e-6);
+    let material = &silver.materials[1];
+    assert_eq!(material.back, Some(material.front), "what was glass is seen from both sides");
+    let custom = set(&silver, BALL, field(Property::K(2)), Value::Number(5.0));
+    let fields = inspect(&custom, BALL).unwrap().fields;
+    assert_eq!(fields.iter().find(|f| f.id == field(Property::Metal)).unwrap().value, Value::Choice(0));
+}
+
+#[test]
+fn a_shared_material_says_so_and_can_be_made_ones_own() {
+    let description = scene();
+    let shared = inspect(&description, CUBE).unwrap();
+    assert_eq!(shared.material, Some(MaterialUse { name: "grey".into(), shapes: 3 }));
+    assert_eq!(shared.notes, ["The material \"grey\" is shared by 3 shapes."]);
+    let own = Edit::OwnMaterial { shape: 2 }.apply(&description).unwrap();
+    let inspection = inspect(&own, CUBE).unwrap();
+    assert_eq!(inspection.material, Some(MaterialUse { name: "grey of cube".into(), shapes: 1 }));
+    assert!(inspection.notes.is_empty());
+    let red =
+        set(&own, CUBE, FieldId::Material(Side::Front, Property::Colour), Value::Colour([0.7, 0.1, 0.1]));
+    assert_eq!(format!("{:?}", red.materials[0]), format!("{:?}", description.materials[0]));
+}
