@@ -1,5 +1,7 @@
 //! What an inspector shows and sets: plain values with names, units, ranges and help.
 
+use foton_scene::parameter::Parameter;
+
 /// A number, colour, choice or switch of a shape, its material, or a light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FieldId {
@@ -43,34 +45,12 @@ pub enum Side {
 pub enum Property {
     /// What kind of material it is.
     Kind,
-    /// Its colour, or that of the base under a coat.
-    Colour,
-    /// Factor on reflected light.
-    Reflections,
-    /// Factor on transmitted light.
-    Transmission,
-    /// Index of refraction inside.
-    InsideIor,
-    /// Index of refraction outside.
-    OutsideIor,
+    /// A parameter of its BSDF, by its name in files.
+    Parameter(&'static str),
+    /// A channel, 0 to 2, of a parameter that is no colour to look at.
+    Channel(&'static str, u8),
     /// Whether it is rough.
     Rough,
-    /// Roughness in all directions.
-    Roughness,
-    /// Roughness along u.
-    RoughnessU,
-    /// Roughness along v.
-    RoughnessV,
-    /// How microfacets are distributed.
-    Distribution,
-    /// A metal by name.
-    Metal,
-    /// A channel of a metal's index of refraction, 0 to 2.
-    Eta(u8),
-    /// A channel of a metal's extinction, 0 to 2.
-    K(u8),
-    /// Whether a coated base's colour deepens with each reflection inside.
-    Nonlinear,
 }
 
 /// A field's value.
@@ -152,6 +132,13 @@ impl Fields {
     ) {
         let control = Control::Number { min: min.min(value), max: max.max(value), logarithmic };
         self.0.push(Field { id, label, unit, help, value: Value::Number(value), control });
+    }
+
+    /// A number as a plugin declares it.
+    pub(crate) fn parameter(&mut self, id: FieldId, parameter: &Parameter, value: f64) {
+        let (min, max) = parameter.range;
+        let range = parameter.slider.unwrap_or((min, max, false));
+        self.number(id, (parameter.label, parameter.unit), value, range, parameter.help);
     }
 
     pub(crate) fn colour(&mut self, id: FieldId, label: &'static str, value: [f32; 3], help: &'static str) {

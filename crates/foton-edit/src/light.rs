@@ -5,15 +5,16 @@ use std::f64::consts::PI;
 use foton_math::Rgb;
 use foton_math::glam::{DMat3, DQuat, DVec3};
 use foton_scene::description::{EmitterKind, ShapeDescription};
+use foton_scene::parameter::Parameter;
+use foton_scene::plugins::emitters;
 
 use super::camera::UpAxis;
 use super::field::{FieldId, Fields, Value};
 use super::geometry;
 
-/// Brightnesses and powers that a slider offers.
-const RANGE: (f64, f64, bool) = (1e-4, 1e6, true);
+/// Powers that a slider offers.
+const POWERS: (f64, f64, bool) = (1e-4, 1e6, true);
 
-const BRIGHTNESS: &str = "Of its strongest channel. Noise and speed do not change with it.";
 const COLOUR: &str = "Linear; its strongest channel counts as 1, so that brightness stays what it is.";
 
 /// The factor from a spot's intensity to its power: ∫ over its cones, the falloff linear in the angle.
@@ -38,13 +39,13 @@ fn hue(light: Rgb) -> [f32; 3] {
 }
 
 /// Brightness, colour and power; `watts` is the power of a light of 1.
-fn emission_fields(light: Rgb, label: (&'static str, &'static str), watts: Option<f64>, out: &mut Fields) {
-    out.number(FieldId::Brightness, label, strength(light), RANGE, BRIGHTNESS);
+fn emission_fields(light: Rgb, emission: &Parameter, watts: Option<f64>, out: &mut Fields) {
+    out.parameter(FieldId::Brightness, emission, strength(light));
     out.colour(FieldId::LightColour, "Light colour", hue(light), COLOUR);
     if let Some(watts) = watts {
         let power = f64::from(light.mean()) * watts;
         let help = "Over all directions, the mean of the channels: what photons share among them.";
-        out.number(FieldId::Power, ("Power", "W"), power, RANGE, help);
+        out.number(FieldId::Power, ("Power", "W"), power, POWERS, help);
     }
 }
 
@@ -71,7 +72,7 @@ fn set_emission(light: &mut Rgb, watts: Option<f64>, field: FieldId, value: Valu
 pub(crate) fn surface_fields(shape: &ShapeDescription, out: &mut Fields) {
     if let Some(radiance) = shape.radiance {
         let watts = PI * geometry::area(shape);
-        emission_fields(radiance, ("Radiance", "W/(m²·sr)"), Some(watts), out);
+        emission_fields(radiance, &emitters::RADIANCE, Some(watts), out);
     }
 }
 
@@ -96,11 +97,11 @@ fn watts(kind: &EmitterKind) -> Option<f64> {
 /// The kind of a light in words.
 pub(crate) fn kind_name(kind: &EmitterKind) -> &'static str {
     match kind {
-        EmitterKind::Point { .. } => "point light",
-        EmitterKind::Spot { .. } => "spot light",
-        EmitterKind::Constant { .. } => "even sky",
-        EmitterKind::Directional { .. } => "directional light",
-        EmitterKind::Environment { .. } => "environment map",
+        EmitterKind::Point { .. } => emitters::POINT.label,
+        EmitterKind::Spot { .. } => emitters::SPOT.label,
+        EmitterKind::Constant { .. } => emitters::CONSTANT.label,
+        EmitterKind::Directional { .. } => emitters::DIRECTIONAL.label,
+        EmitterKind::Environment { .. } => emitters::ENVMAP.label,
     }
 }
 
@@ -128,25 +129,22 @@ pub(crate) fn fields(kind: &EmitterKind, up: UpAxis, out: &mut Fields) {
     let watts = watts(kind);
     match kind {
         EmitterKind::Point { intensity, .. } => {
-            emission_fields(*intensity, ("Intensity", "W/sr"), watts, out);
+            emission_fields(*intensity, &emitters::INTENSITY, watts, out);
         }
         EmitterKind::Spot { intensity, cutoff_degrees, beam_degrees, .. } => {
-            emission_fields(*intensity, ("Intensity", "W/sr"), watts, out);
-            let help =
-                "Half angle of the cone, beyond which there is no light. A narrow one wastes no photons.";
-            out.number(FieldId::Cutoff, ("Cone", "°"), *cutoff_degrees, (0.1, 180.0, false), help);
-            let help = "Half angle within which it is brightest; from there it fades to the cone's edge.";
-            out.number(FieldId::Beam, ("Beam", "°"), *beam_degrees, (0.0, *cutoff_degrees, false), help);
+            emission_fields(*intensity, &emitters::INTENSITY, watts, out);
+            out.parameter(FieldId::Cutoff, &emitters::CUTOFF_ANGLE, *cutoff_degrees);
+            let beam = Parameter { range: (0.0, *cutoff_degrees), ..emitters::BEAM_WIDTH };
+            out.parameter(FieldId::Beam, &beam, *beam_degrees);
         }
         EmitterKind::Constant { radiance } => {
-            emission_fields(*radiance, ("Radiance", "W/(m²·sr)"), watts, out);
+            emission_fields(*radiance, &emitters::RADIANCE, watts, out);
         }
         EmitterKind::Directional { irradiance, .. } => {
-            emission_fields(*irradiance, ("Irradiance", "W/m²"), watts, out);
+            emission_fields(*irradiance, &emitters::IRRADIANCE, watts, out);
         }
         EmitterKind::Environment { scale, .. } => {
-            let help = "Factor on the picture's radiance.";
-            out.number(FieldId::Brightness, ("Brightness", "×"), f64::from(*scale), RANGE, help);
+            out.parameter(FieldId::Brightness, &emitters::SCALE, f64::from(*scale));
         }
     }
 }

@@ -1,16 +1,14 @@
-//! Fields of materials: what they are, and setting them.
+//! Fields of materials, by the parameters that their BSDFs declare: what they are, and setting them.
 
 use foton_math::Rgb;
-use foton_scene::description::{
-    Bsdf, Colour, Conductor, Dielectric, Diffuse, Material, MicrofacetDistribution, Microfacets, Mirror,
-    Null, Plastic, ThinDielectric,
-};
+use foton_scene::bsdf::{MicrofacetDistribution, Microfacets};
+use foton_scene::description::{Bsdf, Colour, Material};
 use foton_scene::metals::METALS;
+use foton_scene::parameter::{Bound, Parameter, Slot};
+use foton_scene::plugins::wrappers::OPACITY;
 
 use super::field::{FieldId, Fields, Property, Side, Value};
 
-/// Kinds of materials, in the order of [`kind_of`].
-const KINDS: [&str; 7] = ["matte", "glass", "thin glass", "mirror", "metal", "plastic", "invisible"];
 /// Everyday names of metals.
 const NAMES: [(&str, &str); 8] = [
     ("Ag", "silver"),
@@ -22,50 +20,30 @@ const NAMES: [(&str, &str); 8] = [
     ("Ir", "iridium"),
     ("W", "tungsten"),
 ];
-const GOLD: &str = "Au";
 const WHITE: Colour = Colour::Constant(Rgb::WHITE);
-/// How rough a surface becomes that is made rough.
-const NEW_ROUGHNESS: Microfacets =
-    Microfacets { distribution: MicrofacetDistribution::Ggx, alpha_u: 0.1, alpha_v: 0.1 };
+/// Labels of the channels of a metal's index of refraction.
+const CHANNELS: [(&str, [&str; 3]); 2] =
+    [("eta", ["eta red", "eta green", "eta blue"]), ("k", ["k red", "k green", "k blue"])];
 
+/// The place of a BSDF's model among [`Bsdf::defaults`].
 fn kind_of(bsdf: &Bsdf) -> usize {
-    match bsdf {
-        Bsdf::Diffuse(Diffuse { .. }) => 0,
-        Bsdf::Dielectric(Dielectric { .. }) => 1,
-        Bsdf::ThinDielectric(ThinDielectric { .. }) => 2,
-        Bsdf::Mirror(Mirror { .. }) => 3,
-        Bsdf::Conductor(Conductor { .. }) => 4,
-        Bsdf::Plastic(Plastic { .. }) => 5,
-        Bsdf::Null(Null) => 6,
-    }
+    let is_same = |b: &Bsdf| std::mem::discriminant(b) == std::mem::discriminant(bsdf);
+    Bsdf::defaults(false).iter().position(is_same).unwrap_or(0)
 }
 
 /// The kind of a material in a word.
 pub(crate) fn kind_name(material: &Material) -> &'static str {
-    KINDS[kind_of(&material.front)]
-}
-
-fn is_clear(bsdf: &Bsdf) -> bool {
-    matches!(
-        bsdf,
-        Bsdf::Dielectric(Dielectric { .. }) | Bsdf::ThinDielectric(ThinDielectric { .. }) | Bsdf::Null(Null)
-    )
+    material.front.info().label
 }
 
 /// Appends a material's fields. Whether some colours come from textures, which cannot be edited.
 pub(crate) fn fields(material: &Material, out: &mut Fields) -> bool {
     let mut textured = side_fields(&material.front, Side::Front, out);
-    if let Some(back) = material.back.filter(|b| *b != material.front && !is_clear(&material.front)) {
+    if let Some(back) = material.back.filter(|b| *b != material.front && !material.front.transmits()) {
         textured |= side_fields(&back, Side::Back, out);
     }
     match material.opacity.unwrap_or(WHITE) {
-        Colour::Constant(c) => out.number(
-            FieldId::Opacity,
-            ("Opacity", ""),
-            f64::from(c.mean()),
-            (0.0, 1.0, false),
-            "Share of light that meets the surface; the rest passes straight through.",
-        ),
+        Colour::Constant(c) => out.parameter(FieldId::Opacity, &OPACITY, f64::from(c.mean())),
         Colour::Texture(_) => textured = true,
     }
     textured
@@ -74,53 +52,33 @@ pub(crate) fn fields(material: &Material, out: &mut Fields) -> bool {
 fn side_fields(bsdf: &Bsdf, side: Side, out: &mut Fields) -> bool {
     let id = |p| FieldId::Material(side, p);
     let label = if side == Side::Front { "Material" } else { "Material behind" };
-    let kinds = KINDS.map(str::to_owned).to_vec();
+    let kinds = Bsdf::defaults(false).map(|b| b.info().label.to_owned()).to_vec();
     out.choice(id(Property::Kind), label, kind_of(bsdf), kinds, "What the surface is made of.");
     let mut textured = false;
-    let mut colour = |out: &mut Fields, property, label, value: Colour, help| match value {
-        Colour::Constant(c) => out.colour(id(property), label, c.to_array(), help),
-        Colour::Texture(_) => textured = true,
-    };
-    let own = "Share of light reflected, by channel. Above 0.9 light bounces long and passes get slower.";
-    match *bsdf {
-        Bsdf::Diffuse(Diffuse { reflectance }) => colour(out, Property::Colour, "Colour", reflectance, own),
-        Bsdf::Mirror(Mirror { reflectance }) => colour(out, Property::Colour, "Colour", reflectance, own),
-        Bsdf::Dielectric(Dielectric { specular_reflectance, specular_transmittance, .. })
-        | Bsdf::ThinDielectric(ThinDielectric { specular_reflectance, specular_transmittance, .. }) => {
-            let help = "Factor on light that passes; white is physical, a tint colours every crossing alike.";
-            colour(out, Property::Transmission, "Transmitted", specular_transmittance, help);
-            let help = "Factor on reflected light; white is physical.";
-            colour(out, Property::Reflections, "Reflected", specular_reflectance, help);
+    let mut bsdf = *bsdf;
+    for Bound { parameters, slot } in bsdf.parameters() {
+        let parameter = &parameters[0];
+        let own = id(Property::Parameter(parameter.name));
+        match slot {
+            Slot::Share(Colour::Constant(c)) => {
+                out.colour(own, parameter.label, c.to_array(), parameter.help);
+            }
+            Slot::Share(Colour::Texture(_)) => textured = true,
+            Slot::Refraction(ior) => out.parameter(own, parameter, f64::from(*ior)),
+            Slot::Boolean(on) => out.toggle(own, parameter.label, *on, parameter.help),
+            Slot::Metal { eta, k } => metal_fields(side, parameters, [*eta, *k], out),
+            Slot::Roughness(roughness) => roughness_fields(side, parameters, *roughness, out),
         }
-        Bsdf::Conductor(Conductor { specular_reflectance, eta, k, .. }) => {
-            metal_fields(side, eta, k, out);
-            let help = "Factor on reflected light; white is physical.";
-            colour(out, Property::Reflections, "Tint", specular_reflectance, help);
-        }
-        Bsdf::Plastic(Plastic { diffuse_reflectance, specular_reflectance, nonlinear, .. }) => {
-            colour(out, Property::Colour, "Base colour", diffuse_reflectance, own);
-            let help = "Factor on light reflected by the coat; white is physical.";
-            colour(out, Property::Reflections, "Reflected", specular_reflectance, help);
-            let help =
-                "Light reflected inside the coat takes on the base's colour each time: deeper colours.";
-            out.toggle(id(Property::Nonlinear), "Deep colour", nonlinear, help);
-        }
-        Bsdf::Null(Null) => {}
-    }
-    if let Some((inside, outside)) = iors(bsdf) {
-        let range = (1.0, 4.0, false);
-        let help = "How strongly light bends: water 1.33, window glass 1.52, sapphire 1.77, diamond 2.42.";
-        out.number(id(Property::InsideIor), ("Index of refraction", ""), f64::from(inside), range, help);
-        let help = "Index of refraction of what surrounds it: air 1, water 1.33.";
-        out.number(id(Property::OutsideIor), ("Index outside", ""), f64::from(outside), range, help);
-    }
-    if let Some(roughness) = roughness(bsdf) {
-        roughness_fields(side, roughness, out);
     }
     textured
 }
 
-fn metal_fields(side: Side, eta: Rgb, k: Rgb, out: &mut Fields) {
+/// The parameter of a name among those that say one thing together.
+fn named(parameters: &'static [Parameter], name: &str) -> Option<&'static Parameter> {
+    parameters.iter().find(|p| p.name == name)
+}
+
+fn metal_fields(side: Side, parameters: &'static [Parameter], [eta, k]: [Rgb; 2], out: &mut Fields) {
     let known = METALS.iter().position(|m| (m.1, m.2) == (eta.to_array(), k.to_array()));
     let everyday = |symbol: &str| NAMES.iter().find(|(s, _)| *s == symbol);
     let label = |symbol: &str| match everyday(symbol) {
@@ -129,57 +87,45 @@ fn metal_fields(side: Side, eta: Rgb, k: Rgb, out: &mut Fields) {
     };
     let names = METALS.iter().map(|m| label(m.0));
     let options = std::iter::once("custom".to_owned()).chain(names).collect();
-    let chosen = known.map_or(0, |i| i + 1);
     let id = |p| FieldId::Material(side, p);
-    out.choice(id(Property::Metal), "Metal", chosen, options, "Measured indices of refraction by name.");
-    let range = (0.0, 12.0, false);
-    let labels = [["eta red", "eta green", "eta blue"], ["k red", "k green", "k blue"]];
-    for (i, (eta, k)) in (0u8..).zip(eta.to_array().into_iter().zip(k.to_array())) {
-        let [eta_labels, k_labels] = labels;
-        let help = "Real part of the index of refraction.";
-        out.number(id(Property::Eta(i)), (eta_labels[usize::from(i)], ""), f64::from(eta), range, help);
-        let help = "Imaginary part of the index of refraction: larger reflects more.";
-        out.number(id(Property::K(i)), (k_labels[usize::from(i)], ""), f64::from(k), range, help);
+    if let Some(metal) = named(parameters, "material") {
+        let chosen = known.map_or(0, |i| i + 1);
+        out.choice(id(Property::Parameter("material")), metal.label, chosen, options, metal.help);
+    }
+    for channel in 0..3u8 {
+        for ((name, labels), value) in CHANNELS.into_iter().zip([eta, k]) {
+            let Some(parameter) = named(parameters, name) else { continue };
+            let i = usize::from(channel);
+            let parameter = Parameter { label: labels[i], ..*parameter };
+            out.parameter(id(Property::Channel(name, channel)), &parameter, f64::from(value.to_array()[i]));
+        }
     }
 }
 
-fn roughness_fields(side: Side, roughness: Option<Microfacets>, out: &mut Fields) {
+fn roughness_fields(
+    side: Side,
+    parameters: &'static [Parameter],
+    roughness: Option<Microfacets>,
+    out: &mut Fields,
+) {
     let id = |p| FieldId::Material(side, p);
     let help = "A smooth surface makes sharp images and caustics; a rough one blurs both.";
     out.toggle(id(Property::Rough), "Rough", roughness.is_some(), help);
     let Some(Microfacets { distribution, alpha_u, alpha_v }) = roughness else { return };
-    let range = (0.001, 1.0, true);
-    let mut number = |property, label, value: f32| {
-        let help =
-            "Spread of the surface's slopes. Up to 0.1 eye paths follow the gloss; above, photons show it.";
-        out.number(id(property), (label, ""), f64::from(value), range, help);
-    };
-    if alpha_u == alpha_v {
-        number(Property::Roughness, "Roughness", alpha_u);
+    let alphas: &[(&'static str, f32)] = if alpha_u == alpha_v {
+        &[("alpha", alpha_u)]
     } else {
-        number(Property::RoughnessU, "Roughness along u", alpha_u);
-        number(Property::RoughnessV, "Roughness along v", alpha_v);
+        &[("alpha_u", alpha_u), ("alpha_v", alpha_v)]
+    };
+    for &(name, value) in alphas {
+        if let Some(parameter) = named(parameters, name) {
+            out.parameter(id(Property::Parameter(name)), parameter, f64::from(value));
+        }
     }
-    let options = ["Beckmann", "GGX"].map(str::to_owned).to_vec();
-    let chosen = usize::from(distribution == MicrofacetDistribution::Ggx);
-    out.choice(id(Property::Distribution), "Distribution", chosen, options, "GGX has longer tails of gloss.");
-}
-
-fn iors(bsdf: &Bsdf) -> Option<(f32, f32)> {
-    match *bsdf {
-        Bsdf::Dielectric(Dielectric { int_ior, ext_ior, .. })
-        | Bsdf::ThinDielectric(ThinDielectric { int_ior, ext_ior, .. })
-        | Bsdf::Plastic(Plastic { int_ior, ext_ior, .. }) => Some((int_ior, ext_ior)),
-        _ => None,
-    }
-}
-
-fn roughness(bsdf: &Bsdf) -> Option<Option<Microfacets>> {
-    match *bsdf {
-        Bsdf::Dielectric(Dielectric { roughness, .. })
-        | Bsdf::Conductor(Conductor { roughness, .. })
-        | Bsdf::Plastic(Plastic { roughness, .. }) => Some(roughness),
-        _ => None,
+    if let Some(parameter) = named(parameters, "distribution") {
+        let options = MicrofacetDistribution::ALL.map(|d| d.label().to_owned()).to_vec();
+        let id = id(Property::Parameter("distribution"));
+        out.choice(id, parameter.label, distribution as usize, options, parameter.help);
     }
 }
 
@@ -193,112 +139,71 @@ pub(crate) fn set(material: &mut Material, side: Side, property: Property, value
             None => return,
         },
     };
-    let was_clear = is_clear(bsdf);
+    let was_clear = bsdf.transmits();
     set_side(bsdf, property, value);
     if side == Side::Front && alike {
         material.back = Some(material.front);
     }
-    if is_clear(&material.front) {
+    if material.front.transmits() {
         material.back = None;
     } else if was_clear && side == Side::Front {
         // Glass has two sides; what takes its place gets them, too.
         material.back = Some(material.front);
     }
-    if material.back.is_some_and(|b| is_clear(&b)) {
+    if material.back.is_some_and(|b| b.transmits()) {
         material.back = None;
     }
 }
 
 fn set_side(bsdf: &mut Bsdf, property: Property, value: Value) {
+    if let (Property::Kind, Value::Choice(kind)) = (property, value) {
+        *bsdf = of_kind(kind, bsdf);
+        return;
+    }
+    for Bound { parameters, slot } in bsdf.parameters() {
+        let is_it = property == Property::Parameter(parameters[0].name);
+        match (slot, value) {
+            (Slot::Share(share), Value::Colour(c)) if is_it => *share = Rgb::from_array(c).into(),
+            (Slot::Refraction(ior), Value::Number(x)) if is_it => *ior = x as f32,
+            (Slot::Boolean(flag), Value::Toggle(on)) if is_it => *flag = on,
+            (Slot::Metal { eta, k }, _) => set_metal([eta, k], property, value),
+            (Slot::Roughness(roughness), _) => set_roughness(roughness, property, value),
+            _ => {}
+        }
+    }
+}
+
+fn set_metal([eta, k]: [&mut Rgb; 2], property: Property, value: Value) {
     match (property, value) {
-        (Property::Kind, Value::Choice(kind)) => *bsdf = of_kind(kind, bsdf),
-        (Property::Metal, Value::Choice(i)) => {
-            if let (Bsdf::Conductor(Conductor { eta, k, .. }), Some(metal)) =
-                (bsdf, i.checked_sub(1).and_then(|i| METALS.get(i)))
-            {
+        (Property::Parameter("material"), Value::Choice(i)) => {
+            if let Some(metal) = i.checked_sub(1).and_then(|i| METALS.get(i)) {
                 (*eta, *k) = (Rgb::from_array(metal.1), Rgb::from_array(metal.2));
             }
         }
-        (Property::Distribution, Value::Choice(i)) => {
-            let kinds = [MicrofacetDistribution::Beckmann, MicrofacetDistribution::Ggx];
-            with_roughness(bsdf, |r| r.distribution = kinds[i.min(1)]);
-        }
-        (_, Value::Colour(c)) => set_colour(bsdf, property, Colour::Constant(Rgb::from_array(c))),
-        (_, Value::Number(x)) => set_number(bsdf, property, x as f32),
-        (Property::Rough, Value::Toggle(on)) => {
-            if let Bsdf::Dielectric(Dielectric { roughness, .. })
-            | Bsdf::Conductor(Conductor { roughness, .. })
-            | Bsdf::Plastic(Plastic { roughness, .. }) = bsdf
-            {
-                *roughness = on.then(|| roughness.unwrap_or(NEW_ROUGHNESS));
-            }
-        }
-        (Property::Nonlinear, Value::Toggle(on)) => {
-            if let Bsdf::Plastic(Plastic { nonlinear, .. }) = bsdf {
-                *nonlinear = on;
-            }
+        (Property::Channel(name, channel), Value::Number(x)) => {
+            let colour = if name == "eta" { eta } else { k };
+            let mut channels = colour.to_array();
+            channels[usize::from(channel.min(2))] = x as f32;
+            *colour = Rgb::from_array(channels);
         }
         _ => {}
     }
 }
 
-fn set_colour(bsdf: &mut Bsdf, property: Property, colour: Colour) {
-    let place = match (property, bsdf) {
-        (Property::Colour, Bsdf::Diffuse(Diffuse { reflectance }) | Bsdf::Mirror(Mirror { reflectance })) => {
-            reflectance
+fn set_roughness(roughness: &mut Option<Microfacets>, property: Property, value: Value) {
+    match (property, value, roughness) {
+        (Property::Rough, Value::Toggle(on), roughness) => {
+            *roughness = on.then(|| roughness.unwrap_or(Microfacets::PRESET));
         }
-        (Property::Colour, Bsdf::Plastic(Plastic { diffuse_reflectance, .. })) => diffuse_reflectance,
-        (
-            Property::Reflections,
-            Bsdf::Dielectric(Dielectric { specular_reflectance, .. })
-            | Bsdf::ThinDielectric(ThinDielectric { specular_reflectance, .. })
-            | Bsdf::Conductor(Conductor { specular_reflectance, .. })
-            | Bsdf::Plastic(Plastic { specular_reflectance, .. }),
-        ) => specular_reflectance,
-        (
-            Property::Transmission,
-            Bsdf::Dielectric(Dielectric { specular_transmittance, .. })
-            | Bsdf::ThinDielectric(ThinDielectric { specular_transmittance, .. }),
-        ) => specular_transmittance,
-        _ => return,
-    };
-    *place = colour;
-}
-
-fn set_number(bsdf: &mut Bsdf, property: Property, x: f32) {
-    let channel = |c: &mut Rgb, i: u8| match i {
-        0 => c.r = x,
-        1 => c.g = x,
-        _ => c.b = x,
-    };
-    match (property, &mut *bsdf) {
-        (
-            Property::InsideIor,
-            Bsdf::Dielectric(Dielectric { int_ior, .. })
-            | Bsdf::ThinDielectric(ThinDielectric { int_ior, .. })
-            | Bsdf::Plastic(Plastic { int_ior, .. }),
-        ) => *int_ior = x,
-        (
-            Property::OutsideIor,
-            Bsdf::Dielectric(Dielectric { ext_ior, .. })
-            | Bsdf::ThinDielectric(ThinDielectric { ext_ior, .. })
-            | Bsdf::Plastic(Plastic { ext_ior, .. }),
-        ) => *ext_ior = x,
-        (Property::Eta(i), Bsdf::Conductor(Conductor { eta, .. })) => channel(eta, i),
-        (Property::K(i), Bsdf::Conductor(Conductor { k, .. })) => channel(k, i),
-        (Property::Roughness, _) => with_roughness(bsdf, |r| (r.alpha_u, r.alpha_v) = (x, x)),
-        (Property::RoughnessU, _) => with_roughness(bsdf, |r| r.alpha_u = x),
-        (Property::RoughnessV, _) => with_roughness(bsdf, |r| r.alpha_v = x),
+        (Property::Parameter("alpha"), Value::Number(x), Some(r)) => {
+            (r.alpha_u, r.alpha_v) = (x as f32, x as f32);
+        }
+        (Property::Parameter("alpha_u"), Value::Number(x), Some(r)) => r.alpha_u = x as f32,
+        (Property::Parameter("alpha_v"), Value::Number(x), Some(r)) => r.alpha_v = x as f32,
+        (Property::Parameter("distribution"), Value::Choice(i), Some(r)) => {
+            r.distribution = MicrofacetDistribution::ALL[i.min(1)];
+        }
         _ => {}
-    }
-}
-
-fn with_roughness(bsdf: &mut Bsdf, change: impl FnOnce(&mut Microfacets)) {
-    if let Bsdf::Dielectric(Dielectric { roughness: Some(r), .. })
-    | Bsdf::Conductor(Conductor { roughness: Some(r), .. })
-    | Bsdf::Plastic(Plastic { roughness: Some(r), .. }) = bsdf
-    {
-        change(r);
     }
 }
 
@@ -307,44 +212,21 @@ fn of_kind(kind: usize, old: &Bsdf) -> Bsdf {
     if kind == kind_of(old) {
         return *old;
     }
-    let colour = match *old {
-        Bsdf::Diffuse(Diffuse { reflectance }) | Bsdf::Mirror(Mirror { reflectance }) => reflectance,
-        Bsdf::Plastic(Plastic { diffuse_reflectance, .. }) => diffuse_reflectance,
-        _ => Colour::Constant(Rgb::splat(0.8)),
-    };
-    let (int_ior, ext_ior) = iors(old).unwrap_or((1.5, 1.0));
-    let roughness = roughness(old).flatten();
-    let (specular_reflectance, specular_transmittance) = (WHITE, WHITE);
-    match kind {
-        0 => Bsdf::Diffuse(Diffuse { reflectance: colour }),
-        1 => Bsdf::Dielectric(Dielectric {
-            int_ior,
-            ext_ior,
-            specular_reflectance,
-            specular_transmittance,
-            roughness,
-        }),
-        2 => Bsdf::ThinDielectric(ThinDielectric {
-            int_ior,
-            ext_ior,
-            specular_reflectance,
-            specular_transmittance,
-        }),
-        3 => Bsdf::Mirror(Mirror { reflectance: colour }),
-        4 => {
-            let gold = METALS.iter().find(|m| m.0 == GOLD);
-            let (eta, k) = gold.map_or(([0.2; 3], [3.0; 3]), |m| (m.1, m.2));
-            let (eta, k) = (Rgb::from_array(eta), Rgb::from_array(k));
-            Bsdf::Conductor(Conductor { eta, k, specular_reflectance, roughness })
+    let Some(model) = Bsdf::defaults(false).get(kind).copied() else { return *old };
+    let (mut old, mut new) = (*old, model.preset());
+    let before = old.parameters();
+    for Bound { parameters, slot } in new.parameters() {
+        let Some(role) = parameters[0].role else { continue };
+        let Some(from) = before.iter().find(|b| b.parameters[0].role == Some(role)) else { continue };
+        match (slot, &from.slot) {
+            (Slot::Share(new), Slot::Share(old)) => *new = **old,
+            (Slot::Refraction(new), Slot::Refraction(old)) => *new = **old,
+            (Slot::Roughness(new), Slot::Roughness(old)) => {
+                let is_isotropic = named(parameters, "alpha_v").is_none();
+                *new = old.map(|r| if is_isotropic { Microfacets { alpha_v: r.alpha_u, ..r } } else { r });
+            }
+            _ => {}
         }
-        5 => Bsdf::Plastic(Plastic {
-            int_ior,
-            ext_ior,
-            diffuse_reflectance: colour,
-            specular_reflectance,
-            nonlinear: false,
-            roughness: roughness.map(|r| Microfacets { alpha_v: r.alpha_u, ..r }),
-        }),
-        _ => Bsdf::Null(Null),
     }
+    new
 }

@@ -5,6 +5,7 @@ use std::rc::Rc;
 use foton_input::shown_path;
 use foton_math::Rgb;
 use foton_scene::description::Colour;
+use foton_scene::parameter::Parameter;
 
 use crate::attributes::parse_attribute;
 use crate::diagnostic::Place;
@@ -26,17 +27,20 @@ enum Meaning {
 
 impl Reader<'_> {
     /// A share of light, each channel in [0, 1]: the same everywhere, or from a texture.
-    pub(crate) fn share(&mut self, p: &mut Properties<'_>, name: &'static str, default: f32) -> Colour {
-        if let Some(texture) = p.texture(name) {
-            return self.texture(texture).map_or(Rgb::splat(default).into(), Colour::Texture);
+    pub(crate) fn share(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Colour {
+        if let Some(texture) = p.texture(parameter.name) {
+            return self.texture(texture).map_or(parameter.default_colour(), Colour::Texture);
         }
-        self.constant_share(p, name, default).into()
+        self.constant_share(p, parameter).into()
     }
 
     /// A share of light, each channel in [0, 1].
-    pub(crate) fn constant_share(&mut self, p: &mut Properties<'_>, name: &'static str, default: f32) -> Rgb {
-        let Some(colour) = self.colour(p, name, Meaning::Factor) else { return Rgb::splat(default) };
-        if !colour.value.to_array().iter().all(|c| (0.0..=1.0).contains(c)) {
+    pub(crate) fn constant_share(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Rgb {
+        let name = parameter.name;
+        let Some(colour) = self.colour(p, name, Meaning::Factor) else {
+            return Rgb::splat(parameter.default_number());
+        };
+        if !colour.value.to_array().iter().all(|&c| parameter.holds(f64::from(c))) {
             let subject = p.subject();
             self.report.error(colour.place, format!("\"{name}\" of \"{subject}\" must lie between 0 and 1"));
         }
@@ -44,18 +48,20 @@ impl Reader<'_> {
     }
 
     /// Part of an index of refraction, no channel below zero.
-    pub(crate) fn optical(&mut self, p: &mut Properties<'_>, name: &'static str, default: f32) -> Rgb {
-        let colour = self.colour(p, name, Meaning::Factor);
-        colour.map_or(Rgb::splat(default), |colour| self.not_negative(name, &colour))
+    pub(crate) fn optical(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Rgb {
+        let colour = self.colour(p, parameter.name, Meaning::Factor);
+        let default = Rgb::splat(parameter.default_number());
+        colour.map_or(default, |colour| self.not_negative(parameter.name, &colour))
     }
 
     /// Emitted light, no channel below zero.
     ///
     /// A `<spectrum>` of one number is the same at every wavelength, which is not white in sRGB: Mitsuba 3 takes its
     /// colour from the matching functions, and so do we.
-    pub(crate) fn emission(&mut self, p: &mut Properties<'_>, name: &'static str) -> Rgb {
-        let colour = self.colour(p, name, Meaning::Emitted);
-        colour.map_or(Rgb::WHITE, |colour| self.not_negative(name, &colour))
+    pub(crate) fn emission(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Rgb {
+        let colour = self.colour(p, parameter.name, Meaning::Emitted);
+        let default = Rgb::splat(parameter.default_number());
+        colour.map_or(default, |colour| self.not_negative(parameter.name, &colour))
     }
 
     fn not_negative(&mut self, name: &str, colour: &Located<Rgb>) -> Rgb {

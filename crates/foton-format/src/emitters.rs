@@ -3,6 +3,10 @@
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{EmitterDescription, EmitterKind};
+use foton_scene::plugins::emitters::{
+    BEAM_WIDTH, CONSTANT, CUTOFF_ANGLE, DIRECTION, ENVMAP, FILENAME, INTENSITY, IRRADIANCE, POSITION,
+    RADIANCE, SCALE, SPOT, TO_WORLD,
+};
 
 use crate::document::NodeId;
 use crate::names::EMITTERS;
@@ -47,18 +51,18 @@ impl Reader<'_> {
             *used = true;
         }
         let mut p = self.properties(emitter.node, "area");
-        if let Some(to_world) = p.transform("to_world", &mut self.report) {
+        if let Some(to_world) = p.transform(TO_WORLD.name, &mut self.report) {
             self.report.error(to_world.place, "an area emitter takes its transform from its shape");
         }
-        let radiance = self.emission(&mut p, "radiance");
+        let radiance = self.emission(&mut p, &RADIANCE);
         p.finish(&mut self.report);
         Some(radiance)
     }
 
     fn point(&mut self, p: &mut Properties<'_>) -> Option<EmitterKind> {
-        let intensity = self.emission(p, "intensity");
-        let position = p.point("position", &mut self.report);
-        let to_world = p.transform("to_world", &mut self.report);
+        let intensity = self.emission(p, &INTENSITY);
+        let position = p.point(POSITION.name, &mut self.report);
+        let to_world = p.transform(TO_WORLD.name, &mut self.report);
         if let (Some(position), Some(_)) = (position, to_world) {
             self.report
                 .error(position.place, "a point emitter has a \"position\" or a \"to_world\", not both");
@@ -69,23 +73,24 @@ impl Reader<'_> {
     }
 
     fn spot(&mut self, p: &mut Properties<'_>) -> Option<EmitterKind> {
-        let intensity = self.emission(p, "intensity");
-        let transform = p.transform("to_world", &mut self.report);
+        let intensity = self.emission(p, &INTENSITY);
+        let transform = p.transform(TO_WORLD.name, &mut self.report);
         if let Some(t) = transform.filter(|t| even_scale(t.value.matrix3, 1e-3).is_none()) {
             let message = "a spot can be turned, moved and scaled evenly, but not stretched or sheared: its cone must stay round";
             self.report.error(t.place, message);
         }
         let to_world = transform.map_or(DAffine3::IDENTITY, |t| t.value);
-        let cutoff = p.number("cutoff_angle", &mut self.report);
-        let beam = p.number("beam_width", &mut self.report);
-        p.refuse(&["texture"], &mut self.report);
-        let cutoff_degrees = cutoff.map_or(20.0, |c| c.value);
-        if let Some(cutoff) = cutoff.filter(|c| !(c.value > 0.0 && c.value <= 180.0)) {
+        let cutoff = p.number(CUTOFF_ANGLE.name, &mut self.report);
+        let beam = p.number(BEAM_WIDTH.name, &mut self.report);
+        p.leave_out(SPOT.parameters, &mut self.report);
+        let cutoff_degrees = cutoff.map_or(CUTOFF_ANGLE.default, |c| c.value);
+        if let Some(cutoff) = cutoff.filter(|c| !CUTOFF_ANGLE.holds(c.value)) {
             self.report.error(cutoff.place, "\"cutoff_angle\" must be above 0 and at most 180 degrees");
             return None;
         }
-        let beam_degrees = beam.map_or(cutoff_degrees * 0.75, |b| b.value);
-        if let Some(beam) = beam.filter(|b| b.value < 0.0) {
+        let beam_degrees =
+            beam.map_or(cutoff_degrees * (BEAM_WIDTH.default / CUTOFF_ANGLE.default), |b| b.value);
+        if let Some(beam) = beam.filter(|b| b.value < BEAM_WIDTH.range.0) {
             self.report.error(beam.place, "\"beam_width\" must not be negative");
         } else if let Some(beam) = beam.filter(|b| b.value > cutoff_degrees) {
             let message =
@@ -97,9 +102,9 @@ impl Reader<'_> {
     }
 
     fn directional(&mut self, p: &mut Properties<'_>) -> Option<EmitterKind> {
-        let irradiance = self.emission(p, "irradiance");
-        let direction = p.point("direction", &mut self.report);
-        let to_world = p.transform("to_world", &mut self.report);
+        let irradiance = self.emission(p, &IRRADIANCE);
+        let direction = p.point(DIRECTION.name, &mut self.report);
+        let to_world = p.transform(TO_WORLD.name, &mut self.report);
         if let (Some(direction), Some(_)) = (direction, to_world) {
             let message = "a directional emitter has a \"direction\" or a \"to_world\", not both";
             self.report.error(direction.place, message);
@@ -115,32 +120,36 @@ impl Reader<'_> {
     }
 
     fn constant(&mut self, p: &mut Properties<'_>) -> Option<EmitterKind> {
-        let radiance = self.emission(p, "radiance");
-        p.ignore(&["to_world"]);
+        let radiance = self.emission(p, &RADIANCE);
+        p.leave_out(CONSTANT.parameters, &mut self.report);
         self.is_first_around(p).then_some(EmitterKind::Constant { radiance })
     }
 
     #[allow(clippy::cast_possible_truncation, reason = "radiance is single precision")]
     fn envmap(&mut self, p: &mut Properties<'_>) -> Option<EmitterKind> {
-        let scale = p.number("scale", &mut self.report);
-        if let Some(scale) = scale.filter(|s| !(0.0..=1e30).contains(&s.value)) {
+        let scale = p.number(SCALE.name, &mut self.report);
+        if let Some(scale) = scale.filter(|s| !SCALE.holds(s.value)) {
             self.report.error(scale.place, "\"scale\" must not be negative or above 1e30");
         }
-        let transform = p.transform("to_world", &mut self.report);
+        let transform = p.transform(TO_WORLD.name, &mut self.report);
         if let Some(t) = transform.filter(|t| even_scale(t.value.matrix3, 1e-3).is_none()) {
             self.report.error(t.place, "the transform of an envmap must not stretch or shear");
         }
-        p.ignore(&["mis_compensation"]);
-        if !p.has("filename") {
+        p.leave_out(ENVMAP.parameters, &mut self.report);
+        if !p.has(FILENAME.name) {
             self.report.error(p.place, "an envmap needs a \"filename\"");
         }
-        let filename = p.string("filename", &mut self.report)?;
+        let filename = p.string(FILENAME.name, &mut self.report)?;
         if !self.is_first_around(p) {
             return None;
         }
         let bitmap = self.images.read(&filename, false, false, &mut self.files, &mut self.report)?;
         let to_world = transform.map_or(DAffine3::IDENTITY, |t| t.value);
-        Some(EmitterKind::Environment { to_world, bitmap, scale: scale.map_or(1.0, |s| s.value as f32) })
+        Some(EmitterKind::Environment {
+            to_world,
+            bitmap,
+            scale: scale.map_or(SCALE.default_number(), |s| s.value as f32),
+        })
     }
 
     /// Whether there is no other emitter all around; otherwise an error.

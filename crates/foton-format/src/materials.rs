@@ -4,6 +4,7 @@
 
 use foton_math::Rgb;
 use foton_scene::description::{Bsdf, Colour, Diffuse, Material};
+use foton_scene::plugins::wrappers::OPACITY;
 
 use crate::diagnostic::Place;
 use crate::document::NodeId;
@@ -74,7 +75,7 @@ impl Reader<'_> {
 
     /// A bsdf with holes.
     fn mask(&mut self, p: &mut Properties<'_>) -> Option<Sides> {
-        let opacity = self.share(p, "opacity", 0.5);
+        let opacity = self.share(p, &OPACITY);
         let nested = p.nested("bsdf");
         let [nested] = nested[..] else {
             self.report.error(p.place, format!("a mask needs one bsdf inside, not {}", nested.len()));

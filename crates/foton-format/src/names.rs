@@ -1,18 +1,21 @@
 //! The names that Mitsuba 3 knows, and the nearest of them to a misspelt one.
 
+use foton_scene::description::Bsdf;
+use foton_scene::plugins;
+
 /// Plugins of one kind: those read here, and those that only Mitsuba has.
 pub(crate) struct Plugins {
     /// The tag of the elements that name them.
     pub(crate) kind: &'static str,
     /// Plugins that are read.
-    pub(crate) supported: &'static [&'static str],
+    pub(crate) supported: fn() -> Vec<&'static str>,
     /// Plugins of Mitsuba 3 that are not.
     pub(crate) elsewhere: &'static [&'static str],
 }
 
 pub(crate) const SHAPES: Plugins = Plugins {
     kind: "shape",
-    supported: &["obj", "ply", "stl", "serialized", "rectangle", "cube", "sphere", "disk", "cylinder"],
+    supported: || plugins::names(plugins::shapes::ALL).collect(),
     elsewhere: &[
         "instance",
         "shapegroup",
@@ -28,19 +31,7 @@ pub(crate) const SHAPES: Plugins = Plugins {
 
 pub(crate) const BSDFS: Plugins = Plugins {
     kind: "bsdf",
-    supported: &[
-        "diffuse",
-        "twosided",
-        "mask",
-        "null",
-        "dielectric",
-        "thindielectric",
-        "roughdielectric",
-        "conductor",
-        "roughconductor",
-        "plastic",
-        "roughplastic",
-    ],
+    supported: || bsdfs().collect(),
     elsewhere: &[
         "pplastic",
         "principled",
@@ -66,7 +57,7 @@ pub(crate) const BSDFS: Plugins = Plugins {
 
 pub(crate) const TEXTURES: Plugins = Plugins {
     kind: "texture",
-    supported: &["bitmap", "checkerboard"],
+    supported: || plugins::names(plugins::textures::ALL).collect(),
     elsewhere: &[
         "mesh_attribute",
         "volume",
@@ -87,23 +78,30 @@ pub(crate) const TEXTURES: Plugins = Plugins {
 
 pub(crate) const EMITTERS: Plugins = Plugins {
     kind: "emitter",
-    supported: &["area", "point", "spot", "constant", "directional", "envmap"],
+    supported: || plugins::names(plugins::emitters::ALL).collect(),
     elsewhere: &["directionalarea", "projector", "sunsky", "timed_sunsky", "sky", "sun", "collimated"],
 };
 
 pub(crate) const SENSORS: Plugins = Plugins {
     kind: "sensor",
-    supported: &["perspective"],
+    supported: || vec!["perspective"],
     elsewhere: &["thinlens", "orthographic", "radiancemeter", "irradiancemeter", "distant", "batch"],
 };
 
-pub(crate) const FILMS: Plugins = Plugins { kind: "film", supported: &["hdrfilm"], elsewhere: &["specfilm"] };
+pub(crate) const FILMS: Plugins =
+    Plugins { kind: "film", supported: || vec!["hdrfilm"], elsewhere: &["specfilm"] };
 
 pub(crate) const FILTERS: Plugins = Plugins {
     kind: "rfilter",
-    supported: &["box", "tent", "gaussian"],
+    supported: || vec!["box", "tent", "gaussian"],
     elsewhere: &["mitchell", "catmullrom", "lanczos"],
 };
+
+/// Plugins of BSDFs: those of models, and those that stand around others.
+fn bsdfs() -> impl Iterator<Item = &'static str> {
+    let models = Bsdf::defaults(false).into_iter().chain(Bsdf::defaults(true)).map(|b| b.plugin());
+    plugins::names(plugins::wrappers::ALL).chain(models)
+}
 
 /// Tags of single values.
 pub(crate) const VALUE_TAGS: &[&str] =
@@ -213,8 +211,8 @@ mod tests {
 
     #[test]
     fn only_a_near_name_is_offered() {
-        assert_eq!(nearest("dielectrc", BSDFS.supported.iter().copied()), Some("dielectric"));
-        assert_eq!(nearest("velvet", BSDFS.supported.iter().copied()), None);
+        assert_eq!(nearest("dielectrc", bsdfs()), Some("dielectric"));
+        assert_eq!(nearest("velvet", bsdfs()), None);
         assert_eq!(nearest("x", ["y", "z"]), None);
     }
 }

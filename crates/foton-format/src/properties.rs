@@ -7,6 +7,7 @@ use std::collections::HashSet;
 
 use foton_input::{quoted, shown};
 use foton_math::glam::{DAffine3, DVec3};
+use foton_scene::parameter::{Kind, Parameter};
 
 use crate::attributes::{check_attributes, parse_attribute};
 use crate::diagnostic::{Place, Report};
@@ -235,6 +236,13 @@ impl<'a> Properties<'a> {
                 *o
             })
             .collect()
+    }
+
+    /// Takes parameters that have no effect, and refuses those that are not supported.
+    pub(crate) fn leave_out(&mut self, parameters: &[Parameter], report: &mut Report) {
+        let of = |kind| parameters.iter().filter(move |p| p.kind == kind).map(|p| p.name);
+        self.ignore(&of(Kind::Ignored).collect::<Vec<_>>());
+        self.refuse(&of(Kind::Unsupported).collect::<Vec<_>>(), report);
     }
 
     /// Values that change nothing in our images: taken, not looked at.

@@ -134,13 +134,14 @@ impl<'a> Reader<'a> {
         let attribute = element.attribute("type").filter(|t| !t.broken)?;
         let name = attribute.value.as_str();
         let kind = plugins.kind;
-        if let Some(known) = plugins.supported.iter().find(|s| **s == name) {
+        let supported = (plugins.supported)();
+        if let Some(known) = supported.iter().find(|s| **s == name) {
             return Some(known);
         }
         let message = if plugins.elsewhere.contains(&name) {
             format!("{kind} {} is not supported yet", quoted(name))
         } else {
-            let hint = did_you_mean(name, plugins.supported.iter().chain(plugins.elsewhere).copied());
+            let hint = did_you_mean(name, supported.iter().chain(plugins.elsewhere).copied());
             format!("unknown {kind} {}{hint}", quoted(name))
         };
         self.report.error(attribute.value_place, message);

@@ -5,6 +5,10 @@ use std::sync::Arc;
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DMat3, DVec3};
 use foton_scene::description::{Geometry, Mesh, ShapeDescription};
+use foton_scene::plugins::shapes::{
+    self, CENTER, FACE_NORMALS, FILENAME, FLIP_NORMALS, FLIP_TEX_COORDS, P0, P1, RADIUS, SHAPE_INDEX,
+    TO_WORLD,
+};
 
 use crate::diagnostic::Place;
 use crate::document::NodeId;
@@ -28,11 +32,11 @@ impl Reader<'_> {
             return;
         };
         let mut p = self.properties(node, plugin);
-        let transform = p.transform("to_world", &mut self.report);
+        let transform = p.transform(TO_WORLD.name, &mut self.report);
         let mut to_world = transform.map_or(DAffine3::IDENTITY, |t| t.value);
         let place = transform.map_or(element.place, |t| t.place);
         let mirrored = to_world.matrix3.determinant() < 0.0;
-        let flip = p.boolean("flip_normals", &mut self.report).is_some_and(|f| f.value);
+        let flip = p.boolean(FLIP_NORMALS.name, &mut self.report).is_some_and(|f| f.value);
         let (material, radiance) = self.surface(&mut p);
         let geometry = match plugin {
             "obj" | "ply" | "stl" | "serialized" => self.mesh_file(&mut p, plugin, &to_world),
@@ -42,10 +46,9 @@ impl Reader<'_> {
             "cube" => Some(Geometry::Mesh(Arc::new(Mesh::cube()))),
             _ => Some(Geometry::Mesh(Arc::new(Mesh::rectangle()))),
         };
-        if plugin == "cube" || plugin == "rectangle" {
-            p.ignore(&["face_normals"]);
+        if let Some(declared) = shapes::ALL.iter().find(|s| s.name == plugin) {
+            p.leave_out(declared.parameters, &mut self.report);
         }
-        p.ignore(&["silhouette_sampling_weight"]);
         p.finish(&mut self.report);
         let Some((geometry, material)) = geometry.zip(material) else { return };
         let flip_normals = flip != (mirrored && is_turned_inside_out(plugin, &geometry));
@@ -80,8 +83,8 @@ impl Reader<'_> {
     }
 
     fn mesh_file(&mut self, p: &mut Properties<'_>, plugin: &str, to_world: &DAffine3) -> Option<Geometry> {
-        let face_normals = p.boolean("face_normals", &mut self.report).is_some_and(|f| f.value);
-        let flip = p.boolean("flip_tex_coords", &mut self.report).map(|f| f.value);
+        let face_normals = p.boolean(FACE_NORMALS.name, &mut self.report).is_some_and(|f| f.value);
+        let flip = p.boolean(FLIP_TEX_COORDS.name, &mut self.report).map(|f| f.value);
         let format = match plugin {
             "obj" => Format::Obj,
             "ply" => Format::Ply,
@@ -89,11 +92,11 @@ impl Reader<'_> {
             _ => Format::Serialized(self.shape_index(p)),
         };
         let flip_v = flip.unwrap_or(plugin == "obj");
-        if !p.has("filename") {
+        if !p.has(FILENAME.name) {
             let article = if plugin == "obj" { "an" } else { "a" };
             self.report.error(p.place, format!("{article} {plugin} shape needs a \"filename\""));
         }
-        let filename = p.string("filename", &mut self.report)?;
+        let filename = p.string(FILENAME.name, &mut self.report)?;
         let wanted = Wanted { format, face_normals, flip_v };
         let mesh = self.meshes.read(&filename, wanted, to_world, &mut self.files, &mut self.report)?;
         Some(Geometry::Mesh(mesh))
@@ -101,28 +104,28 @@ impl Reader<'_> {
 
     /// Which mesh of several in a file.
     fn shape_index(&mut self, p: &mut Properties<'_>) -> u32 {
-        let Some(index) = p.integer("shape_index", &mut self.report) else { return 0 };
+        let Some(index) = p.integer(SHAPE_INDEX.name, &mut self.report) else { return 0 };
         u32::try_from(index.value).unwrap_or_else(|_| {
             self.report.error(index.place, "\"shape_index\" must not be negative");
             0
         })
     }
 
-    /// A tube; one that its transform makes longer or shorter than it makes it wide is brought into the world here.
+    /// A cylinder; one that its transform makes longer or shorter than it makes it wide is brought into the world here.
     fn cylinder(
         &mut self,
         p: &mut Properties<'_>,
         to_world: &mut DAffine3,
         place: Place,
     ) -> Option<Geometry> {
-        let from = p.point("p0", &mut self.report).map_or(DVec3::ZERO, |p| p.value);
-        let to = p.point("p1", &mut self.report).map_or(DVec3::Z, |p| p.value);
-        let radius = p.number("radius", &mut self.report);
-        if let Some(radius) = radius.filter(|r| r.value <= 0.0) {
+        let from = p.point(P0.name, &mut self.report).map_or(DVec3::ZERO, |p| p.value);
+        let to = p.point(P1.name, &mut self.report).map_or(DVec3::Z, |p| p.value);
+        let radius = p.number(RADIUS.name, &mut self.report);
+        if let Some(radius) = radius.filter(|r| !RADIUS.holds(r.value)) {
             self.report.error(radius.place, "\"radius\" must be above zero");
             return None;
         }
-        let radius = radius.map_or(1.0, |r| r.value);
+        let radius = radius.map_or(RADIUS.default, |r| r.value);
         let Some(axis) = (to - from).try_normalize() else {
             self.report.error(p.place, "the ends \"p0\" and \"p1\" of a cylinder are the same point");
             return None;
@@ -143,8 +146,8 @@ impl Reader<'_> {
     }
 
     fn sphere(&mut self, p: &mut Properties<'_>, m: DMat3, place: Place) -> Option<Geometry> {
-        let centre = p.point("center", &mut self.report).map_or(DVec3::ZERO, |c| c.value);
-        let radius = p.number("radius", &mut self.report);
+        let centre = p.point(CENTER.name, &mut self.report).map_or(DVec3::ZERO, |c| c.value);
+        let radius = p.number(RADIUS.name, &mut self.report);
         if even_scale(m, ROUNDNESS).is_none() {
             self.report.error(
                 place,
@@ -152,11 +155,11 @@ impl Reader<'_> {
             );
             return None;
         }
-        if let Some(radius) = radius.filter(|r| r.value <= 0.0) {
+        if let Some(radius) = radius.filter(|r| !RADIUS.holds(r.value)) {
             self.report.error(radius.place, "\"radius\" must be above zero");
             return None;
         }
-        Some(Geometry::Sphere { centre, radius: radius.map_or(1.0, |r| r.value) })
+        Some(Geometry::Sphere { centre, radius: radius.map_or(RADIUS.default, |r| r.value) })
     }
 
     fn disk(&mut self, m: DMat3, place: Place) -> Option<Geometry> {

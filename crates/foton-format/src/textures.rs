@@ -6,6 +6,11 @@
 use foton_input::quoted;
 use foton_math::glam::{DAffine2, DAffine3, DMat2, DVec2};
 use foton_scene::description::{Texture, TextureKind, Wrap};
+use foton_scene::parameter::Parameter;
+use foton_scene::plugins::textures::{
+    BITMAP, COLOR0, COLOR1, FILENAME, FILTER_TYPE, GAMMA, RAW, TO_UV, UOFFSET, USCALE, VOFFSET, VSCALE,
+    WRAP_MODE,
+};
 
 use crate::names::TEXTURES;
 use crate::properties::{Object, Properties};
@@ -33,8 +38,8 @@ impl Reader<'_> {
         let texture = match plugin {
             "bitmap" => self.bitmap_texture(&mut p).map(|kind| (TURN * to_uv, kind)),
             _ => {
-                let first = self.constant_share(&mut p, "color0", 0.4);
-                let second = self.constant_share(&mut p, "color1", 0.2);
+                let first = self.constant_share(&mut p, &COLOR0);
+                let second = self.constant_share(&mut p, &COLOR1);
                 Some((to_uv, TextureKind::Checkerboard { colours: [first, second] }))
             }
         };
@@ -48,31 +53,32 @@ impl Reader<'_> {
 
     /// `to_uv`, or the offsets and scales of old files.
     fn uv_transform(&mut self, p: &mut Properties<'_>) -> DAffine2 {
-        let to_uv = p.transform("to_uv", &mut self.report).map(|t| in_plane(&t.value));
-        let mut number = |name, default| p.number(name, &mut self.report).map_or(default, |n| n.value);
-        let offset = DVec2::new(number("uoffset", 0.0), number("voffset", 0.0));
-        let scale = DVec2::new(number("uscale", 1.0), number("vscale", 1.0));
+        let to_uv = p.transform(TO_UV.name, &mut self.report).map(|t| in_plane(&t.value));
+        let mut number = |parameter: &Parameter| {
+            p.number(parameter.name, &mut self.report).map_or(parameter.default, |n| n.value)
+        };
+        let offset = DVec2::new(number(&UOFFSET), number(&VOFFSET));
+        let scale = DVec2::new(number(&USCALE), number(&VSCALE));
         to_uv.unwrap_or_else(|| DAffine2::from_scale(scale) * DAffine2::from_translation(offset))
     }
 
     fn bitmap_texture(&mut self, p: &mut Properties<'_>) -> Option<TextureKind> {
-        let gamma = p.number("gamma", &mut self.report);
+        let gamma = p.number(GAMMA.name, &mut self.report);
         let raw =
-            p.boolean("raw", &mut self.report).map_or(gamma.is_some_and(|g| g.value == 1.0), |r| r.value);
+            p.boolean(RAW.name, &mut self.report).map_or(gamma.is_some_and(|g| g.value == 1.0), |r| r.value);
         let bilinear = self.filter_type(p);
         let wrap = self.wrap_mode(p);
-        p.ignore(&["format", "accel", "max_anisotropy", "cache"]);
-        p.refuse(&["channel"], &mut self.report);
-        if !p.has("filename") {
+        p.leave_out(BITMAP.parameters, &mut self.report);
+        if !p.has(FILENAME.name) {
             self.report.error(p.place, "a bitmap texture needs a \"filename\"");
         }
-        let filename = p.string("filename", &mut self.report)?;
+        let filename = p.string(FILENAME.name, &mut self.report)?;
         let bitmap = self.images.read(&filename, raw, true, &mut self.files, &mut self.report)?;
         Some(TextureKind::Bitmap { bitmap, wrap, bilinear })
     }
 
     fn filter_type(&mut self, p: &mut Properties<'_>) -> bool {
-        let Some(filter) = p.string("filter_type", &mut self.report) else { return true };
+        let Some(filter) = p.string(FILTER_TYPE.name, &mut self.report) else { return true };
         match filter.value.as_str() {
             "nearest" => return false,
             "bilinear" => {}
@@ -86,7 +92,7 @@ impl Reader<'_> {
     }
 
     fn wrap_mode(&mut self, p: &mut Properties<'_>) -> Wrap {
-        let Some(wrap) = p.string("wrap_mode", &mut self.report) else { return Wrap::Repeat };
+        let Some(wrap) = p.string(WRAP_MODE.name, &mut self.report) else { return Wrap::Repeat };
         match wrap.value.as_str() {
             "repeat" => Wrap::Repeat,
             "mirror" => Wrap::Mirror,

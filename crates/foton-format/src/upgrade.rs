@@ -3,6 +3,8 @@
 //! Only names change here, places stay. What else old files have (`srgb`, hexadecimal colours, offsets and scales of
 //! textures) is read in files of every version.
 
+use foton_scene::description::Bsdf;
+
 use crate::document::Element;
 
 /// Renames what stands in an element of an old file; `parent` is the plugin around it.
@@ -19,10 +21,17 @@ pub(crate) fn element(element: &mut Element, parent: &str) {
     }
     for attribute in element.attributes.iter_mut().filter(|a| a.name == "name") {
         attribute.value = snake_case(&attribute.value);
-        if parent == "diffuse" && attribute.value == "diffuse_reflectance" {
-            attribute.value = "reflectance".to_owned();
+        if let Some(name) = name_now(parent, &attribute.value) {
+            attribute.value = name.to_owned();
         }
     }
+}
+
+/// The name of a BSDF's parameter that once had another one.
+fn name_now(plugin: &str, once: &str) -> Option<&'static str> {
+    let mut bsdf = Bsdf::of_plugin(plugin)?;
+    let mut parameters = bsdf.parameters().into_iter().flat_map(|bound| bound.parameters);
+    parameters.find(|p| p.old_names.contains(&once)).map(|p| p.name)
 }
 
 /// `intIOR` to `int_ior`: an underscore where capitals follow a small letter, and these made small.

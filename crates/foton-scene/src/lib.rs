@@ -18,6 +18,7 @@ pub mod metals;
 mod normalise;
 pub mod parameter;
 mod plane;
+pub mod plugins;
 mod primitive;
 mod scene;
 mod sensor;

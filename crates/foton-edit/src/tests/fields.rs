@@ -96,19 +96,22 @@ fn a_kind_of_material_offers_its_own_fields() {
     let field = |property| FieldId::Material(Side::Front, property);
     let metal = set(&scene(), BALL, field(Property::Kind), Value::Choice(4));
     let fields = inspect(&metal, BALL).unwrap().fields;
-    let choice = fields.iter().find(|f| f.id == field(Property::Metal)).unwrap();
+    let choice = fields.iter().find(|f| f.id == field(Property::Parameter("material"))).unwrap();
     let Control::Choice(options) = &choice.control else { panic!("a choice") };
     let chosen = options.iter().position(|o| o == "silver (Ag)").unwrap();
     assert_eq!(choice.value, Value::Choice(options.iter().position(|o| o == "gold (Au)").unwrap()));
-    let silver = set(&metal, BALL, field(Property::Metal), Value::Choice(chosen));
+    let silver = set(&metal, BALL, field(Property::Parameter("material")), Value::Choice(chosen));
     let silver = set(&silver, BALL, field(Property::Rough), Value::Toggle(true));
-    let silver = set(&silver, BALL, field(Property::Roughness), Value::Number(0.2));
-    assert!((number(&silver, BALL, field(Property::Eta(0))) - 0.155_276).abs() < 1e-6);
+    let silver = set(&silver, BALL, field(Property::Parameter("alpha")), Value::Number(0.2));
+    assert!((number(&silver, BALL, field(Property::Channel("eta", 0))) - 0.155_276).abs() < 1e-6);
     let material = &silver.materials[1];
     assert_eq!(material.back, Some(material.front), "what was glass is seen from both sides");
-    let custom = set(&silver, BALL, field(Property::K(2)), Value::Number(5.0));
+    let custom = set(&silver, BALL, field(Property::Channel("k", 2)), Value::Number(5.0));
     let fields = inspect(&custom, BALL).unwrap().fields;
-    assert_eq!(fields.iter().find(|f| f.id == field(Property::Metal)).unwrap().value, Value::Choice(0));
+    assert_eq!(
+        fields.iter().find(|f| f.id == field(Property::Parameter("material"))).unwrap().value,
+        Value::Choice(0)
+    );
 }
 
 #[test]
@@ -121,7 +124,11 @@ fn a_shared_material_says_so_and_can_be_made_ones_own() {
     let inspection = inspect(&own, CUBE).unwrap();
     assert_eq!(inspection.material, Some(MaterialUse { name: "grey of cube".into(), shapes: 1 }));
     assert!(inspection.notes.is_empty());
-    let red =
-        set(&own, CUBE, FieldId::Material(Side::Front, Property::Colour), Value::Colour([0.7, 0.1, 0.1]));
+    let red = set(
+        &own,
+        CUBE,
+        FieldId::Material(Side::Front, Property::Parameter("reflectance")),
+        Value::Colour([0.7, 0.1, 0.1]),
+    );
     assert_eq!(format!("{:?}", red.materials[0]), format!("{:?}", description.materials[0]));
 }

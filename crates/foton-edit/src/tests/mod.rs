@@ -5,7 +5,10 @@ use std::sync::Arc;
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DMat3, DVec2, DVec3};
 use foton_scene::Scene;
-use foton_scene::description::{Bsdf, Dielectric, Diffuse, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription, SensorDescription, ShapeDescription};
+use foton_scene::description::{
+    Bsdf, Dielectric, Diffuse, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh,
+    SceneDescription, SensorDescription, ShapeDescription,
+};
 
 use crate::view::View;
 use crate::*;

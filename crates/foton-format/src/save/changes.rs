@@ -6,6 +6,8 @@ use foton_scene::description::{
     EmitterKind, FovAxis, Geometry, SceneDescription, SensorDescription, ShapeDescription,
 };
 
+use foton_scene::plugins::{emitters, shapes};
+
 use super::tree::Obstacle;
 use super::{materials, same};
 use crate::Opened;
@@ -139,9 +141,9 @@ impl<'a> Changes<'a> {
             ) => {
                 if p != position {
                     self.remove(node, "to_world")?;
-                    self.value(node, "point", "position", &vector(*position))?;
+                    self.value(node, "point", emitters::POSITION.name, &vector(*position))?;
                 }
-                self.light(node, "intensity", *old, *intensity)
+                self.light(node, emitters::INTENSITY.name, *old, *intensity)
             }
             (
                 EmitterKind::Spot { to_world: m, intensity: old, .. },
@@ -150,12 +152,12 @@ impl<'a> Changes<'a> {
                 if m != to_world {
                     self.transform(node, to_world)?;
                 }
-                self.value(node, "float", "cutoff_angle", &number(*cutoff_degrees))?;
-                self.value(node, "float", "beam_width", &number(*beam_degrees))?;
-                self.light(node, "intensity", *old, *intensity)
+                self.value(node, "float", emitters::CUTOFF_ANGLE.name, &number(*cutoff_degrees))?;
+                self.value(node, "float", emitters::BEAM_WIDTH.name, &number(*beam_degrees))?;
+                self.light(node, emitters::INTENSITY.name, *old, *intensity)
             }
             (EmitterKind::Constant { radiance: old }, EmitterKind::Constant { radiance }) => {
-                self.light(node, "radiance", *old, *radiance)
+                self.light(node, emitters::RADIANCE.name, *old, *radiance)
             }
             (
                 EmitterKind::Directional { direction: d, irradiance: old },
@@ -163,9 +165,9 @@ impl<'a> Changes<'a> {
             ) => {
                 if d != direction {
                     self.remove(node, "to_world")?;
-                    self.value(node, "vector", "direction", &vector(*direction))?;
+                    self.value(node, "vector", emitters::DIRECTION.name, &vector(*direction))?;
                 }
-                self.light(node, "irradiance", *old, *irradiance)
+                self.light(node, emitters::IRRADIANCE.name, *old, *irradiance)
             }
             (
                 EmitterKind::Environment { to_world: m, .. },
@@ -174,7 +176,7 @@ impl<'a> Changes<'a> {
                 if m != to_world {
                     self.transform(node, to_world)?;
                 }
-                self.value(node, "float", "scale", &single(*scale))
+                self.value(node, "float", emitters::SCALE.name, &single(*scale))
             }
             _ => Err("an emitter changed its kind".to_owned()),
         }
@@ -197,14 +199,14 @@ impl<'a> Changes<'a> {
         let node = self.own(node, "shape", &old.name)?;
         match &new.geometry {
             Geometry::Sphere { centre, radius } if geometry => {
-                self.value(node, "point", "center", &vector(*centre))?;
-                self.value(node, "float", "radius", &number(*radius))?;
+                self.value(node, "point", shapes::CENTER.name, &vector(*centre))?;
+                self.value(node, "float", shapes::RADIUS.name, &number(*radius))?;
             }
             // A tube may have been brought into the world when it was read.
             Geometry::Cylinder { from, to, radius } if geometry || old.to_world != new.to_world => {
-                self.value(node, "point", "p0", &vector(*from))?;
-                self.value(node, "point", "p1", &vector(*to))?;
-                self.value(node, "float", "radius", &number(*radius))?;
+                self.value(node, "point", shapes::P0.name, &vector(*from))?;
+                self.value(node, "point", shapes::P1.name, &vector(*to))?;
+                self.value(node, "float", shapes::RADIUS.name, &number(*radius))?;
                 self.transform(node, &new.to_world)?;
             }
             _ => {}
@@ -221,7 +223,7 @@ impl<'a> Changes<'a> {
     fn radiance(&mut self, node: NodeId, radiance: Option<Rgb>) -> Result<(), Obstacle> {
         let inside = self.document.elements_in(node).find(|(_, e)| e.name == "emitter").map(|(n, _)| n);
         if let (Some(emitter), Some(radiance)) = (inside, radiance) {
-            return self.value(emitter, "rgb", "radiance", &colour(radiance));
+            return self.value(emitter, "rgb", emitters::RADIANCE.name, &colour(radiance));
         }
         let new = match radiance {
             Some(radiance) => {

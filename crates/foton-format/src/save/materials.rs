@@ -1,21 +1,14 @@
 //! Changed materials in a document: the values that changed, or where their structure did, the whole element anew.
 
-use foton_scene::description::{
-    Bsdf, Colour, Conductor, Dielectric, Diffuse, Material, MicrofacetDistribution, Microfacets, Mirror,
-    Null, Plastic, ThinDielectric,
-};
+use foton_scene::description::{Bsdf, Colour, Material};
+use foton_scene::parameter::{Bound, Kind, Parameter, Slot};
+use foton_scene::plugins::wrappers::OPACITY;
 
 use super::tree::Obstacle;
 use crate::document::{Document, NodeId};
 use crate::write::material_xml;
-use crate::write::surfaces::{mean, plugin};
-use crate::write::xml::{colour, single};
-
-/// A value of a bsdf as it stands in a file: tag, name and text.
-type Stated = (&'static str, &'static str, String);
-
-/// Names that cannot stand beside each other: where one is written, the others go.
-const ALTERNATIVES: [&[&str]; 2] = [&["eta", "k", "material", "ext_eta"], &["alpha", "alpha_u", "alpha_v"]];
+use crate::write::surfaces::{Stated, mean, stated};
+use crate::write::xml::single;
 
 /// Makes the `<bsdf>` of one material that of another.
 pub(super) fn change(
@@ -71,7 +64,7 @@ fn change_values(document: &mut Document, node: NodeId, old: &Material, new: &Ma
             (Some(Colour::Texture(_)), _) => return None,
             (new, _) => {
                 let share = new.map_or(1.0, |c| if let Colour::Constant(c) = c { mean(c) } else { 1.0 });
-                document.set_value(node, "float", "opacity", Some(&single(share))).ok()?;
+                document.set_value(node, "float", OPACITY.name, Some(&single(share))).ok()?;
             }
         }
         node = *inside(document, node)?.first()?;
@@ -108,84 +101,41 @@ fn inside(document: &Document, node: NodeId) -> Option<Vec<NodeId>> {
 fn change_side(document: &mut Document, node: NodeId, old: &Bsdf, new: &Bsdf) -> Option<()> {
     (std::mem::discriminant(old) == std::mem::discriminant(new)).then_some(())?;
     // The file's own name of the plugin may be another one that means the same.
-    if plugin(old) != plugin(new) {
-        document.set_attribute(node, "type", plugin(new));
+    if old.plugin() != new.plugin() {
+        document.set_attribute(node, "type", new.plugin());
     }
-    let (before, after) = (stated(old)?, stated(new)?);
-    let mut changed: Vec<&Stated> = after.iter().filter(|s| !before.contains(s)).collect();
-    let gone = before.iter().filter(|b| !after.iter().any(|a| a.1 == b.1)).map(|b| b.1);
-    for group in ALTERNATIVES {
-        let touched = changed.iter().map(|s| s.1).chain(gone.clone()).any(|name| group.contains(&name));
-        if touched {
-            // A metal that had a name gets both of its indices.
-            changed.extend(after.iter().filter(|s| group.contains(&s.1)));
-            for name in group {
-                if !after.iter().any(|s| s.1 == *name) {
-                    document.set_value(node, "", name, None).ok()?;
-                }
-            }
-        }
-    }
-    for name in gone {
-        document.set_value(node, "", name, None).ok()?;
-    }
-    for (tag, name, value) in changed {
-        document.set_value(node, tag, name, Some(value)).ok()?;
+    let (mut old, mut new) = (*old, *new);
+    for (old, new) in old.parameters().iter().zip(&new.parameters()) {
+        change_value(document, node, old, new)?;
     }
     Some(())
 }
 
-/// All values of a bsdf; textures stay out, and with them what they stand for stays as it is.
-fn stated(bsdf: &Bsdf) -> Option<Vec<Stated>> {
-    let mut all: Vec<Stated> = Vec::new();
-    let mut colours = Vec::new();
-    let _ = bsdf.map(|c| colours.push(c));
-    let names: &[&'static str] = match bsdf {
-        Bsdf::Diffuse(Diffuse { .. }) => &["reflectance"],
-        Bsdf::Dielectric(Dielectric { .. }) | Bsdf::ThinDielectric(ThinDielectric { .. }) => {
-            &["specular_reflectance", "specular_transmittance"]
-        }
-        Bsdf::Mirror(Mirror { .. }) | Bsdf::Conductor(Conductor { .. }) => &["specular_reflectance"],
-        Bsdf::Plastic(Plastic { .. }) => &["diffuse_reflectance", "specular_reflectance"],
-        Bsdf::Null(Null) => &[],
-    };
-    for (name, value) in names.iter().zip(colours) {
-        if let Colour::Constant(c) = value {
-            all.push(("rgb", name, colour(c)));
-        }
+fn change_value(document: &mut Document, node: NodeId, old: &Bound<'_>, new: &Bound<'_>) -> Option<()> {
+    let (before, after) = (stated(old), stated(new));
+    // A texture stays as it is.
+    if before == after {
+        return Some(());
     }
-    match *bsdf {
-        Bsdf::Dielectric(Dielectric { int_ior, ext_ior, .. })
-        | Bsdf::ThinDielectric(ThinDielectric { int_ior, ext_ior, .. })
-        | Bsdf::Plastic(Plastic { int_ior, ext_ior, .. }) => {
-            all.extend([("float", "int_ior", single(int_ior)), ("float", "ext_ior", single(ext_ior))]);
-        }
-        Bsdf::Conductor(Conductor { eta, k, .. }) => {
-            all.extend([("rgb", "eta", colour(eta)), ("rgb", "k", colour(k))]);
-        }
-        _ => {}
+    let is_said = |name: &str| after.iter().any(|s| s.name == name);
+    for parameter in alternatives(new).filter(|p| !is_said(p.name)) {
+        document.set_value(node, "", parameter.name, None).ok()?;
     }
-    if let Bsdf::Plastic(Plastic { nonlinear, .. }) = *bsdf {
-        all.push(("boolean", "nonlinear", nonlinear.to_string()));
+    for gone in before.iter().filter(|s| !is_said(s.name)) {
+        document.set_value(node, "", gone.name, None).ok()?;
     }
-    if let Bsdf::Dielectric(Dielectric { roughness: Some(r), .. })
-    | Bsdf::Conductor(Conductor { roughness: Some(r), .. })
-    | Bsdf::Plastic(Plastic { roughness: Some(r), .. }) = *bsdf
-    {
-        all.extend(stated_roughness(&r));
+    // A metal that had a name gets both of its indices; what else did not change may be said by a default.
+    let is_metal = matches!(new.slot, Slot::Metal { .. });
+    for Stated { tag, name, text } in after.iter().filter(|s| is_metal || !before.contains(s)) {
+        document.set_value(node, tag, name, Some(text)).ok()?;
     }
-    Some(all)
+    Some(())
 }
 
-fn stated_roughness(r: &Microfacets) -> Vec<Stated> {
-    let name = match r.distribution {
-        MicrofacetDistribution::Beckmann => "beckmann",
-        MicrofacetDistribution::Ggx => "ggx",
-    };
-    let distribution = ("string", "distribution", name.to_owned());
-    if r.alpha_u == r.alpha_v {
-        return vec![distribution, ("float", "alpha", single(r.alpha_u))];
-    }
-    let along = |name, alpha| ("float", name, single(alpha));
-    vec![distribution, along("alpha_u", r.alpha_u), along("alpha_v", r.alpha_v)]
+/// Parameters that cannot stand beside each other: where one of them is written, the others go.
+fn alternatives(bound: &Bound<'_>) -> impl Iterator<Item = &'static Parameter> {
+    let is_one =
+        |p: &&Parameter| matches!(p.kind, Kind::Metal | Kind::Colour | Kind::Refraction | Kind::Number);
+    let parameters = if bound.parameters.len() > 1 { bound.parameters } else { &[] };
+    parameters.iter().filter(is_one)
 }

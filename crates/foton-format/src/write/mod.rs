@@ -21,6 +21,8 @@ use foton_scene::description::{
     SensorDescription, ShapeDescription,
 };
 
+use foton_scene::plugins::{emitters, shapes};
+
 use crate::shapes::is_turned_inside_out;
 use xml::{Xml, colour, number, single, vector};
 
@@ -219,32 +221,34 @@ impl<'a> Writer<'a> {
         };
         let xml = &mut self.xml;
         let plugin = match emitter.kind {
-            EmitterKind::Point { .. } => "point",
-            EmitterKind::Spot { .. } => "spot",
-            EmitterKind::Constant { .. } => "constant",
-            EmitterKind::Directional { .. } => "directional",
-            EmitterKind::Environment { .. } => "envmap",
+            EmitterKind::Point { .. } => emitters::POINT.name,
+            EmitterKind::Spot { .. } => emitters::SPOT.name,
+            EmitterKind::Constant { .. } => emitters::CONSTANT.name,
+            EmitterKind::Directional { .. } => emitters::DIRECTIONAL.name,
+            EmitterKind::Environment { .. } => emitters::ENVMAP.name,
         };
         xml.open("emitter", &[("type", plugin), ("id", &id)]);
         match &emitter.kind {
             EmitterKind::Point { position, intensity } => {
-                xml.value("point", "position", &vector(*position));
-                xml.value("rgb", "intensity", &colour(*intensity));
+                xml.value("point", emitters::POSITION.name, &vector(*position));
+                xml.value("rgb", emitters::INTENSITY.name, &colour(*intensity));
             }
             EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees } => {
-                xml.value("rgb", "intensity", &colour(*intensity));
-                xml.value("float", "cutoff_angle", &number(*cutoff_degrees));
-                xml.value("float", "beam_width", &number(*beam_degrees));
+                xml.value("rgb", emitters::INTENSITY.name, &colour(*intensity));
+                xml.value("float", emitters::CUTOFF_ANGLE.name, &number(*cutoff_degrees));
+                xml.value("float", emitters::BEAM_WIDTH.name, &number(*beam_degrees));
                 xml.transform("to_world", to_world);
             }
-            EmitterKind::Constant { radiance } => xml.value("rgb", "radiance", &colour(*radiance)),
+            EmitterKind::Constant { radiance } => {
+                xml.value("rgb", emitters::RADIANCE.name, &colour(*radiance))
+            }
             EmitterKind::Directional { direction, irradiance } => {
-                xml.value("vector", "direction", &vector(*direction));
-                xml.value("rgb", "irradiance", &colour(*irradiance));
+                xml.value("vector", emitters::DIRECTION.name, &vector(*direction));
+                xml.value("rgb", emitters::IRRADIANCE.name, &colour(*irradiance));
             }
             EmitterKind::Environment { to_world, scale, .. } => {
-                xml.value("string", "filename", &filename);
-                xml.value("float", "scale", &single(*scale));
+                xml.value("string", emitters::FILENAME.name, &filename);
+                xml.value("float", emitters::SCALE.name, &single(*scale));
                 xml.transform("to_world", to_world);
             }
         }
@@ -265,20 +269,20 @@ impl<'a> Writer<'a> {
         xml.open("shape", &[("type", plugin), ("id", id)]);
         match &shape.geometry {
             Geometry::Sphere { centre, radius } => {
-                xml.value("point", "center", &vector(*centre));
-                xml.value("float", "radius", &number(*radius));
+                xml.value("point", shapes::CENTER.name, &vector(*centre));
+                xml.value("float", shapes::RADIUS.name, &number(*radius));
             }
             Geometry::Cylinder { from, to, radius } => {
-                xml.value("point", "p0", &vector(*from));
-                xml.value("point", "p1", &vector(*to));
-                xml.value("float", "radius", &number(*radius));
+                xml.value("point", shapes::P0.name, &vector(*from));
+                xml.value("point", shapes::P1.name, &vector(*to));
+                xml.value("float", shapes::RADIUS.name, &number(*radius));
             }
             Geometry::Disc => {}
             Geometry::Mesh(mesh) => {
                 if let Some(file) = filename {
-                    xml.value("string", "filename", &file);
+                    xml.value("string", shapes::FILENAME.name, &file);
                     if mesh.normals.is_empty() {
-                        xml.value("boolean", "face_normals", "true");
+                        xml.value("boolean", shapes::FACE_NORMALS.name, "true");
                     }
                 }
             }
@@ -286,11 +290,15 @@ impl<'a> Writer<'a> {
         xml.transform("to_world", &shape.to_world);
         let turned = is_mirrored(&shape.to_world) && is_turned_inside_out(plugin, &shape.geometry);
         if shape.flip_normals != turned {
-            xml.value("boolean", "flip_normals", "true");
+            xml.value("boolean", shapes::FLIP_NORMALS.name, "true");
         }
         xml.leaf("ref", &[("id", &self.material_ids[shape.material])]);
         if let Some(radiance) = shape.radiance {
-            xml.plugin("emitter", "area", &[("rgb", "radiance", &colour(radiance))]);
+            xml.plugin(
+                "emitter",
+                emitters::AREA.name,
+                &[("rgb", emitters::RADIANCE.name, &colour(radiance))],
+            );
         }
         xml.close("shape");
         Ok(())

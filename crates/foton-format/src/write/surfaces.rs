@@ -3,10 +3,10 @@
 use foton_film::WriteError;
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DMat3};
-use foton_scene::description::{
-    Bsdf, Colour, Conductor, Dielectric, Diffuse, Material, MicrofacetDistribution, Microfacets, Mirror,
-    Null, Plastic, Texture, TextureKind, ThinDielectric, Wrap,
-};
+use foton_scene::bsdf::Microfacets;
+use foton_scene::description::{Bsdf, Colour, Material, Texture, TextureKind, Wrap};
+use foton_scene::parameter::{Bound, Slot};
+use foton_scene::plugins::{textures, wrappers};
 
 use super::Writer;
 use super::xml::{colour, single};
@@ -20,24 +20,28 @@ impl Writer<'_> {
             TextureKind::Bitmap { bitmap, wrap, bilinear } => {
                 let filename = self.bitmap(bitmap, &id)?;
                 let xml = &mut self.xml;
-                xml.open("texture", &[("type", "bitmap"), ("id", &id)]);
-                xml.value("string", "filename", &filename);
-                xml.value("string", "filter_type", if *bilinear { "bilinear" } else { "nearest" });
+                xml.open("texture", &[("type", textures::BITMAP.name), ("id", &id)]);
+                xml.value("string", textures::FILENAME.name, &filename);
+                xml.value(
+                    "string",
+                    textures::FILTER_TYPE.name,
+                    if *bilinear { "bilinear" } else { "nearest" },
+                );
                 let wrap = match wrap {
-                    Wrap::Repeat => "repeat",
-                    Wrap::Mirror => "mirror",
-                    Wrap::Clamp => "clamp",
+                    Wrap::Repeat => textures::WRAPS[0],
+                    Wrap::Mirror => textures::WRAPS[1],
+                    Wrap::Clamp => textures::WRAPS[2],
                 };
-                xml.value("string", "wrap_mode", wrap);
+                xml.value("string", textures::WRAP_MODE.name, wrap);
                 // The description's v points up, Mitsuba's down.
-                xml.transform("to_uv", &in_space(TURN * texture.to_uv));
+                xml.transform(textures::TO_UV.name, &in_space(TURN * texture.to_uv));
             }
             TextureKind::Checkerboard { colours } => {
                 let xml = &mut self.xml;
-                xml.open("texture", &[("type", "checkerboard"), ("id", &id)]);
-                xml.value("rgb", "color0", &colour(colours[0]));
-                xml.value("rgb", "color1", &colour(colours[1]));
-                xml.transform("to_uv", &in_space(texture.to_uv));
+                xml.open("texture", &[("type", textures::CHECKERBOARD.name), ("id", &id)]);
+                xml.value("rgb", textures::COLOR0.name, &colour(colours[0]));
+                xml.value("rgb", textures::COLOR1.name, &colour(colours[1]));
+                xml.transform(textures::TO_UV.name, &in_space(texture.to_uv));
             }
         }
         self.xml.close("texture");
@@ -49,15 +53,17 @@ impl Writer<'_> {
         let id = self.id(&material.name);
         let mut attributes = vec![("id", id.as_str())];
         if let Some(opacity) = &material.opacity {
-            self.xml.open("bsdf", &[("type", "mask"), attributes.remove(0)]);
+            self.xml.open("bsdf", &[("type", wrappers::MASK.name), attributes.remove(0)]);
             match *opacity {
-                Colour::Constant(share) => self.xml.value("float", "opacity", &single(mean(share))),
-                texture @ Colour::Texture(_) => self.colour("opacity", texture),
+                Colour::Constant(share) => {
+                    self.xml.value("float", wrappers::OPACITY.name, &single(mean(share)))
+                }
+                texture @ Colour::Texture(_) => self.colour(wrappers::OPACITY.name, texture),
             }
         }
         match material.back {
-            Some(back) if !is_transmitting(&material.front) => {
-                let mut outer = vec![("type", "twosided")];
+            Some(back) if !material.front.transmits() => {
+                let mut outer = vec![("type", wrappers::TWOSIDED.name)];
                 outer.append(&mut attributes);
                 self.xml.open("bsdf", &outer);
                 self.bsdf(&material.front, &[]);
@@ -75,80 +81,27 @@ impl Writer<'_> {
     }
 
     fn bsdf(&mut self, bsdf: &Bsdf, more: &[(&str, &str)]) {
-        let mut attributes = vec![("type", plugin(bsdf))];
+        let mut attributes = vec![("type", bsdf.plugin())];
         attributes.extend(more);
         self.xml.open("bsdf", &attributes);
-        match *bsdf {
-            Bsdf::Diffuse(Diffuse { reflectance }) => self.colour("reflectance", reflectance),
-            Bsdf::Dielectric(Dielectric {
-                int_ior,
-                ext_ior,
-                specular_reflectance,
-                specular_transmittance,
-                roughness,
-            }) => {
-                self.refraction(int_ior, ext_ior);
-                self.factor("specular_reflectance", specular_reflectance);
-                self.factor("specular_transmittance", specular_transmittance);
-                self.roughness(roughness.as_ref());
+        if let Some([tag, name, value]) = bsdf.info().stated {
+            self.xml.value(tag, name, value);
+        }
+        let mut bsdf = *bsdf;
+        for bound in bsdf.parameters() {
+            let parameter = &bound.parameters[0];
+            match &bound.slot {
+                // A factor need not stand where it changes nothing.
+                Slot::Share(share) if parameter.default == 1.0 && **share == parameter.default_colour() => {}
+                Slot::Share(share) => self.colour(parameter.name, **share),
+                _ => {
+                    for Stated { tag, name, text } in stated(&bound) {
+                        self.xml.value(tag, name, &text);
+                    }
+                }
             }
-            Bsdf::ThinDielectric(ThinDielectric {
-                int_ior,
-                ext_ior,
-                specular_reflectance,
-                specular_transmittance,
-            }) => {
-                self.refraction(int_ior, ext_ior);
-                self.factor("specular_reflectance", specular_reflectance);
-                self.factor("specular_transmittance", specular_transmittance);
-            }
-            Bsdf::Mirror(Mirror { reflectance }) => {
-                self.xml.value("string", "material", "none");
-                self.colour("specular_reflectance", reflectance);
-            }
-            Bsdf::Conductor(Conductor { eta, k, specular_reflectance, roughness }) => {
-                self.xml.value("rgb", "eta", &colour(eta));
-                self.xml.value("rgb", "k", &colour(k));
-                self.factor("specular_reflectance", specular_reflectance);
-                self.roughness(roughness.as_ref());
-            }
-            Bsdf::Plastic(Plastic {
-                int_ior,
-                ext_ior,
-                diffuse_reflectance,
-                specular_reflectance,
-                nonlinear,
-                roughness,
-            }) => {
-                self.refraction(int_ior, ext_ior);
-                self.colour("diffuse_reflectance", diffuse_reflectance);
-                self.factor("specular_reflectance", specular_reflectance);
-                self.xml.value("boolean", "nonlinear", if nonlinear { "true" } else { "false" });
-                self.roughness(roughness.as_ref());
-            }
-            Bsdf::Null(Null) => {}
         }
         self.xml.close("bsdf");
-    }
-
-    fn refraction(&mut self, int_ior: f32, ext_ior: f32) {
-        self.xml.value("float", "int_ior", &single(int_ior));
-        self.xml.value("float", "ext_ior", &single(ext_ior));
-    }
-
-    fn roughness(&mut self, roughness: Option<&Microfacets>) {
-        let Some(Microfacets { distribution, alpha_u, alpha_v }) = roughness else { return };
-        let name = match distribution {
-            MicrofacetDistribution::Beckmann => "beckmann",
-            MicrofacetDistribution::Ggx => "ggx",
-        };
-        self.xml.value("string", "distribution", name);
-        if alpha_u == alpha_v {
-            self.xml.value("float", "alpha", &single(*alpha_u));
-        } else {
-            self.xml.value("float", "alpha_u", &single(*alpha_u));
-            self.xml.value("float", "alpha_v", &single(*alpha_v));
-        }
     }
 
     fn colour(&mut self, name: &str, value: Colour) {
@@ -157,35 +110,40 @@ impl Writer<'_> {
             Colour::Texture(i) => self.xml.leaf("ref", &[("name", name), ("id", &self.texture_ids[i])]),
         }
     }
+}
 
-    /// A colour that need not stand where it is 1.
-    fn factor(&mut self, name: &str, value: Colour) {
-        if value != Colour::Constant(Rgb::WHITE) {
-            self.colour(name, value);
+/// A value as it stands in a file.
+#[derive(PartialEq)]
+pub(crate) struct Stated {
+    /// Its tag.
+    pub(crate) tag: &'static str,
+    /// Its name.
+    pub(crate) name: &'static str,
+    /// Its text.
+    pub(crate) text: String,
+}
+
+/// What stands in a file for parameters of a BSDF; nothing for a texture, which stands elsewhere.
+pub(crate) fn stated(bound: &Bound<'_>) -> Vec<Stated> {
+    let name = bound.parameters[0].name;
+    let of = |tag, name, text| Stated { tag, name, text };
+    match &bound.slot {
+        Slot::Share(Colour::Constant(c)) => vec![of("rgb", name, colour(*c))],
+        Slot::Share(Colour::Texture(_)) | Slot::Roughness(None) => Vec::new(),
+        Slot::Refraction(ior) => vec![of("float", name, single(**ior))],
+        Slot::Boolean(flag) => vec![of("boolean", name, flag.to_string())],
+        Slot::Metal { eta, k } => vec![of("rgb", "eta", colour(**eta)), of("rgb", "k", colour(**k))],
+        Slot::Roughness(Some(Microfacets { distribution, alpha_u, alpha_v })) => {
+            let mut all = vec![of("string", "distribution", distribution.name().to_owned())];
+            if alpha_u == alpha_v {
+                all.push(of("float", "alpha", single(*alpha_u)));
+            } else {
+                all.push(of("float", "alpha_u", single(*alpha_u)));
+                all.push(of("float", "alpha_v", single(*alpha_v)));
+            }
+            all
         }
     }
-}
-
-pub(crate) fn plugin(bsdf: &Bsdf) -> &'static str {
-    match bsdf {
-        Bsdf::Diffuse(Diffuse { .. }) => "diffuse",
-        Bsdf::Dielectric(Dielectric { roughness: None, .. }) => "dielectric",
-        Bsdf::Dielectric(Dielectric { .. }) => "roughdielectric",
-        Bsdf::ThinDielectric(ThinDielectric { .. }) => "thindielectric",
-        Bsdf::Mirror(Mirror { .. }) | Bsdf::Conductor(Conductor { roughness: None, .. }) => "conductor",
-        Bsdf::Conductor(Conductor { .. }) => "roughconductor",
-        Bsdf::Plastic(Plastic { roughness: None, .. }) => "plastic",
-        Bsdf::Plastic(Plastic { .. }) => "roughplastic",
-        Bsdf::Null(Null) => "null",
-    }
-}
-
-/// Whether a BSDF describes both sides by itself.
-fn is_transmitting(bsdf: &Bsdf) -> bool {
-    matches!(
-        bsdf,
-        Bsdf::Dielectric(Dielectric { .. }) | Bsdf::ThinDielectric(ThinDielectric { .. }) | Bsdf::Null(Null)
-    )
 }
 
 /// The mean channel; the channel itself where all are the same.

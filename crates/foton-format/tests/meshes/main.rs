@@ -14,7 +14,7 @@ use std::sync::Arc;
 use foton_format::{Opened, Options, Severity, open, read_str};
 use foton_math::Rgb;
 use foton_math::glam::{DVec2, DVec3};
-use foton_scene::description::{Bsdf, EmitterKind, Geometry, Mesh};
+use foton_scene::description::{Bsdf, Dielectric, Diffuse, EmitterKind, Geometry, Mesh, Mirror, Plastic};
 
 use ply::{all_ply, little, ply};
 use serialized::{index, serialized};

@@ -170,7 +170,7 @@ fn a_field_that_is_dragged_is_one_step_and_a_saved_scene_is_unedited() {
     let folder = Folder::new("save");
     let (rig, before) = Rig::at_pass(1);
     rig.send(Command::Choose(Some(BALL)));
-    let field = FieldId::Material(Side::Front, Property::InsideIor);
+    let field = FieldId::Material(Side::Front, Property::Parameter("int_ior"));
     for (ior, done) in [(1.8, false), (2.0, false), (2.4, true)] {
         edit(&rig, Change::SetField { field, value: Value::Number(ior), done });
     }

@@ -35,7 +35,7 @@ fn it_says_what_is_chosen_and_who_shares_its_material() {
 fn numbers_are_set_by_slider_and_by_typing() {
     let mut harness = chosen();
     find(&harness, Role::Slider, "IOR inside").set_value_accesskit(2.0);
-    assert_asked(&mut harness, &set(material(Property::InsideIor), Value::Number(2.0)));
+    assert_asked(&mut harness, &set(material(Property::Parameter("int_ior")), Value::Number(2.0)));
     type_number(&mut harness, "Radius", "2.5");
     let last = asked(&mut harness).pop();
     assert_eq!(last, Some(format!("{:?}", set(FieldId::Radius, Value::Number(2.5)))));

@@ -98,13 +98,13 @@ fn selection() -> Selection {
                 field(FieldId::Position(0), "X", Value::Number(0.5), number(-1e6, 1e6, false)),
                 field(FieldId::Radius, "Radius", Value::Number(1.0), number(0.01, 100.0, true)),
                 field(
-                    material(Property::InsideIor),
+                    material(Property::Parameter("int_ior")),
                     "IOR inside",
                     Value::Number(1.5),
                     number(1.0, 3.0, false),
                 ),
                 field(
-                    material(Property::Transmission),
+                    material(Property::Parameter("specular_transmittance")),
                     "Transmission",
                     Value::Colour([1.0; 3]),
                     Control::Colour,
