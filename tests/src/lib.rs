@@ -1,5 +1,6 @@
 //! What tests across crates share: small scenes made in code, and renders of them.
 
+pub mod plugins;
 pub mod slopes;
 pub mod window;
 

@@ -1,5 +1,5 @@
-//! Runs a render: threads, stop rules, stage clocks, interruption, snapshots; and the [`Engine`], which a window
-//! steers. It knows no scene files, no terminal and no window.
+//! Runs a render: threads, stop rules, stage clocks, interruption, snapshots, findings; and the [`Engine`], which a
+//! window steers. It knows no scene files, no terminal and no window.
 //!
 //! ```
 //! use foton_session::{Interrupt, Session, StopRule};
@@ -21,6 +21,7 @@
 pub mod checkpoint;
 mod clock;
 pub mod engine;
+pub mod findings;
 mod interrupt;
 mod metadata;
 mod panic;
@@ -28,6 +29,8 @@ mod preset;
 mod session;
 pub mod snapshot;
 mod stop;
+#[cfg(test)]
+mod test_scene;
 pub mod threads;
 
 pub use clock::StageTimes;

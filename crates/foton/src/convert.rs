@@ -6,7 +6,7 @@ use foton_scene::Scene;
 
 use crate::args::Convert;
 use crate::console::{Console, Failure};
-use crate::job::{open, refuse_to_build, refuse_two_roles};
+use crate::opening::{open, refuse_to_build, refuse_two_roles};
 
 /// Runs `foton convert`.
 pub(crate) fn run(args: &Convert, console: &Console) -> Result<(), Failure> {
@@ -15,7 +15,7 @@ pub(crate) fn run(args: &Convert, console: &Console) -> Result<(), Failure> {
     let opened = open(&args.scene, &args.defines, None, &Cancel::default())?;
     refuse_two_roles(args.roles(), &opened)?;
     for finding in &opened.warnings {
-        console.finding(finding);
+        console.diagnostic(finding);
     }
     // What cannot be rendered is not worth writing; building also checks every index.
     refuse_to_build(&opened.description, None)?;

@@ -1,13 +1,7 @@
 //! The live error in words and in JSON.
 
-use foton_integrator::{ClassError, ErrorEstimate, PassReport, Render};
+use foton_integrator::{ClassError, ErrorEstimate};
 use serde_json::{Value, json};
-
-/// Passes after which bias at the smallest radii is known.
-const ENOUGH_PASSES: f64 = 16.0;
-
-/// Noise may be this share of the bias that is left.
-const LITTLE: f64 = 0.3;
 
 /// Names of the path classes, in their order.
 const CLASSES: [&str; 3] = ["direct", "caustic", "indirect"];
@@ -47,23 +41,4 @@ pub(crate) fn add_error(event: &mut Value, error: Option<&ErrorEstimate>) {
         };
         CLASSES.into_iter().zip(classes).map(of).collect::<serde_json::Map<_, _>>()
     }));
-}
-
-/// Why the error will not fall to a goal however long the render goes on, if that is so: bias that the smallest radii leave.
-pub(crate) fn out_of_reach(
-    goal: f64,
-    e: &ErrorEstimate,
-    report: &PassReport,
-    render: &Render,
-) -> Option<String> {
-    let is_floor = e.bias > goal && e.noise < LITTLE * e.bias && report.floored > 0;
-    (is_floor && e.effective_passes >= ENOUGH_PASSES).then(|| {
-        format!(
-            "the error will not fall to {:.3} %: the smallest radii leave a bias of about {:.1} %; more eye samples (--spp {}) or \
-             --radius-floor 0 lower it",
-            100.0 * goal,
-            100.0 * e.bias,
-            4 * render.settings().samples_per_pixel.get()
-        )
-    })
 }

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use crate::args::Info;
 use crate::console::{Console, Failure};
-use crate::job::{build, choose_sensor, open, refuse_two_roles};
+use crate::opening::{Bounds, build, choose_sensor, file_name, open, refuse_two_roles};
 
 /// Longest side, in pixels, of the picture that tells what each emitter's photons are good for.
 const PROBE_SIZE: u32 = 64;
@@ -21,12 +21,13 @@ const PROBE_PHOTONS: NonZeroU32 = NonZeroU32::new(1 << 14).expect("above 0");
 pub(crate) fn print(args: &Info, console: &Console) -> Result<(), Failure> {
     // A signal ends the program at once: there is nothing to keep.
     let cancel = Cancel::default();
-    let opened = open(&args.scene, &args.defines, args.memory, &cancel)?;
+    let opened = open(&args.scene, &args.scene_options.defines, args.memory, &cancel)?;
     refuse_two_roles(args.roles(), &opened)?;
-    let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
+    let name = file_name(&args.scene);
+    let sensor = choose_sensor(&opened, args.scene_options.sensor.as_deref())?;
     let probed = opened.description.clone();
-    let (scene, identity) = build(opened, &name, sensor, (None, args.memory), console, &cancel)?;
+    let bounds = Bounds { size: None, memory: args.memory };
+    let (scene, identity) = build(opened, &name, sensor, bounds, console, &cancel)?;
     let settings = RenderSettings { sensor, ..RenderSettings::default() };
     if args.json {
         console.event(&as_json(&scene, &settings, &name, identity.hash));
@@ -38,7 +39,7 @@ pub(crate) fn print(args: &Info, console: &Console) -> Result<(), Failure> {
     // The probe builds its own: both at once would take twice the memory that was asked for.
     drop(scene);
     if let Some(probe) = probe(probed, &settings) {
-        console.check_lights(&probe);
+        console.starved_emitters(&probe);
     }
     Ok(())
 }

@@ -10,15 +10,18 @@ mod convert;
 mod embedded;
 mod figure;
 mod info;
-mod job;
+mod interrupts;
 mod measure;
 mod memory;
+mod opening;
 mod quick;
+mod render;
 mod roles;
 mod settings;
 mod signals;
 #[cfg(feature = "window")]
 mod window;
+mod writing;
 
 use std::process::ExitCode;
 
@@ -83,9 +86,9 @@ fn main() -> ExitCode {
         return failure;
     }
     let (result, mut console) = match &args.command {
-        Some(Command::Render(render)) => {
-            let mut console = Console::new(render.json);
-            (job::render(render, &mut console), console)
+        Some(Command::Render(args)) => {
+            let mut console = Console::new(args.json);
+            (render::render(args, &mut console), console)
         }
         Some(Command::Convert(args)) => {
             let console = Console::new(false);

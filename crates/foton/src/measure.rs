@@ -1,15 +1,16 @@
 //! `foton measure`: what accuracy costs in a scene, as tables and a page in a folder.
 
 use foton_film::read_exr_within;
-use foton_integrator::{PpmSettings, RenderSettings};
 use foton_measure::sweep::{Event, Outcome, Sweep};
 use foton_session::{Session, StartError, StopCause};
 use serde_json::json;
 
-use crate::args::{Measure, Radius};
+use crate::args::Measure;
 use crate::console::{Console, Failure};
-use crate::job::{build, choose_sensor, interrupt_on_signals, open, refuse_two_roles, say_limit};
-use crate::{memory, settings};
+use crate::interrupts::{interrupt_on_signals, say_limit};
+use crate::memory;
+use crate::opening::{Bounds, build, choose_sensor, file_name, open, refuse_two_roles};
+use crate::settings::SettingsBuilder;
 
 /// Runs `foton measure`.
 pub(crate) fn run(args: &Measure, console: &mut Console) -> Result<(), Failure> {
@@ -17,31 +18,14 @@ pub(crate) fn run(args: &Measure, console: &mut Console) -> Result<(), Failure> 
     let given = args.reference.as_deref().map(|path| read_exr_within(path, memory)).transpose()?;
     let interrupt = interrupt_on_signals(console);
     console.begin();
-    let opened = open(&args.scene, &args.defines, None, interrupt.cancel())?;
+    let opened = open(&args.scene, &args.scene_options.defines, None, interrupt.cancel())?;
     refuse_two_roles(args.roles(), &opened)?;
-    let name = args.scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let sensor = choose_sensor(&opened, args.sensor.as_deref())?;
+    let name = file_name(&args.scene);
+    let sensor = choose_sensor(&opened, args.scene_options.sensor.as_deref())?;
     let suggested = opened.suggested;
-    let (scene, identity) = build(opened, &name, sensor, (args.size, None), console, interrupt.cancel())?;
-    let base = settings::base(&suggested, None);
-    let (radius, radius_scale) = Radius::split(args.radius, base.ppm.radius, base.ppm.radius_scale);
-    let centre = RenderSettings {
-        samples_per_pixel: args.spp,
-        max_depth: args.max_depth,
-        seed: args.seed,
-        sensor,
-        ppm: PpmSettings {
-            alpha: args.alpha.unwrap_or(base.ppm.alpha),
-            photons_per_pass: args.photons.unwrap_or(base.ppm.photons_per_pass),
-            radius,
-            radius_scale,
-            radius_floor: args.radius_floor,
-            radius_rule: args.radius_rule.into(),
-            direct_light: args.direct.into(),
-            ..base.ppm
-        },
-        ..base
-    };
+    let bounds = Bounds { size: args.settings.size, memory: None };
+    let (scene, identity) = build(opened, &name, sensor, bounds, console, interrupt.cancel())?;
+    let centre = SettingsBuilder::of_scene(&suggested).options(&args.settings).sensor(sensor).build();
     let given = given.map(|(image, _)| {
         let path = args.reference.as_deref().unwrap_or(&args.scene);
         (image, format!("the image {}", path.display()))
@@ -56,7 +40,7 @@ pub(crate) fn run(args: &Measure, console: &mut Console) -> Result<(), Failure> 
         given,
         folder: args.output.clone(),
     };
-    let pool = Session::pool(args.threads.map(usize::from)).map_err(StartError::from)?;
+    let pool = Session::pool(args.settings.threads.map(usize::from)).map_err(StartError::from)?;
     let needed = sweep.memory(pool.current_num_threads());
     let refusal = needed.and_then(|needed| needed.refusal(memory::limit(None)));
     if let Some(why) = refusal {

@@ -5,15 +5,16 @@ use std::time::Duration;
 
 use foton_film::check_writable;
 use foton_format::Options;
-use foton_integrator::RenderSettings;
 use foton_session::snapshot::{self, Format};
 use foton_session::{Session, StopRule};
 
 use crate::console::{Console, Failure};
 use crate::embedded::ALL;
-use crate::job::{build, finish, interrupt_on_signals, refuse_beyond_memory, say_limit};
+use crate::interrupts::{interrupt_on_signals, say_limit};
 use crate::memory::limit;
-use crate::settings;
+use crate::opening::{Bounds, build, refuse_beyond_memory};
+use crate::settings::SettingsBuilder;
+use crate::writing::finish;
 
 /// When to stop, writing included.
 const TIME: Duration = Duration::from_secs(55);
@@ -36,8 +37,8 @@ pub(crate) fn render(scene: Option<&Path>, console: &mut Console) -> Result<(), 
     };
     let opened = opened.map_err(Failure::of_open)?;
     let suggested = opened.suggested;
-    let (scene, identity) = build(opened, &name, 0, (None, None), console, cancel)?;
-    let settings = RenderSettings { error: true, ..settings::base(&suggested, None) };
+    let (scene, identity) = build(opened, &name, 0, Bounds::default(), console, cancel)?;
+    let settings = SettingsBuilder::of_scene(&suggested).error(true).build();
     refuse_beyond_memory(&scene, &settings, None, None)?;
     let stem = snapshot::next_free(Path::new(""));
     let (png, exr) = (stem.with_extension("png"), stem.with_extension("exr"));

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use foton_format::{Opened, Options, Saved, Severity, save_edited};
 use foton_input::printable;
-use foton_integrator::{Cancel, RenderSettings};
+use foton_integrator::Cancel;
 use foton_preview::{Close, WindowError};
 use foton_scene::BuildError;
 use foton_scene::description::SceneDescription;
@@ -15,8 +15,9 @@ use foton_session::SceneIdentity;
 use foton_session::engine::{Loaded, Loader, Source};
 
 use crate::embedded::{self, Embedded};
-use crate::job::refuse_to_build;
-use crate::{memory, settings, signals};
+use crate::opening::refuse_to_build;
+use crate::settings::SettingsBuilder;
+use crate::{memory, signals};
 
 /// Opens the window on `scene`, or the first of the embedded ones, and stays until it is closed.
 pub(crate) fn show(scene: Option<&Path>, frame_log: Option<&Path>) -> Result<(), WindowError> {
@@ -80,7 +81,7 @@ impl Loader for Files {
         Ok(Loaded {
             description: opened.description.clone(),
             identity: SceneIdentity { name, hash: opened.source_hash },
-            settings: RenderSettings { error: true, ..settings::base(&opened.suggested, None) },
+            settings: SettingsBuilder::of_scene(&opened.suggested).error(true).build(),
             files: opened.files.clone(),
             warnings: opened.warnings.iter().map(ToString::to_string).collect(),
             origin: Arc::new(opened),

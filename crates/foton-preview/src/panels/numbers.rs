@@ -1,7 +1,7 @@
 //! The numbers: how the render stands, where its time goes, and how both went.
 
 use egui_plot::{Line, Plot, PlotPoints};
-use foton_session::engine::{Activity, Frame};
+use foton_session::engine::{Activity, Frame, Numbers};
 
 use super::error;
 use super::text::{grouped, short};
@@ -128,6 +128,7 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
             }
         }
     });
+    findings(ui, n);
     let all: f64 = n.stages.iter().map(|(_, t)| t.as_secs_f64()).sum();
     if all > 0.0 {
         let parts: Vec<String> = n
@@ -148,6 +149,15 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
     }
     if !state.adapter.is_empty() {
         ui.weak(&state.adapter);
+    }
+}
+
+/// What the command line prints as warnings after a render.
+fn findings(ui: &mut egui::Ui, n: &Numbers) {
+    let colour = ui.visuals().warn_fg_color;
+    for finding in &*n.findings {
+        let text = egui::RichText::new(foton_input::printable(&finding.text));
+        ui.label(if finding.kind.is_note() { text.weak() } else { text.color(colour) });
     }
 }
 

@@ -74,23 +74,3 @@ pub(super) fn difference(kept: &str, here: &str) -> Option<String> {
         None => Some("is of another render".to_owned()),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_differs_is_said_by_name() {
-        let kept = "scene=12\nseed=7\nspp=2\nhit points=5\n";
-        let said = |here: &str| difference(kept, here);
-        assert_eq!(said(kept), None);
-        let seed = "was made with seed 7, not 0, which cannot change on the way";
-        assert_eq!(said("scene=12\nseed=0\nspp=2\nhit points=5\n").as_deref(), Some(seed));
-        let both = "was made with seed 7, not 0; spp 2, not 4, which cannot change on the way";
-        assert_eq!(said("scene=12\nseed=0\nspp=4\nhit points=9\n").as_deref(), Some(both));
-        let points = "was made with hit points 5, not 9, which cannot change on the way";
-        assert_eq!(said("scene=12\nseed=7\nspp=2\nhit points=9\n").as_deref(), Some(points));
-        assert!(said("scene=13\nseed=0\nspp=2\nhit points=5\n").is_some_and(|s| s.contains("another scene")));
-        assert_eq!(said("").as_deref(), Some("is of another render"));
-    }
-}

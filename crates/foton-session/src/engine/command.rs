@@ -268,11 +268,11 @@ impl Command {
 /// What must not get lost when frames are skipped.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// A scene was opened; what its file says without effect.
+    /// A scene was opened.
     Opened {
         /// Its name.
         name: String,
-        /// Findings, each with its place.
+        /// What its file says without effect, and findings in the scene.
         warnings: Vec<String>,
     },
     /// Files were written.

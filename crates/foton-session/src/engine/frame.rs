@@ -11,6 +11,7 @@ use foton_scene::BuildStep;
 
 use super::command::ViewMode;
 use crate::clock::StageTimes;
+use crate::findings::Finding;
 use crate::stop::StopRule;
 
 /// What the engine is doing.
@@ -162,6 +163,8 @@ pub struct Numbers {
     pub radii: Radii,
     /// Bytes held.
     pub bytes: usize,
+    /// What a person should know of the render.
+    pub findings: Arc<Vec<Finding>>,
 }
 
 /// The newest state of the engine.

@@ -12,6 +12,7 @@ use foton_scene::description::SceneDescription;
 use foton_scene::{BuildError, BuildOptions, BuildStep, Scene};
 
 use super::command::Source;
+use crate::findings::{self, Finding, SettingNames};
 use crate::metadata::SceneIdentity;
 use crate::panic::catch_panic;
 
@@ -62,6 +63,8 @@ pub(super) struct Ready {
     pub(super) source: Source,
     pub(super) loaded: Loaded,
     pub(super) scene: Arc<Scene>,
+    /// What a person should know of the scene.
+    pub(super) findings: Vec<Finding>,
 }
 
 /// What building a scene is at, and the share of that which is done.
@@ -129,7 +132,10 @@ fn open_and_build(
         let options = BuildOptions { cancel, tell: Some(&tell), ..BuildOptions::default() };
         let built = Scene::build_with(&loaded.description, &options);
         let scene = built.map_err(|cause| loader.why_not_built(&loaded, &cause))?;
-        Ok(Box::new(Ready { source, loaded, scene: Arc::new(scene) }))
+        // A sensor that is not there is found where it is used.
+        let sensor = loaded.settings.sensor.min(scene.sensors().len().saturating_sub(1));
+        let findings = findings::of_scene(&scene, sensor, &SettingNames::CONTROLS);
+        Ok(Box::new(Ready { source, loaded, scene: Arc::new(scene), findings }))
     })
 }
 

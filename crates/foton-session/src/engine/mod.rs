@@ -6,7 +6,6 @@
 mod command;
 mod frame;
 mod keeping;
-mod kept;
 mod loader;
 mod probe;
 mod rates;

@@ -14,6 +14,7 @@ use rayon::ThreadPool;
 use super::command::{ErrorPart, ViewMode};
 use super::frame::{Numbers, Picture};
 use super::rates::{Mark, Rates};
+use crate::findings::{self, Finding, SettingNames};
 use crate::session::{PassError, Session, StartError};
 
 /// How much of the whole picture is rendered.
@@ -70,6 +71,13 @@ const SMALL_PASSES: u64 = 8;
 /// Radii are sorted at most this often: with millions of hit points that takes a while.
 const RADII_EVERY: Duration = Duration::from_millis(500);
 
+/// Radii as they were a short while ago.
+#[derive(Clone, Copy)]
+struct RecentRadii {
+    at: Instant,
+    radii: Radii,
+}
+
 /// A render at one level.
 pub(super) struct LevelRender {
     session: Session,
@@ -77,7 +85,9 @@ pub(super) struct LevelRender {
     rates: Rates,
     no_photon_share: f64,
     photons_in_pass: u64,
-    radii: Option<(Instant, Radii)>,
+    /// Radii that were at the radius floor in the last pass.
+    radii_at_floor: u64,
+    radii: Option<RecentRadii>,
 }
 
 impl LevelRender {
@@ -117,7 +127,15 @@ impl LevelRender {
 
     fn over(session: Session, level: Level) -> Self {
         let rates = Rates::since(Mark::of(&session));
-        Self { session, level, rates, no_photon_share: 1.0, photons_in_pass: 0, radii: None }
+        Self {
+            session,
+            level,
+            rates,
+            no_photon_share: 1.0,
+            photons_in_pass: 0,
+            radii_at_floor: 0,
+            radii: None,
+        }
     }
 
     /// The render once its session has resumed a checkpoint: clocks, photons and rays are then the checkpoint's.
@@ -161,15 +179,25 @@ impl LevelRender {
         let report = self.session.advance(cancel)?;
         self.no_photon_share = report.no_photon_share;
         self.photons_in_pass = report.photons_in_pass;
+        self.radii_at_floor = report.floored;
         self.rates.add(Mark::of(&self.session));
         Ok(self.session.elapsed().saturating_sub(before))
     }
 
-    pub(super) fn numbers(&mut self) -> Numbers {
+    /// What a person should know of the render, whose error is to fall to a goal.
+    fn findings(&self, goal: Option<f64>) -> Vec<Finding> {
+        let (render, names) = (self.session.render(), &SettingNames::CONTROLS);
+        let mut found = findings::of_render(render, names);
+        found.extend(goal.and_then(|goal| findings::above_goal(render, goal, self.radii_at_floor, names)));
+        found
+    }
+
+    /// How the render stands, whose error is to fall to a goal.
+    pub(super) fn numbers(&mut self, goal: Option<f64>) -> Numbers {
         let render = self.session.render();
-        let (_, radii) = match self.radii {
-            Some(fresh) if fresh.0.elapsed() < RADII_EVERY => fresh,
-            _ => *self.radii.insert((Instant::now(), render.radii())),
+        let RecentRadii { radii, .. } = match self.radii {
+            Some(recent) if recent.at.elapsed() < RADII_EVERY => recent,
+            _ => *self.radii.insert(RecentRadii { at: Instant::now(), radii: render.radii() }),
         };
         let (photons_per_s, rays_per_s) = self.rates.per_second();
         Numbers {
@@ -186,6 +214,7 @@ impl LevelRender {
             ledger: *render.ledger(),
             radii,
             bytes: render.bytes(),
+            findings: Arc::new(self.findings(goal)),
         }
     }
 

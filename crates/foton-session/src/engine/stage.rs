@@ -92,7 +92,7 @@ pub(super) struct Stage {
 
 impl Stage {
     pub(super) fn new(ready: Ready, [cancel, quit]: [Cancel; 2]) -> Self {
-        let Ready { source, loaded, scene } = ready;
+        let Ready { source, loaded, scene, .. } = ready;
         let description = Arc::new(loaded.description);
         let sensors = description.sensors.clone();
         let mut stage = Self {

@@ -76,7 +76,7 @@ fn stage() -> (Stage, [Cancel; 2]) {
         origin: Arc::new(()),
     };
     let cancels = [Cancel::default(), Cancel::default()];
-    let ready = Ready { source: Source::BuiltIn("wall".into()), loaded, scene };
+    let ready = Ready { source: Source::BuiltIn("wall".into()), loaded, scene, findings: Vec::new() };
     let mut stage = Stage::new(ready, cancels.clone());
     stage.choose(0, Some([32.0, 32.0]));
     assert!(stage.selection(0).is_some(), "the wall is in the middle");

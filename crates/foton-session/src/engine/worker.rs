@@ -14,12 +14,12 @@ use rayon::ThreadPool;
 
 use super::command::{Change, Command, Configuration, Event, ViewMode};
 use super::frame::{Frame, Picture};
-use super::kept::Kept;
 use super::loader::{Opening, Ready};
 use super::render::{Level, LevelRender};
 use super::setup::Setup;
 use super::slot::NewestSender;
 use super::stage::{Effect, Stage};
+use crate::checkpoint::Keeper;
 use crate::panic::{Panic, catch_panic};
 use crate::session::{PassError, Session, StartError};
 use crate::stop::StopRule;
@@ -73,7 +73,8 @@ pub(super) struct Worker {
     show_photons: bool,
     probed: Option<[u32; 2]>,
     auto_snapshots: Option<PathBuf>,
-    pub(super) kept: Option<Kept>,
+    /// The checkpoint that follows the render.
+    pub(super) keeper: Option<Keeper>,
     /// The checkpoint that the next whole render goes on from.
     pub(super) resuming: Option<PathBuf>,
     frames: u64,
@@ -115,7 +116,7 @@ impl Worker {
             show_photons: false,
             probed: None,
             auto_snapshots: None,
-            kept: None,
+            keeper: None,
             resuming: None,
             frames: 0,
             picture: None,
@@ -133,7 +134,7 @@ impl Worker {
             let Some(commands) = self.wait_for_commands() else { return };
             for command in commands {
                 if matches!(command, Command::Quit) {
-                    self.keep_the_last();
+                    self.finish_checkpoint();
                     return;
                 }
                 let writes = command.writes();
@@ -258,7 +259,7 @@ impl Worker {
     }
 
     fn restart(&mut self) {
-        self.let_go();
+        self.leave_checkpoint();
         self.resuming = None;
         self.render = None;
         self.render_number += 1;
@@ -316,7 +317,9 @@ impl Worker {
 
     fn show(&mut self, ready: Ready) {
         let loaded = &ready.loaded;
-        self.event(Event::Opened { name: loaded.identity.name.clone(), warnings: loaded.warnings.clone() });
+        let findings = ready.findings.iter().map(|finding| finding.text.clone());
+        let warnings = loaded.warnings.iter().cloned().chain(findings).collect();
+        self.event(Event::Opened { name: loaded.identity.name.clone(), warnings });
         self.settings = RenderSettings { layers: self.settings.layers, ..loaded.settings.clone() };
         self.stage = Some(Stage::new(ready, [self.cancel.clone(), self.quit.clone()]));
         self.moving = false;
@@ -444,7 +447,7 @@ impl Worker {
             *left = left.saturating_sub(1);
         }
         let due = render.render().passes().is_power_of_two();
-        self.keep_up();
+        self.update_checkpoint();
         if let Some(folder) = self.auto_snapshots.clone().filter(|_| due) {
             self.auto_snapshot(&folder);
         }

@@ -8,6 +8,7 @@ use super::command::Event;
 use super::render::LevelRender;
 use super::stage::Stage;
 use super::worker::Worker;
+use crate::checkpoint::Keeper;
 use crate::snapshot::{self, Format};
 
 impl Worker {
@@ -40,13 +41,13 @@ impl Worker {
 
     /// Why a picture is not to be written over a file: as for the scene, or the checkpoint is kept there.
     fn why_not_over(&self, path: &Path) -> Option<String> {
-        self.why_not_over_the_scene(path).or_else(|| self.why_not_over_the_kept(path))
+        self.why_not_over_the_scene(path).or_else(|| self.why_not_over_the_checkpoint(path))
     }
 
-    fn why_not_over_the_kept(&self, path: &Path) -> Option<String> {
-        let kept = self.kept.as_ref().filter(|kept| is_same_file(&kept.path, path))?;
-        let [path, kept] = [path, &*kept.path].map(|path| path.display());
-        Some(format!("cannot write {path}: the checkpoint {kept} is kept there"))
+    fn why_not_over_the_checkpoint(&self, path: &Path) -> Option<String> {
+        let checkpoint = self.keeper.as_ref().map(Keeper::path).filter(|file| is_same_file(file, path))?;
+        let [path, checkpoint] = [path, checkpoint].map(Path::display);
+        Some(format!("cannot write {path}: the checkpoint {checkpoint} is kept there"))
     }
 
     /// Writes both pictures of a stem.
@@ -73,7 +74,7 @@ impl Worker {
 
     pub(super) fn save_scene(&mut self, path: &Path) {
         // What of the scene's own files may be replaced, the loader knows.
-        if let Some(message) = self.why_not_over_the_kept(path) {
+        if let Some(message) = self.why_not_over_the_checkpoint(path) {
             return self.event(Event::Failed(message));
         }
         let Some(stage) = &mut self.stage else {

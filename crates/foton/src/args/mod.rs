@@ -1,6 +1,7 @@
 //! The command line. Its words are stable: scripts rely on them.
 
 mod measure;
+mod options;
 mod parse;
 mod render;
 #[cfg(test)]
@@ -14,6 +15,8 @@ use clap::{Args as ClapArgs, Parser, Subcommand};
 use foton_session::snapshot::Format;
 
 pub(crate) use measure::Measure;
+use options::SceneOptions;
+pub(crate) use options::SettingsOptions;
 use parse::{bytes, define, image, name, xml};
 pub(crate) use render::RenderArgs;
 pub(crate) use values::{ErrorWish, Every, Radius, Size};
@@ -82,15 +85,11 @@ pub(crate) struct Convert {
 pub(crate) struct Info {
     /// Scene file (Mitsuba 3 XML)
     pub(crate) scene: PathBuf,
-    /// The sensor to look through, by its id [the first]
-    #[arg(long, value_name = "NAME")]
-    pub(crate) sensor: Option<String>,
+    #[command(flatten)]
+    pub(crate) scene_options: SceneOptions,
     /// Refuse to read or build beyond this much memory, e.g. 800M, 8G [80 % of what is free]
     #[arg(long, value_name = "SIZE", value_parser = bytes)]
     pub(crate) memory: Option<u64>,
-    /// Set a parameter of the scene file
-    #[arg(short = 'D', value_name = "name=value", value_parser = define)]
-    pub(crate) defines: Vec<(String, String)>,
     /// Print one JSON object on stdout
     #[arg(long)]
     pub(crate) json: bool,

@@ -1,17 +1,15 @@
-//! `foton render`.
+//! The arguments of `foton render`.
 
-use std::num::NonZeroU32;
 use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::Args as ClapArgs;
-use foton_integrator::{Alpha, LayerKind, RadiusFloor, RenderSettings};
+use foton_integrator::LayerKind;
 use foton_session::snapshot::Format;
 
-use super::parse::{
-    alpha, bytes, define, duration, error_wish, image, layer, name, radius, radius_floor, with_default,
-};
-use super::values::{Direct, ErrorWish, Every, Integrator, PresetName, Radius, Rule, Size};
+use super::options::{SceneOptions, SettingsOptions};
+use super::parse::{bytes, duration, error_wish, image, layer, name};
+use super::values::{ErrorWish, Every, Integrator, PresetName};
 
 /// `foton render`.
 #[derive(Debug, ClapArgs)]
@@ -32,60 +30,20 @@ pub(crate) struct RenderArgs {
     /// samples as they are. `off` leaves the estimate out, which saves a little time
     #[arg(long, value_name = "SHARE|off", value_parser = error_wish)]
     pub(crate) error: Option<ErrorWish>,
-    /// RenderSettings for a purpose: something to look at soon, the defaults, or minutes of rendering. What is set by itself comes
+    /// Settings for a purpose: something to look at soon, the defaults, or minutes of rendering. What is set by itself comes
     /// before it, and it comes before what the scene says
     #[arg(long, value_name = "NAME", value_enum)]
     pub(crate) preset: Option<PresetName>,
-    #[arg(long, value_name = "N", help = with_default(
-        "Photons emitted in a pass: fewer answer sooner, more cost less a photon [as the scene says, else ",
-        RenderSettings::default().ppm.photons_per_pass,
-    ))]
-    pub(crate) photons: Option<NonZeroU32>,
-    #[arg(long, value_name = "A", value_parser = alpha, help = with_default(
-        "Share of new photons kept, in (0, 1]: small shrinks radii fast (less bias, more noise) [as the scene says, else ",
-        RenderSettings::default().ppm.alpha,
-    ))]
-    pub(crate) alpha: Option<Alpha>,
-    /// First radius: in world units, or x0.5 for half of what each pixel's footprint gives (x1)
-    #[arg(long, value_name = "R|xF", value_parser = radius)]
-    pub(crate) radius: Option<Radius>,
-    /// How radii shrink
-    #[arg(long, value_name = "RULE", value_enum, default_value_t = RenderSettings::default().ppm.radius_rule.into())]
-    pub(crate) radius_rule: Rule,
-    /// Smallest radius in spacings of the eye samples, which stand still: light narrower than what discs cover is lost between
-    /// them. 0 for none
-    #[arg(long, value_name = "N", value_parser = radius_floor, default_value_t = RenderSettings::default().ppm.radius_floor)]
-    pub(crate) radius_floor: RadiusFloor,
-    /// Seed of all random numbers
-    #[arg(long, value_name = "N", default_value_t = RenderSettings::default().seed)]
-    pub(crate) seed: u64,
-    /// Threads [as many as the machine has]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
-    /// Size of the whole image; a crop of it shrinks or grows along [as the scene says]
-    #[arg(long, value_name = "WxH")]
-    pub(crate) size: Option<Size>,
-    /// Eye samples a pixel
-    #[arg(long, value_name = "N", default_value_t = RenderSettings::default().samples_per_pixel)]
-    pub(crate) spp: NonZeroU32,
-    /// Longest path in edges, as Mitsuba counts them: 1 emitters seen directly, 2 one bounce [as the scene says]
-    #[arg(long, value_name = "N")]
-    pub(crate) max_depth: Option<u32>,
-    /// How light straight from emitters is estimated
-    #[arg(long, value_name = "HOW", value_enum, default_value_t = Direct::Photons)]
-    pub(crate) direct: Direct,
+    #[command(flatten)]
+    pub(crate) settings: SettingsOptions,
     /// Light transport method
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Integrator::Render)]
     pub(crate) integrator: Integrator,
-    /// The sensor to look through, by its id [the first]
-    #[arg(long, value_name = "NAME")]
-    pub(crate) sensor: Option<String>,
+    #[command(flatten)]
+    pub(crate) scene_options: SceneOptions,
     /// Refuse to start beyond this much memory, e.g. 800M, 8G [80 % of what is free]
     #[arg(long, value_name = "SIZE", value_parser = bytes)]
     pub(crate) memory: Option<u64>,
-    /// Set a parameter of the scene file
-    #[arg(short = 'D', value_name = "name=value", value_parser = define)]
-    pub(crate) defines: Vec<(String, String)>,
     /// Also write OUT-000016.exr and so on, at powers of two or every N passes
     #[arg(long, value_name = "pow2|N")]
     pub(crate) every: Option<Every>,

@@ -17,7 +17,7 @@ use crate::memory::Confined;
 use crate::roles::Clash;
 
 /// Names that a message lists at most.
-pub(super) const MAX_NAMES: usize = 20;
+const MAX_NAMES: usize = 20;
 
 /// Why nothing was rendered.
 #[derive(Debug)]

@@ -11,11 +11,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use foton_format::{Diagnostic, Severity};
 use foton_input::printable;
 use foton_scene::BuildStep;
+use foton_session::findings::{self, Finding, SettingNames};
 use foton_session::{Progress, Session, StopRule};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 
-use crate::figure::{self, add_error, classes_text, error_text, upper_end_text};
+use crate::figure::{add_error, classes_text, error_text, upper_end_text};
 use crate::memory::Confined;
 
 pub(crate) use failure::Failure;
@@ -90,8 +91,17 @@ impl Console {
         self.line(&format!("note: {message}"));
     }
 
-    /// A finding in a scene file that does not stop the render.
-    pub(crate) fn finding(&self, d: &Diagnostic) {
+    /// A finding in a scene or a render.
+    pub(crate) fn finding(&self, finding: &Finding) {
+        if finding.kind.is_note() {
+            self.note(&finding.text);
+        } else {
+            self.warning(&finding.text);
+        }
+    }
+
+    /// What is odd in a scene file, and does not stop the render.
+    pub(crate) fn diagnostic(&self, d: &Diagnostic) {
         self.event(&located("warning", d));
         self.line(&format!("warning: {d}"));
     }
@@ -195,10 +205,10 @@ impl Console {
             add_error(&mut event, error.as_ref());
             self.event(&event);
         }
-        let too_high =
-            rule.error.zip(error).and_then(|(goal, e)| figure::out_of_reach(goal, &e, r, p.render));
-        if let Some(why) = too_high.filter(|_| !self.said_floor.swap(true, Ordering::Relaxed)) {
-            self.warning(&why);
+        let names = &SettingNames::OPTIONS;
+        let above_goal = rule.error.and_then(|goal| findings::above_goal(p.render, goal, r.floored, names));
+        if let Some(finding) = above_goal.filter(|_| !self.said_floor.swap(true, Ordering::Relaxed)) {
+            self.finding(&finding);
         }
         if let Some(fraction) = rule.fraction(r.pass, p.elapsed, error.as_ref()) {
             self.bar.set_position((fraction * 1000.0) as u64);

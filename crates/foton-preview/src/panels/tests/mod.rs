@@ -4,6 +4,7 @@ mod inspector;
 mod keys;
 mod picture;
 mod pointer;
+mod stats;
 
 use std::num::NonZeroU32;
 use std::sync::Arc;

@@ -44,7 +44,7 @@ impl Worker {
             self.picture = Some(render.picture(self.shown));
             self.pictured = self.render_number;
             if render.is_whole() {
-                numbers = render.numbers();
+                numbers = render.numbers(self.stop.error);
                 if self.show_photons {
                     dots = Arc::new(probe::dots(render.render()));
                 }

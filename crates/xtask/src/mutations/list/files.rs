@@ -1,7 +1,7 @@
 //! Protections of files that are written, of what is read, and of what the system sends.
 
 use crate::mutations::mutation::Mutation;
-use crate::mutations::targets::{CLI, ENGINE, FILM, MEASURE, SAVING, TEMPORARY, WRITER};
+use crate::mutations::targets::{CLI, ENGINE, FILM, MEASURE, SAVING, SESSION, TEMPORARY, WRITER};
 
 pub(super) const LIST: &[Mutation] = &[
     Mutation {
@@ -134,11 +134,19 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "the window's last checkpoint is rescued",
-        file: "crates/foton-session/src/engine/keeping.rs",
-        from: "let spare = write_spare(&kept.path, |path| self.write_state(path, &kept.scene));",
-        to: "let spare = write_spare(&kept.path, |path| self.write_state(path, &kept.scene)).filter(|_| false);",
+        file: "crates/foton-session/src/checkpoint/keeper.rs",
+        from: "Unwritten { cause, spare: write_spare(&self.path, state) }",
+        to: "Unwritten { cause, spare: write_spare(&self.path, state).filter(|_| false) }",
         target: ENGINE,
         test: "a_folder_that_vanishes_costs_what_is_kept_there_and_the_render_goes_on",
+    },
+    Mutation {
+        what: "a checkpoint that could not be written is written at the end",
+        file: "crates/foton-session/src/checkpoint/keeper.rs",
+        from: "self.stored == Some(elapsed)",
+        to: "self.tried == elapsed",
+        target: SESSION,
+        test: "a_state_that_could_not_be_written_is_written_at_the_end",
     },
     Mutation {
         what: "a sweep's results are rescued",
@@ -150,7 +158,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "outputs are none of the scene's files",
-        file: "crates/foton/src/job.rs",
+        file: "crates/foton/src/render.rs",
         from: "    refuse_two_roles(args.roles(), &opened)?;\n",
         to: "",
         target: CLI,
@@ -174,7 +182,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "an image on the way that has no name is refused at once",
-        file: "crates/foton/src/job.rs",
+        file: "crates/foton/src/render.rs",
         from: "check_writable(&snapshot::numbered(path, every.first()))?;",
         to: "let _ = every.first();",
         target: CLI,
@@ -182,9 +190,9 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "the last checkpoint is rescued",
-        file: "crates/foton/src/job.rs",
-        from: "let instead = write_spare(path, write)",
-        to: "let instead = write_spare(path, write).filter(|_| false)",
+        file: "crates/foton-session/src/checkpoint/keeper.rs",
+        from: "Unwritten { cause, spare: write_spare(&self.path, state) }",
+        to: "Unwritten { cause, spare: write_spare(&self.path, state).filter(|_| false) }",
         target: CLI,
         test: "a_full_disk_costs_a_checkpoint_but_not_the_render",
     },

@@ -6,7 +6,7 @@ use crate::mutations::targets::{CHECKPOINTS, CLI, ENGINE, MEASURE, SESSION};
 pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "checkpoints are summed",
-        file: "crates/foton-session/src/checkpoint.rs",
+        file: "crates/foton-session/src/checkpoint/mod.rs",
         from: "if hash(content).to_le_bytes() != trailer {",
         to: "if false {",
         target: CHECKPOINTS,
@@ -14,7 +14,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "scenes too large to build are refused",
-        file: "crates/foton/src/job.rs",
+        file: "crates/foton/src/opening.rs",
         from: "Some(limit) if takes > limit =>",
         to: "Some(limit) if takes < 0.0 * limit =>",
         target: CLI,
@@ -23,14 +23,14 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "foton info is held to the limit",
         file: "crates/foton/src/info.rs",
-        from: "build(opened, &name, sensor, (None, args.memory), console, &cancel)?",
-        to: "build(opened, &name, sensor, (None, None), console, &cancel)?",
+        from: "Bounds { size: None, memory: args.memory }",
+        to: "Bounds { size: None, memory: None }",
         target: CLI,
         test: "scenes_that_cannot_be_read_or_built_in_the_memory_given_are_refused",
     },
     Mutation {
         what: "an image that is not written is an error",
-        file: "crates/foton/src/job.rs",
+        file: "crates/foton/src/writing.rs",
         from: "if let Some(error) = unwritten {",
         to: "if let Some(error) = unwritten.filter(|_| false) {",
         target: CLI,
@@ -38,7 +38,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "an image on the way that is not written ends nothing",
-        file: "crates/foton/src/job.rs",
+        file: "crates/foton/src/render.rs",
         from: "Err(error) => console.warning(&format!(\"an image on the way is missing: {error}\")),",
         to: "Err(_) => interrupt.request(),",
         target: CLI,
@@ -46,7 +46,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "a checkpoint that is not written is said",
-        file: "crates/foton/src/job.rs",
+        file: "crates/foton/src/render.rs",
         from: "console.warning(&format!(\"no checkpoint: {error}\"));",
         to: "let _ = error;",
         target: CLI,
@@ -54,23 +54,23 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "dropped photons are warned of",
-        file: "crates/foton/src/console/checks.rs",
-        from: "if ledger.dropped > 0 {",
-        to: "if ledger.dropped == u64::MAX {",
+        file: "crates/foton-session/src/findings/render.rs",
+        from: "if dropped == 0 {",
+        to: "if dropped < u64::MAX {",
         target: CLI,
         test: "photons_that_are_dropped_are_warned_of_with_their_light",
     },
     Mutation {
         what: "light that is cut off is warned of",
-        file: "crates/foton/src/console/checks.rs",
-        from: "if share > WORTH_A_WARNING {",
-        to: "if share > 2.0 {",
+        file: "crates/foton-session/src/findings/render.rs",
+        from: "if share <= MIN_CUT_OFF {",
+        to: "if share <= 2.0 {",
         target: CLI,
         test: "the_ledger_has_a_line_for_everything_that_becomes_of_light_and_they_add_up",
     },
     Mutation {
         what: "small things far away are warned of",
-        file: "crates/foton/src/job.rs",
+        file: "crates/foton-session/src/findings/scene.rs",
         from: "s.steps_across < MIN_STEPS",
         to: "s.steps_across < 0.0",
         target: CLI,
@@ -94,7 +94,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "options change a resumed render",
-        file: "crates/foton/src/job.rs",
+        file: "crates/foton/src/render.rs",
         from: "session.render_mut().change(change);",
         to: "",
         target: CLI,
@@ -126,7 +126,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "signals are heard while a scene is built",
-        file: "crates/foton/src/job.rs",
+        file: "crates/foton/src/opening.rs",
         from: "BuildOptions { cancel: cancel.clone(), tell: Some(&tell), ..BuildOptions::default() }",
         to: "BuildOptions { tell: Some(&tell), ..BuildOptions::default() }",
         target: CLI,

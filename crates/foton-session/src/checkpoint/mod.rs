@@ -5,6 +5,9 @@
 //! What the start of a render makes anew is not in it: hit points are collected again.
 
 mod fixed;
+mod keeper;
+#[cfg(test)]
+mod tests;
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -17,6 +20,8 @@ use thiserror::Error;
 
 use crate::metadata::SceneIdentity;
 use crate::session::Session;
+
+pub use keeper::{Keeper, Unwritten};
 
 const MAGIC: [u8; 8] = *b"fotonPPM";
 const VERSION: u32 = 4;

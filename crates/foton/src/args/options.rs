@@ -1,0 +1,65 @@
+//! Options that several commands share.
+
+use std::num::NonZeroU32;
+
+use clap::Args as ClapArgs;
+use foton_integrator::{Alpha, RadiusFloor, RenderSettings};
+
+use super::parse::{alpha, define, radius, radius_floor, with_default};
+use super::values::{Direct, Radius, Rule, Size};
+
+// The structs have no doc comments: clap would take them for descriptions of the commands.
+
+// What a scene file is read with, and the sensor.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct SceneOptions {
+    /// The sensor to look through, by its id [the first]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) sensor: Option<String>,
+    /// Set a parameter of the scene file
+    #[arg(short = 'D', value_name = "name=value", value_parser = define)]
+    pub(crate) defines: Vec<(String, String)>,
+}
+
+// Settings of a render; of a sweep, those at the centre of its star.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct SettingsOptions {
+    #[arg(long, value_name = "N", help = with_default(
+        "Photons emitted in a pass: fewer answer sooner, more cost less a photon [as the scene says, else ",
+        RenderSettings::default().ppm.photons_per_pass,
+    ))]
+    pub(crate) photons: Option<NonZeroU32>,
+    #[arg(long, value_name = "A", value_parser = alpha, help = with_default(
+        "Share of new photons kept, in (0, 1]: small shrinks radii fast (less bias, more noise) [as the scene says, else ",
+        RenderSettings::default().ppm.alpha,
+    ))]
+    pub(crate) alpha: Option<Alpha>,
+    /// First radius: in world units, or x0.5 for half of what each pixel's footprint gives (x1)
+    #[arg(long, value_name = "R|xF", value_parser = radius)]
+    pub(crate) radius: Option<Radius>,
+    /// How radii shrink
+    #[arg(long, value_name = "RULE", value_enum, default_value_t = RenderSettings::default().ppm.radius_rule.into())]
+    pub(crate) radius_rule: Rule,
+    /// Smallest radius in spacings of the eye samples, which stand still: light narrower than what discs cover is lost between
+    /// them. 0 for none
+    #[arg(long, value_name = "N", value_parser = radius_floor, default_value_t = RenderSettings::default().ppm.radius_floor)]
+    pub(crate) radius_floor: RadiusFloor,
+    /// Seed of all random numbers
+    #[arg(long, value_name = "N", default_value_t = RenderSettings::default().seed)]
+    pub(crate) seed: u64,
+    /// Threads [as many as the machine has]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Size of the whole image; a crop of it shrinks or grows along [as the scene says]
+    #[arg(long, value_name = "WxH")]
+    pub(crate) size: Option<Size>,
+    /// Eye samples a pixel
+    #[arg(long, value_name = "N", default_value_t = RenderSettings::default().samples_per_pixel)]
+    pub(crate) spp: NonZeroU32,
+    /// Longest path in edges, as Mitsuba counts them: 1 emitters seen directly, 2 one bounce [as the scene says]
+    #[arg(long, value_name = "N")]
+    pub(crate) max_depth: Option<u32>,
+    /// How light straight from emitters is estimated
+    #[arg(long, value_name = "HOW", value_enum, default_value_t = Direct::Photons)]
+    pub(crate) direct: Direct,
+}

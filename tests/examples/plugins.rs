@@ -1,0 +1,5 @@
+//! Prints `docs/plugins.md`.
+
+fn main() {
+    print!("{}", foton_tests::plugins::document());
+}
