@@ -1,12 +1,7 @@
-//! Parameters of plugins, declared once: what files, messages, the window and the documentation call them, and what they may be.
-//!
-//! A declaration stands beside what it describes: with each BSDF in `bsdf/`, with emitters, shapes and textures in
-//! `description/`. The reader, the writer, saving as an edit, the checks of a build, the inspector and `docs/plugins.md` all go
-//! by it.
+//! What is declared of a parameter.
 
 use foton_math::Rgb;
 
-use crate::bsdf::Microfacets;
 use crate::description::Colour;
 
 /// A parameter of a plugin.
@@ -227,58 +222,5 @@ impl Parameter {
     #[must_use]
     pub fn holds(&self, value: f64) -> bool {
         (self.range.0..=self.range.1).contains(&value)
-    }
-}
-
-/// Parameters of a BSDF with the place of what they say.
-#[derive(Debug)]
-pub struct Bound<'a> {
-    /// The parameters: several where they say one thing together.
-    pub parameters: &'static [Parameter],
-    /// Where their value is.
-    pub slot: Slot<'a>,
-}
-
-/// Where the value of a parameter is.
-#[derive(Debug)]
-pub enum Slot<'a> {
-    /// A share of light.
-    Share(&'a mut Colour),
-    /// An index of refraction.
-    Refraction(&'a mut f32),
-    /// True or false.
-    Boolean(&'a mut bool),
-    /// A metal's complex index of refraction: `eta` and `k`, or its name.
-    Metal {
-        /// The real part.
-        eta: &'a mut Rgb,
-        /// The imaginary part.
-        k: &'a mut Rgb,
-    },
-    /// The microfacets, if the surface is rough: [`ROUGHNESS`](crate::bsdf::ROUGHNESS) or
-    /// [`ISOTROPIC_ROUGHNESS`](crate::bsdf::ISOTROPIC_ROUGHNESS).
-    Roughness(&'a mut Option<Microfacets>),
-}
-
-impl<'a> Bound<'a> {
-    /// Binds parameters to their value.
-    #[must_use]
-    pub const fn new(parameters: &'static [Parameter], slot: Slot<'a>) -> Self {
-        Self { parameters, slot }
-    }
-
-    /// Whether the value lies within the range of its parameters. Of a texture that is not known here.
-    #[must_use]
-    pub fn is_valid(&self) -> bool {
-        let range = &self.parameters[0];
-        let is_within = |c: &Rgb| c.is_finite() && c.to_array().iter().all(|&x| range.holds(f64::from(x)));
-        let positive = |x: f32| x.is_finite() && x > 0.0;
-        match &self.slot {
-            Slot::Share(Colour::Constant(c)) => is_within(c),
-            Slot::Share(Colour::Texture(_)) | Slot::Boolean(_) => true,
-            Slot::Refraction(x) => positive(**x),
-            Slot::Metal { eta, k } => is_within(eta) && is_within(k),
-            Slot::Roughness(r) => r.is_none_or(|r| positive(r.alpha_u) && positive(r.alpha_v)),
-        }
     }
 }
