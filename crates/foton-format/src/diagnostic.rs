@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use foton_input::{printable, shown_path};
 use foton_math::Cancelled;
 
-use crate::names::did_you_mean;
+use crate::spelling::did_you_mean;
 
 /// More errors, or warnings, than these are only counted.
 const MAX_FINDINGS: usize = 1000;

@@ -9,10 +9,10 @@ use crate::diagnostic::{OpenError, Place, Report};
 use crate::files::Files;
 use crate::hash::{self, Fnv1a};
 use crate::limits::Budget;
-use crate::opened::Opened;
+use crate::mitsuba::read::reader::Reader;
+use crate::opened::{MitsubaScene, Opened, Origin};
 use crate::options::{Options, ReadFile};
-use crate::reader::Reader;
-use crate::{include, standalone};
+use crate::{mitsuba::read::include, standalone};
 
 /// Opens a scene file; the files that it names are found from its folder. An OBJ, PLY or STL file is a whole scene: what
 /// it lacks is added, and a warning says so.
@@ -91,7 +91,8 @@ pub(crate) fn read(
     }
     let options = options.without_cancel();
     let (path, files) = (None, Vec::new());
-    Ok(Opened { description, document, nodes, path, files, options, suggested, warnings, source_hash })
+    let origin = Origin::Mitsuba(MitsubaScene { document, nodes });
+    Ok(Opened { description, origin, path, files, options, suggested, warnings, source_hash })
 }
 
 fn source_hash(xml: &str, options: &Options, files: Fnv1a) -> u64 {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use foton_scene::description::SceneDescription;
 
 use crate::diagnostic::{Diagnostic, Place, Severity};
-use crate::document::{Document, NodeId};
+use crate::mitsuba::document::{Document, NodeId};
 use crate::options::Options;
 use crate::suggested::Suggested;
 
@@ -14,10 +14,8 @@ use crate::suggested::Suggested;
 pub struct Opened {
     /// What to render.
     pub description: SceneDescription,
-    /// The file's tree as it was written, before parameters were replaced.
-    pub document: Document,
-    /// Where in the document things stand.
-    pub nodes: SceneNodes,
+    /// What it was opened from.
+    pub origin: Origin,
     /// The scene file; `None` for a scene from memory and for a mesh file.
     pub path: Option<PathBuf>,
     /// All files of the disk that were read for it, itself among them: what is written must be none of these.
@@ -32,19 +30,48 @@ pub struct Opened {
     pub source_hash: u64,
 }
 
+/// What a scene was opened from.
+#[derive(Clone, Debug)]
+pub enum Origin {
+    /// A Mitsuba scene.
+    Mitsuba(MitsubaScene),
+    /// A mesh file, to which a camera and, if nothing in it emits, lights were added.
+    Mesh,
+}
+
+/// The text of a Mitsuba scene.
+#[derive(Clone, Debug)]
+pub struct MitsubaScene {
+    /// The file's tree as it was written, before parameters were replaced.
+    pub document: Document,
+    /// Where in the document things stand.
+    pub nodes: SceneNodes,
+}
+
+impl Origin {
+    /// The text of the scene, if that is a Mitsuba scene.
+    #[must_use]
+    pub const fn mitsuba(&self) -> Option<&MitsubaScene> {
+        match self {
+            Self::Mitsuba(scene) => Some(scene),
+            Self::Mesh => None,
+        }
+    }
+}
+
 impl Opened {
     /// A finding about the part of the scene of that name, or about the whole file, which is called `file`. Its place is that of the
     /// part's element, or of the `<include>` that brings it.
     #[must_use]
     pub fn finding(&self, severity: Severity, file: &str, part: Option<&str>, message: String) -> Diagnostic {
-        let place = part.and_then(|part| self.node_of(part)).and_then(|node| self.document.element(node));
-        let Place { line, column } = place.map_or_else(Place::default, |element| element.place);
+        let Place { line, column } = part.and_then(|part| self.place_of(part)).unwrap_or_default();
         Diagnostic { severity, file: file.to_owned(), line, column, message }
     }
 
-    /// The element of the sensor, shape, emitter or material of that name.
-    fn node_of(&self, part: &str) -> Option<NodeId> {
-        let (named, nodes) = (&self.description, &self.nodes);
+    /// Where the element of the sensor, shape, emitter or material of that name stands.
+    fn place_of(&self, part: &str) -> Option<Place> {
+        let MitsubaScene { document, nodes } = self.origin.mitsuba()?;
+        let named = &self.description;
         let sensor = named.sensors.iter().position(|s| s.name == part);
         let shape = named.shapes.iter().position(|s| s.name == part);
         let emitter = named.emitters.iter().position(|e| e.name == part);
@@ -53,8 +80,7 @@ impl Opened {
         let found = found.or_else(|| nodes.shapes.get(shape?).copied());
         let found = found.or_else(|| nodes.emitters.get(emitter?).copied());
         let found = found.or_else(|| *nodes.materials.get(material?)?);
-        // In place of a mesh file there is an empty document, and its root stands for all shapes.
-        found.filter(|node| *node != self.document.root())
+        Some(document.element(found?)?.place)
     }
 }
 

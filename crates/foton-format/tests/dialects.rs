@@ -109,8 +109,9 @@ fn included_files_stand_where_they_are_named() {
         ref other => panic!("{other:?}"),
     };
     assert_eq!((shapes.len(), radius(1), radius(3)), (4, 2.0, 2.0));
+    let scene = opened.origin.mitsuba().expect("a Mitsuba scene");
     let tags: Vec<_> =
-        opened.nodes.shapes.iter().map(|n| opened.document.element(*n).unwrap().name.as_str()).collect();
+        scene.nodes.shapes.iter().map(|n| scene.document.element(*n).unwrap().name.as_str()).collect();
     assert_eq!(tags, ["shape", "include", "include", "shape"]);
 }
 

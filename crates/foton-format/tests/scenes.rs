@@ -127,7 +127,8 @@ fn shapes_keep_their_names_elements_and_flags() {
     assert_eq!((centre, radius), (DVec3::new(1.0, 2.0, 3.0), 4.0));
     assert!(matches!(shapes[1].geometry, Geometry::Disc));
     assert_eq!(mesh(&shapes[2].geometry).triangles.len(), 2);
-    let types = opened.nodes.shapes.iter().filter_map(|&n| opened.document.element(n)?.attribute("type"));
+    let scene = opened.origin.mitsuba().expect("a Mitsuba scene");
+    let types = scene.nodes.shapes.iter().filter_map(|&n| scene.document.element(n)?.attribute("type"));
     assert_eq!(types.map(|t| t.value.as_str()).collect::<Vec<_>>(), ["sphere", "disk", "rectangle"]);
 }
 
@@ -255,9 +256,10 @@ fn the_depth_of_any_integrator_bounds_paths() {
 fn the_tree_keeps_what_the_scene_does_not_use() {
     let snippet = "<default name='r' value='1'/><!-- kept --><shape type='sphere'><float name='radius' value='$r'/></shape>";
     let opened = read(snippet);
-    let root = opened.document.element(opened.document.root()).unwrap();
-    assert_eq!(opened.document.node(root.children[1]), &Node::Comment(" kept ".to_owned()));
-    let (_, radius) = opened.document.elements_in(opened.nodes.shapes[0]).next().unwrap();
+    let scene = opened.origin.mitsuba().expect("a Mitsuba scene");
+    let root = scene.document.element(scene.document.root()).unwrap();
+    assert_eq!(scene.document.node(root.children[1]), &Node::Comment(" kept ".to_owned()));
+    let (_, radius) = scene.document.elements_in(scene.nodes.shapes[0]).next().unwrap();
     assert_eq!(radius.attribute("value").unwrap().value, "$r", "parameters stay");
 }
 
@@ -292,7 +294,14 @@ fn shared_scenes_open() {
         }
         let opened = open(&path, &Options::default()).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(opened.warnings, [], "{name}");
-        assert_eq!((opened.description.shapes.len(), opened.nodes.shapes.len()), (shapes, shapes), "{name}");
+        assert_eq!(
+            (
+                opened.description.shapes.len(),
+                opened.origin.mitsuba().expect("a Mitsuba scene").nodes.shapes.len()
+            ),
+            (shapes, shapes),
+            "{name}"
+        );
         let count = opened.description.shapes.iter().map(|s| match &s.geometry {
             Geometry::Mesh(mesh) => mesh.triangles.len(),
             _ => 0,

@@ -27,7 +27,7 @@ use crate::mesh::normals::{build, finished};
 use crate::mesh::obj::Obj;
 use crate::mesh::wanted::{Format, Parsed, Wanted};
 use crate::mesh::{ply, serialized, stl};
-use crate::properties::Located;
+use crate::mitsuba::read::properties::Located;
 
 /// What a file holds.
 enum Contents {

@@ -23,7 +23,6 @@ use foton_scene::description::{
 };
 
 use crate::diagnostic::{Diagnostic, OpenError, Place, Report};
-use crate::document::Document;
 use crate::hash::Fnv1a;
 use crate::limits::Budget;
 use crate::mesh::normals;
@@ -32,7 +31,7 @@ use crate::mesh::ply;
 use crate::mesh::stl;
 use crate::mesh::wanted::{Format, Wanted};
 use crate::mesh::words::Problem;
-use crate::opened::{Opened, SceneNodes};
+use crate::opened::{Opened, Origin};
 use crate::options::{BYTES_PER_BYTE, Options, ReadFile};
 use crate::suggested::Suggested;
 use shapes::{Library, add_shape};
@@ -133,15 +132,9 @@ pub(crate) fn open(
         }
     };
     let warnings: Vec<Diagnostic> = report.finish()?;
-    // There is no XML to keep; an empty scene stands for it, and its root for every shape.
-    let document = Document::parse("<scene version=\"3.0.0\"/>")
-        .map_err(|(place, message)| Report::new(&name, Path::new("")).fail(place, message))?;
-    let shapes = vec![document.root(); description.shapes.len()];
-    let nodes = SceneNodes { shapes, ..SceneNodes::default() };
     Ok(Opened {
         description,
-        document,
-        nodes,
+        origin: Origin::Mesh,
         path: None,
         files: Vec::new(),
         options: options.without_cancel(),

@@ -13,7 +13,7 @@ use crate::diagnostic::{Place, Report};
 use crate::mesh::obj::Obj;
 use crate::mesh::wanted::{Format, Wanted};
 use crate::mesh::{mtl, normals};
-use crate::reader::name_of;
+use crate::mitsuba::read::reader::name_of;
 
 /// So many different lines that name files of materials are heeded.
 const MAX_LIBRARIES: usize = 100;

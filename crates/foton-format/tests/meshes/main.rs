@@ -11,7 +11,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use foton_format::{Opened, Options, Severity, open, read_str};
+use foton_format::{Opened, Options, Origin, Severity, open, read_str};
 use foton_math::Rgb;
 use foton_math::glam::{DVec2, DVec3};
 use foton_scene::description::{Bsdf, Dielectric, Diffuse, EmitterKind, Geometry, Mesh, Mirror, Plastic};

@@ -110,7 +110,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "converting writes over nothing that the scene reads",
-        file: "crates/foton-format/src/write/mod.rs",
+        file: "crates/foton-format/src/mitsuba/write/mod.rs",
         from: "path.exists() && self.kept",
         to: "path.exists() && self.kept[..0]",
         target: WRITER,
@@ -118,7 +118,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "saving writes over no mesh that the scene reads",
-        file: "crates/foton-format/src/save/mod.rs",
+        file: "crates/foton-format/src/mitsuba/save/mod.rs",
         from: "any(|file| is_same_file(file, path))",
         to: "any(|file| file.is_dir() && is_same_file(file, path))",
         target: SAVING,

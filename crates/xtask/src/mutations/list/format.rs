@@ -62,7 +62,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "a JPEG that ends early is said",
-        file: "crates/foton-format/src/images.rs",
+        file: "crates/foton-format/src/image/mod.rs",
         from: "if bytes.starts_with(&JPEG_START) && is_cut_jpeg(&bytes) {",
         to: "if false {",
         target: PICTURES,
@@ -86,7 +86,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "versions that are not known are said",
-        file: "crates/foton-format/src/include.rs",
+        file: "crates/foton-format/src/mitsuba/read/include.rs",
         from: "if major > NEWEST {",
         to: "if major == u32::MAX {",
         target: BAD_FILES,
@@ -102,7 +102,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "decoders of pictures can be cancelled",
-        file: "crates/foton-format/src/images.rs",
+        file: "crates/foton-format/src/image/mod.rs",
         from: "CancelReader::new(Cursor::new(bytes), cancel)",
         to: "Cursor::new(bytes)",
         target: CANCELLING,
@@ -118,7 +118,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "values that double are bounded",
-        file: "crates/foton-format/src/substitute.rs",
+        file: "crates/foton-format/src/mitsuba/read/substitute.rs",
         from: "if replaced.len().saturating_add(parameter.value.len()) > left {",
         to: "if replaced.len().saturating_add(parameter.value.len()) > left.max(1 << 28) {",
         target: FORMAT,
@@ -126,7 +126,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "the longest name of a parameter is meant",
-        file: "crates/foton-format/src/substitute.rs",
+        file: "crates/foton-format/src/mitsuba/read/substitute.rs",
         from: "            end = same;\n",
         to: "            end = same.min(1);\n",
         target: FORMAT,
@@ -166,7 +166,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "nothing is quoted of a file that is no spectrum",
-        file: "crates/foton-format/src/spectrum.rs",
+        file: "crates/foton-format/src/mitsuba/read/spectrum.rs",
         from: "_ => Err(format!(\"it is no spectrum: line {number} is not a wavelength and a value\")),",
         to: "_ => Err(format!(\"it is no spectrum: line {number} is {line}\")),",
         target: BAD_FILES,
@@ -182,7 +182,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "nothing is quoted of an included file that is no scene",
-        file: "crates/foton-format/src/include.rs",
+        file: "crates/foton-format/src/mitsuba/read/include.rs",
         from: "if !begins_as_scene(text) {",
         to: "if !begins_as_scene(text) && text.is_empty() {",
         target: BAD_FILES,

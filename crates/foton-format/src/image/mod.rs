@@ -1,0 +1,230 @@
+//! Image files to linear pixels: PNG, JPEG, BMP, TGA and PNM from 8 or 16 bits of sRGB, Radiance HDR and OpenEXR as they are.
+//!
+//! Alpha is not read. A JPEG that ends too early is read as far as it goes, with a warning; the others are errors then. Every image is decoded once for each way to read it.
+
+use std::collections::HashMap;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use foton_input::{printable, shown_path};
+use foton_math::{Cancel, CancelReader, Rgb};
+use foton_scene::description::Bitmap;
+use image::{ImageDecoder, ImageFormat, ImageReader};
+
+use crate::diagnostic::Report;
+use crate::files::Files;
+use crate::limits::Budget;
+use crate::mitsuba::read::properties::Located;
+use crate::mitsuba::read::values::srgb_to_linear;
+
+/// Pixels of one image: 2²⁸ fill 3 GiB.
+const MAX_PIXELS: u64 = 1 << 28;
+
+/// More pixels than this no byte of a file can hold: deflate unpacks 1,032 to 1, to at most eight pixels a byte, and the other
+/// formats less. A header that claims more is broken, and must not make us allocate what it claims.
+const MAX_PIXELS_PER_BYTE: u64 = 8 * 1032;
+
+/// Bytes of a pixel in a scene.
+const BYTES_PER_PIXEL: u64 = size_of::<Rgb>() as u64;
+
+/// The most characters of what a library says of a file.
+const MAX_REASON: usize = 160;
+
+/// Images read so far, by file, whether they are raw, and whether they are shares of light.
+#[derive(Default)]
+pub(crate) struct Images(HashMap<(PathBuf, bool, bool), Option<Arc<Bitmap>>>);
+
+impl Images {
+    /// An image. `raw`: 8 and 16 bits are linear already; `share`: pixels are cut to [0, 1], with a warning.
+    pub(crate) fn read(
+        &mut self,
+        filename: &Located<String>,
+        raw: bool,
+        share: bool,
+        files: &mut Files<'_>,
+        report: &mut Report,
+    ) -> Option<Arc<Bitmap>> {
+        let key = (Files::key(&filename.value, filename.place, report), raw, share);
+        if let Some(known) = self.0.get(&key) {
+            return known.clone();
+        }
+        let bitmap = read(filename, raw, share, files, report).map(Arc::new);
+        self.0.insert(key, bitmap.clone());
+        bitmap
+    }
+}
+
+fn read(
+    filename: &Located<String>,
+    raw: bool,
+    share: bool,
+    files: &mut Files<'_>,
+    report: &mut Report,
+) -> Option<Bitmap> {
+    let place = filename.place;
+    let (path, bytes) = files.read(&filename.value, place, report)?;
+    let cancel = files.cancel();
+    let mut bitmap = match decode(&path, &bytes, raw, &mut files.budget, cancel) {
+        Ok(bitmap) => bitmap,
+        Err(message) => {
+            report.error(place, format!("cannot read {}: {message}", shown_path(&path)));
+            return None;
+        }
+    };
+    if bytes.starts_with(&JPEG_START) && is_cut_jpeg(&bytes) {
+        let message =
+            format!("{} ends before its picture does: what is missing has no detail", shown_path(&path));
+        report.warning(place, message);
+    }
+    let outside = |c: &f32| !(0.0..=1.0).contains(c);
+    if bitmap.pixels.iter().any(|p| !p.is_finite()) {
+        report.error(place, format!("{} has pixels that are not finite numbers", shown_path(&path)));
+        return None;
+    }
+    if share && bitmap.pixels.iter().any(|p| p.to_array().iter().any(outside)) {
+        report
+            .warning(place, format!("{} has pixels outside 0 to 1, they are cut to that", shown_path(&path)));
+        bitmap.pixels.iter_mut().for_each(|p| *p = p.map(|c| c.clamp(0.0, 1.0)));
+    }
+    if bitmap.pixels.iter().any(|p| p.to_array().iter().any(|c| *c < 0.0)) {
+        report.warning(place, format!("{} has negative pixels, they are black", shown_path(&path)));
+        bitmap.pixels.iter_mut().for_each(|p| *p = p.map(|c| c.max(0.0)));
+    }
+    Some(bitmap)
+}
+
+fn decode(
+    path: &Path,
+    bytes: &[u8],
+    raw: bool,
+    budget: &mut Budget,
+    cancel: &Cancel,
+) -> Result<Bitmap, String> {
+    if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
+        return decode_exr(path, bytes, budget, cancel);
+    }
+    let Some(format) = format(path, bytes) else {
+        return Err("it is no PNG, JPEG, BMP, TGA, PNM, Radiance HDR or EXR image".to_owned());
+    };
+    let mut reader = ImageReader::with_format(CancelReader::new(Cursor::new(bytes), cancel), format);
+    let mut limits = image::Limits::no_limits();
+    limits.max_alloc = Some(budget.left());
+    reader.limits(limits);
+    let decoder = reader.into_decoder().map_err(said)?;
+    let (width, height) = decoder.dimensions();
+    check_size(width, height)?;
+    if u64::from(width) * u64::from(height) / MAX_PIXELS_PER_BYTE > bytes.len() as u64 {
+        return Err(format!("{width} × {height} pixels cannot be in {} bytes", bytes.len()));
+    }
+    // As it is stored, and as we keep it; for some formats once more, as numbers of another kind.
+    let pixels = u64::from(width) * u64::from(height);
+    let colour = decoder.color_type();
+    let as_rgb = 3 * u64::from(colour.bytes_per_pixel() / colour.channel_count());
+    budget.check(pixels.saturating_mul(BYTES_PER_PIXEL + as_rgb).saturating_add(decoder.total_bytes()))?;
+    budget.take(pixels * BYTES_PER_PIXEL)?;
+    let image = image::DynamicImage::from_decoder(decoder).map_err(said)?;
+    let linear = |encoded: f32| if raw { encoded } else { srgb_to_linear(f64::from(encoded)) as f32 };
+    let pixels = match image.color() {
+        image::ColorType::Rgb32F | image::ColorType::Rgba32F => {
+            image.into_rgb32f().pixels().map(|p| Rgb::from_array(p.0)).collect()
+        }
+        c if c.bytes_per_pixel() == c.channel_count() => {
+            let table: [f32; 256] = std::array::from_fn(|i| linear(i as f32 / 255.0));
+            let pixel = |p: &image::Rgb<u8>| Rgb::from_array(p.0.map(|c| table[usize::from(c)]));
+            image.into_rgb8().pixels().map(pixel).collect()
+        }
+        _ => {
+            let pixel = |p: &image::Rgb<u16>| Rgb::from_array(p.0.map(|c| linear(f32::from(c) / 65_535.0)));
+            image.into_rgb16().pixels().map(pixel).collect()
+        }
+    };
+    Ok(Bitmap { width, height, pixels })
+}
+
+/// The format of an image that is no EXR image. TGA files have no mark at their beginning, and older ones none at all.
+fn format(path: &Path, bytes: &[u8]) -> Option<ImageFormat> {
+    use ImageFormat::{Bmp, Hdr, Jpeg, Png, Pnm, Tga};
+    let guessed = image::guess_format(bytes).ok().filter(|f| matches!(f, Bmp | Hdr | Jpeg | Png | Pnm));
+    let is_tga = || {
+        path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("tga"))
+            || bytes.ends_with(b"TRUEVISION-XFILE.\0")
+    };
+    guessed.or_else(|| is_tga().then_some(Tga))
+}
+
+const JPEG_START: [u8; 2] = [0xff, 0xd8];
+
+/// Whether a JPEG file lacks the mark of its end: going from segment to segment, since pictures within, as cameras write
+/// them, have marks of their own.
+fn is_cut_jpeg(bytes: &[u8]) -> bool {
+    let mut at = JPEG_START.len();
+    // A byte of 255 is a mark's beginning; behind it more of them may fill up, or there is the kind of mark.
+    while let Some(offset) = bytes.get(at..).and_then(|rest| rest.iter().position(|&b| b == 0xff)) {
+        at += offset;
+        let Some(kind) = bytes[at..].iter().position(|&b| b != 0xff) else { return true };
+        at += kind;
+        match bytes[at] {
+            0xd9 => return false,
+            // A byte of 255 in the picture, and marks without anything behind.
+            0 | 1 | 0xd0..=0xd8 => at += 1,
+            _ => match bytes.get(at + 1..at + 3) {
+                Some(&[high, low]) => at += 1 + usize::from(u16::from_be_bytes([high, low])),
+                _ => return true,
+            },
+        }
+    }
+    true
+}
+
+/// What a library says of a file: it may quote that.
+fn said(error: impl std::fmt::Display) -> String {
+    printable(&error.to_string()).chars().take(MAX_REASON).collect()
+}
+
+fn decode_exr(path: &Path, bytes: &[u8], budget: &mut Budget, cancel: &Cancel) -> Result<Bitmap, String> {
+    let image = match foton_film::decode_exr(bytes, path, Some(budget.left()), cancel) {
+        Ok((image, _)) => image,
+        Err(foton_film::ReadError::Malformed { reason, .. }) => return Err(reason),
+        Err(foton_film::ReadError::TooLarge { takes, .. }) => {
+            return Err(budget.check(takes).err().unwrap_or_default());
+        }
+        Err(foton_film::ReadError::NoRgb { channels, .. }) => {
+            return Err(format!("it has no channels R, G and B, nor Y alone, only {channels}"));
+        }
+        Err(other) => return Err(other.to_string()),
+    };
+    check_size(image.width, image.height)?;
+    budget.take(image.pixels.len() as u64 * BYTES_PER_PIXEL)?;
+    Ok(Bitmap { width: image.width, height: image.height, pixels: image.pixels })
+}
+
+fn check_size(width: u32, height: u32) -> Result<(), String> {
+    let pixels = u64::from(width) * u64::from(height);
+    if pixels == 0 || pixels > MAX_PIXELS {
+        return Err(format!("{width} × {height} pixels are none or too many"));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_jpeg_is_cut_wherever_it_ends_before_its_mark() {
+        let mut bytes = Vec::new();
+        let shades =
+            image::RgbImage::from_fn(40, 30, |x, y| image::Rgb([x as u8 * 6, y as u8 * 8, (x * y) as u8]));
+        shades.write_to(&mut Cursor::new(&mut bytes), ImageFormat::Jpeg).unwrap();
+        assert!(!is_cut_jpeg(&bytes));
+        assert!(!is_cut_jpeg(&[&bytes[..], b"and more"].concat()));
+        for length in 2..bytes.len() {
+            assert!(is_cut_jpeg(&bytes[..length]), "{length} of {}", bytes.len());
+        }
+        // A picture in a segment has an end of its own.
+        let inner = [&[0xff, 0xe1][..], &(bytes.len() as u16 + 2).to_be_bytes(), &bytes].concat();
+        let outer = [&bytes[..2], &inner, &bytes[2..]].concat();
+        assert!(!is_cut_jpeg(&outer) && is_cut_jpeg(&outer[..outer.len() - 2]));
+    }
+}

@@ -1,0 +1,150 @@
+//! What each BSDF that has no others inside says, by the parameters that it declares.
+
+use foton_input::quoted;
+use foton_math::Rgb;
+use foton_scene::bsdf::{DISTRIBUTIONS, MicrofacetDistribution, Microfacets};
+use foton_scene::description::{Bsdf, Conductor, Mirror};
+use foton_scene::parameter::{Bound, Parameter, Slot};
+
+use crate::mitsuba::names::REFRACTION;
+use crate::mitsuba::read::metals;
+use crate::mitsuba::read::properties::{Located, Properties};
+use crate::mitsuba::read::reader::Reader;
+use crate::spelling::did_you_mean;
+
+/// Mitsuba takes smaller values of alpha for this.
+const MIN_ALPHA: f32 = 1e-4;
+
+impl Reader<'_> {
+    /// The BSDF of a plugin that has no others inside.
+    pub(crate) fn bsdf(&mut self, plugin: &str, p: &mut Properties<'_>) -> Option<Bsdf> {
+        let mut bsdf = Bsdf::of_plugin(plugin)?;
+        // All of them, so that every fault is found at once.
+        let mut is_complete = true;
+        for bound in bsdf.parameters() {
+            is_complete &= self.bound(p, bound).is_some();
+        }
+        let has_indices = ["eta", "k"].iter().any(|name| p.has(name));
+        match bsdf {
+            _ if !is_complete => None,
+            // A smooth conductor that is no metal reflects everything.
+            Bsdf::Conductor(Conductor { eta: Rgb::BLACK, roughness: None, specular_reflectance, .. })
+                if !has_indices =>
+            {
+                Some(Bsdf::Mirror(Mirror { reflectance: specular_reflectance }))
+            }
+            _ => Some(bsdf),
+        }
+    }
+
+    /// Reads a value into its place; `None` where it is not valid.
+    fn bound(&mut self, p: &mut Properties<'_>, Bound { parameters, slot }: Bound<'_>) -> Option<()> {
+        p.leave_out(parameters, &mut self.report);
+        match slot {
+            Slot::Share(share) => *share = self.share(p, &parameters[0]),
+            Slot::Refraction(ior) => *ior = self.refraction(p, &parameters[0])?,
+            Slot::Boolean(flag) => {
+                *flag = p.boolean(parameters[0].name, &mut self.report).is_some_and(|found| found.value);
+            }
+            Slot::Metal { eta, k } => (*eta, *k) = self.metal(p, parameters)?,
+            Slot::Roughness(Some(roughness)) => *roughness = self.roughness(p, parameters)?,
+            Slot::Roughness(None) => {}
+        }
+        Some(())
+    }
+
+    /// The complex index of refraction of a metal: by name, or by its parts, relative to what is outside.
+    fn metal(&mut self, p: &mut Properties<'_>, parameters: &'static [Parameter]) -> Option<(Rgb, Rgb)> {
+        let [eta, k, material, ext_eta] = parameters else { return None };
+        let name = p.string(material.name, &mut self.report);
+        let has_indices = material.excludes.iter().any(|name| p.has(name));
+        let stated = (self.optical(p, eta), self.optical(p, k));
+        let outside = if p.has(ext_eta.name) { self.refraction(p, ext_eta) } else { Some(1.0) };
+        let (eta, k) = match name.filter(|name| name.value != material.default_text) {
+            Some(name) if has_indices => {
+                self.report
+                    .error(name.place, "a conductor has a \"material\" or \"eta\" and \"k\", not both");
+                return None;
+            }
+            Some(name) => metals::find(&name.value).map_err(|m| self.report.error(name.place, m)).ok()?,
+            None => stated,
+        };
+        let relative = 1.0 / outside?;
+        Some((eta * relative, k * relative))
+    }
+
+    /// An index of refraction, a number or the name of a substance.
+    #[allow(clippy::cast_possible_truncation, reason = "optics is single precision")]
+    fn refraction(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Option<f32> {
+        let name = parameter.name;
+        if p.is_string(name) {
+            let substance = p.string(name, &mut self.report)?;
+            let lower = substance.value.to_lowercase();
+            let found = REFRACTION.iter().find(|(known, _)| *known == lower);
+            if found.is_none() {
+                let hint = did_you_mean(&lower, REFRACTION.iter().map(|(known, _)| *known));
+                let message =
+                    format!("no index of refraction is known for {}{hint}", quoted(&substance.value));
+                self.report.error(substance.place, message);
+            }
+            return found.map(|(_, ior)| *ior);
+        }
+        let Some(ior) = p.number(name, &mut self.report) else { return Some(parameter.default_number()) };
+        let single = ior.value as f32;
+        if single.is_normal() && single > 0.0 {
+            return Some(single);
+        }
+        self.report.error(ior.place, "an index of refraction must be above zero");
+        None
+    }
+
+    /// `distribution` and `alpha`, or `alpha_u` and `alpha_v` where they are declared.
+    fn roughness(&mut self, p: &mut Properties<'_>, parameters: &'static [Parameter]) -> Option<Microfacets> {
+        let declared = |name: &str| parameters.iter().find(|p| p.name == name);
+        let distribution = declared("distribution").and_then(|parameter| self.distribution(p, parameter));
+        let mut alphas = (Some(Microfacets::DEFAULT.alpha_u), Some(Microfacets::DEFAULT.alpha_v));
+        if let Some(alpha) = declared("alpha") {
+            let alpha = self.alpha(p, alpha);
+            alphas = (alpha, alpha);
+        }
+        if let (Some(u), Some(v)) = (declared("alpha_u"), declared("alpha_v"))
+            && (p.has(u.name) || p.has(v.name))
+        {
+            if !(p.has(u.name) && p.has(v.name)) || p.has("alpha") {
+                let message = "a rough surface has an \"alpha\", or both \"alpha_u\" and \"alpha_v\"";
+                self.report.error(p.place, message);
+            }
+            alphas = (self.alpha(p, u), self.alpha(p, v));
+        }
+        let (alpha_u, alpha_v) = alphas;
+        Some(Microfacets { distribution: distribution?, alpha_u: alpha_u?, alpha_v: alpha_v? })
+    }
+
+    fn distribution(
+        &mut self,
+        p: &mut Properties<'_>,
+        parameter: &Parameter,
+    ) -> Option<MicrofacetDistribution> {
+        let Some(Located { value, place }) = p.string(parameter.name, &mut self.report) else {
+            return Some(Microfacets::DEFAULT.distribution);
+        };
+        let known = MicrofacetDistribution::ALL.into_iter().find(|d| d.name() == value);
+        if known.is_none() {
+            let hint = did_you_mean(&value, DISTRIBUTIONS.iter().copied());
+            let hint = if hint.is_empty() { ", only \"beckmann\" and \"ggx\"".to_owned() } else { hint };
+            self.report.error(place, format!("no distribution {} is known{hint}", quoted(&value)));
+        }
+        known
+    }
+
+    #[allow(clippy::cast_possible_truncation, reason = "optics is single precision")]
+    fn alpha(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Option<f32> {
+        let name = parameter.name;
+        let Some(alpha) = p.number(name, &mut self.report) else { return Some(parameter.default_number()) };
+        if !parameter.holds(alpha.value) {
+            self.report.error(alpha.place, format!("\"{name}\" must not be negative or above a million"));
+            return None;
+        }
+        Some((alpha.value as f32).max(MIN_ALPHA))
+    }
+}

@@ -1,0 +1,22 @@
+//! A scene file to a description: `reader.rs` walks it, and each kind of plugin has a file.
+
+pub(crate) mod attributes;
+pub(crate) mod bsdfs;
+pub(crate) mod colours;
+pub(crate) mod emitters;
+pub(crate) mod ids;
+pub(crate) mod include;
+pub(crate) mod integrator;
+pub(crate) mod known;
+pub(crate) mod materials;
+pub(crate) mod metals;
+pub(crate) mod properties;
+pub(crate) mod reader;
+pub(crate) mod sensor;
+pub(crate) mod shapes;
+pub(crate) mod spectrum;
+pub(crate) mod substitute;
+pub(crate) mod textures;
+pub(crate) mod transform;
+pub(crate) mod upgrade;
+pub(crate) mod values;

@@ -1,0 +1,319 @@
+//! What changed between two descriptions, made in the document of the first.
+
+use foton_math::Rgb;
+use foton_math::glam::DAffine3;
+use foton_scene::description::{
+    EmitterKind, FovAxis, Geometry, SceneDescription, SensorDescription, ShapeDescription,
+};
+
+use foton_scene::plugins::{emitters, shapes};
+
+use super::tree::Obstacle;
+use super::{materials, same};
+use crate::mitsuba::document::{Document, Element, NodeId};
+use crate::mitsuba::write::xml::{colour, matrix, number, single, vector};
+use crate::opened::MitsubaScene;
+
+/// A document that becomes that of the edited scene.
+pub(super) struct Changes<'a> {
+    pub(super) document: Document,
+    scene: &'a MitsubaScene,
+    old: &'a SceneDescription,
+    edited: &'a SceneDescription,
+}
+
+impl<'a> Changes<'a> {
+    pub(super) fn new(
+        scene: &'a MitsubaScene,
+        old: &'a SceneDescription,
+        edited: &'a SceneDescription,
+    ) -> Self {
+        Self { document: scene.document.clone(), scene, old, edited }
+    }
+
+    /// Makes all changes that are known here.
+    pub(super) fn make(&mut self) -> Result<(), Obstacle> {
+        let (old, new) = (self.old, self.edited);
+        let counts = |d: &SceneDescription| (d.sensors.len(), d.shapes.len(), d.emitters.len());
+        if counts(old) != counts(new) || new.materials.len() < old.materials.len() {
+            return Err("things were added or taken away".to_owned());
+        }
+        for (i, (old, new)) in old.sensors.iter().zip(&new.sensors).enumerate() {
+            if !same::same_sensor(old, new) {
+                let node = self.own(self.scene.nodes.sensors.get(i).copied(), "sensor", &old.name)?;
+                self.sensor(node, old, new)?;
+            }
+        }
+        // New materials are made of the old ones: those come after.
+        for (i, (old, new)) in old.shapes.iter().zip(&new.shapes).enumerate() {
+            self.shape(self.scene.nodes.shapes.get(i).copied(), old, new)?;
+        }
+        for (i, (old, new)) in old.materials.iter().zip(&new.materials).enumerate() {
+            if (old.front, old.back, old.opacity) != (new.front, new.back, new.opacity) {
+                let node = self.scene.nodes.materials.get(i).copied().flatten();
+                let node = self.own(node, "bsdf", &old.name)?;
+                materials::change(&mut self.document, node, old, new)?;
+            }
+        }
+        for (i, (old, new)) in old.emitters.iter().zip(&new.emitters).enumerate() {
+            if !same::same_emitter(&old.kind, &new.kind) {
+                let node = self.own(self.scene.nodes.emitters.get(i).copied(), "emitter", &old.name)?;
+                self.emitter(node, &old.kind, &new.kind)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The element if it stands in the scene's own file.
+    fn own(&self, node: Option<NodeId>, tag: &str, name: &str) -> Result<NodeId, Obstacle> {
+        let element = node.and_then(|n| self.document.element(n));
+        match node.zip(element) {
+            Some((node, element)) if element.name == tag => Ok(node),
+            Some((_, element)) if element.name == "include" => {
+                Err(format!("\"{name}\" stands in an included file"))
+            }
+            _ => Err(format!("\"{name}\" has no element in the file")),
+        }
+    }
+
+    fn value(&mut self, node: NodeId, tag: &str, name: &str, value: &str) -> Result<(), Obstacle> {
+        self.document.set_value(node, tag, name, Some(value))
+    }
+
+    fn remove(&mut self, node: NodeId, name: &str) -> Result<(), Obstacle> {
+        self.document.set_value(node, "", name, None)
+    }
+
+    fn transform(&mut self, node: NodeId, to_world: &DAffine3) -> Result<(), Obstacle> {
+        if *to_world == DAffine3::IDENTITY {
+            return self.remove(node, "to_world");
+        }
+        let matrix = self.document.build("matrix", &[("value", &matrix(to_world))], Vec::new())?;
+        let new = self.document.build("transform", &[("name", "to_world")], vec![matrix])?;
+        let is_old = |e: &Element| e.attribute("name").is_some_and(|a| a.value == "to_world");
+        self.document.replace_child(node, is_old, Some(new));
+        Ok(())
+    }
+
+    fn light(&mut self, node: NodeId, name: &str, old: Rgb, new: Rgb) -> Result<(), Obstacle> {
+        if old == new { Ok(()) } else { self.value(node, "rgb", name, &colour(new)) }
+    }
+
+    fn sensor(
+        &mut self,
+        node: NodeId,
+        old: &SensorDescription,
+        new: &SensorDescription,
+    ) -> Result<(), Obstacle> {
+        if old.to_world != new.to_world {
+            self.transform(node, &new.to_world)?;
+        }
+        if (old.fov_degrees, old.fov_axis) != (new.fov_degrees, new.fov_axis) {
+            let axis = match new.fov_axis {
+                FovAxis::X => "x",
+                FovAxis::Y => "y",
+                FovAxis::Diagonal => "diagonal",
+                FovAxis::Smaller => "smaller",
+                FovAxis::Larger => "larger",
+            };
+            self.remove(node, "focal_length")?;
+            self.value(node, "float", "fov", &number(new.fov_degrees))?;
+            self.value(node, "string", "fov_axis", axis)?;
+        }
+        for (name, old, new) in
+            [("near_clip", old.near_clip, new.near_clip), ("far_clip", old.far_clip, new.far_clip)]
+        {
+            match new {
+                Some(clip) if old != new => self.value(node, "float", name, &number(clip))?,
+                None if old != new => self.remove(node, name)?,
+                _ => {}
+            }
+        }
+        if (old.width, old.height) != (new.width, new.height) {
+            let film = self.document.elements_in(node).find(|(_, e)| e.name == "film").map(|(film, _)| film);
+            let film = film.ok_or_else(|| format!("the film of \"{}\" stands elsewhere", old.name))?;
+            self.value(film, "integer", "width", &new.width.to_string())?;
+            self.value(film, "integer", "height", &new.height.to_string())?;
+        }
+        Ok(())
+    }
+
+    fn emitter(&mut self, node: NodeId, old: &EmitterKind, new: &EmitterKind) -> Result<(), Obstacle> {
+        match (old, new) {
+            (
+                EmitterKind::Point { position: p, intensity: old },
+                EmitterKind::Point { position, intensity },
+            ) => {
+                if p != position {
+                    self.remove(node, "to_world")?;
+                    self.value(node, "point", emitters::POSITION.name, &vector(*position))?;
+                }
+                self.light(node, emitters::INTENSITY.name, *old, *intensity)
+            }
+            (
+                EmitterKind::Spot { to_world: m, intensity: old, .. },
+                EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees },
+            ) => {
+                if m != to_world {
+                    self.transform(node, to_world)?;
+                }
+                self.value(node, "float", emitters::CUTOFF_ANGLE.name, &number(*cutoff_degrees))?;
+                self.value(node, "float", emitters::BEAM_WIDTH.name, &number(*beam_degrees))?;
+                self.light(node, emitters::INTENSITY.name, *old, *intensity)
+            }
+            (EmitterKind::Constant { radiance: old }, EmitterKind::Constant { radiance }) => {
+                self.light(node, emitters::RADIANCE.name, *old, *radiance)
+            }
+            (
+                EmitterKind::Directional { direction: d, irradiance: old },
+                EmitterKind::Directional { direction, irradiance },
+            ) => {
+                if d != direction {
+                    self.remove(node, "to_world")?;
+                    self.value(node, "vector", emitters::DIRECTION.name, &vector(*direction))?;
+                }
+                self.light(node, emitters::IRRADIANCE.name, *old, *irradiance)
+            }
+            (
+                EmitterKind::Environment { to_world: m, .. },
+                EmitterKind::Environment { to_world, scale, .. },
+            ) => {
+                if m != to_world {
+                    self.transform(node, to_world)?;
+                }
+                self.value(node, "float", emitters::SCALE.name, &single(*scale))
+            }
+            _ => Err("an emitter changed its kind".to_owned()),
+        }
+    }
+
+    fn shape(
+        &mut self,
+        node: Option<NodeId>,
+        old: &ShapeDescription,
+        new: &ShapeDescription,
+    ) -> Result<(), Obstacle> {
+        let geometry = changed_geometry(&old.geometry, &new.geometry);
+        let changed = geometry
+            || old.to_world != new.to_world
+            || old.radiance != new.radiance
+            || old.material != new.material;
+        if !changed {
+            return Ok(());
+        }
+        let node = self.own(node, "shape", &old.name)?;
+        match &new.geometry {
+            Geometry::Sphere { centre, radius } if geometry => {
+                self.value(node, "point", shapes::CENTER.name, &vector(*centre))?;
+                self.value(node, "float", shapes::RADIUS.name, &number(*radius))?;
+            }
+            // A tube may have been brought into the world when it was read.
+            Geometry::Cylinder { from, to, radius } if geometry || old.to_world != new.to_world => {
+                self.value(node, "point", shapes::P0.name, &vector(*from))?;
+                self.value(node, "point", shapes::P1.name, &vector(*to))?;
+                self.value(node, "float", shapes::RADIUS.name, &number(*radius))?;
+                self.transform(node, &new.to_world)?;
+            }
+            _ => {}
+        }
+        if old.to_world != new.to_world {
+            self.transform(node, &new.to_world)?;
+        }
+        if old.radiance != new.radiance {
+            self.radiance(node, new.radiance)?;
+        }
+        if old.material != new.material { self.other_material(node, old, new) } else { Ok(()) }
+    }
+
+    fn radiance(&mut self, node: NodeId, radiance: Option<Rgb>) -> Result<(), Obstacle> {
+        let inside = self.document.elements_in(node).find(|(_, e)| e.name == "emitter").map(|(n, _)| n);
+        if let (Some(emitter), Some(radiance)) = (inside, radiance) {
+            return self.value(emitter, "rgb", emitters::RADIANCE.name, &colour(radiance));
+        }
+        let new = match radiance {
+            Some(radiance) => {
+                let attributes = [("name", "radiance"), ("value", &*colour(radiance))];
+                let value = self.document.build("rgb", &attributes, Vec::new())?;
+                Some(self.document.build("emitter", &[("type", "area")], vec![value])?)
+            }
+            None => None,
+        };
+        self.replace_object(node, "emitter", new);
+        Ok(())
+    }
+
+    /// Puts a plugin's element, or nothing, in the place of the one of that tag, or of the reference to it.
+    fn replace_object(&mut self, node: NodeId, tag: &str, new: Option<NodeId>) {
+        let is_it =
+            |e: &Element| e.name == tag || self.document.referred(e).is_some_and(|(_, t)| t.name == tag);
+        let refers = |e: &Element| e.name == "ref" && is_it(e);
+        let old: Vec<_> =
+            self.document.elements_in(node).filter(|(_, e)| e.name == tag || refers(e)).collect();
+        let places: Vec<_> = old.iter().map(|(_, e)| (e.name.clone(), e.place)).collect();
+        let is_old = |e: &Element| places.contains(&(e.name.clone(), e.place));
+        self.document.replace_child(node, is_old, new);
+    }
+
+    /// Gives a shape another material: by reference if it stands in the file, or else a copy of its old one that is changed.
+    fn other_material(
+        &mut self,
+        node: NodeId,
+        old: &ShapeDescription,
+        new: &ShapeDescription,
+    ) -> Result<(), Obstacle> {
+        let nodes = &self.scene.nodes.materials;
+        if new.material < nodes.len() {
+            let id = nodes[new.material].and_then(|n| self.document.element(n)?.attribute("id"));
+            let id = id.ok_or("the shape's new material has no id")?.value.clone();
+            let reference = self.document.build("ref", &[("id", &id)], Vec::new())?;
+            self.replace_object(node, "bsdf", Some(reference));
+            return Ok(());
+        }
+        let before = &self.old.materials[old.material];
+        let after = self.edited.materials.get(new.material).ok_or("a material is not there")?;
+        let id = self.free_id(&after.name);
+        let source = nodes.get(old.material).copied().flatten();
+        let source = source.filter(|n| self.document.element(*n).is_some_and(|e| e.name == "bsdf"));
+        let first = self.document.elements_in(node).next().map(|(child, _)| child);
+        let here = first.map_or_else(String::new, |child| self.document.indentation(node, child));
+        let copy = match source {
+            Some(source) => {
+                let parent = self.document.parent(source).unwrap_or(source);
+                let there = self.document.indentation(parent, source);
+                self.document.copy(source, [&there, &here])?
+            }
+            None => materials::build(&mut self.document, after, &here)?,
+        };
+        if let Some(element) = self.document.element_mut(copy) {
+            element.attributes.retain(|a| a.name != "name");
+        }
+        self.document.set_attribute(copy, "id", &id.replace('$', "\\$"));
+        self.replace_object(node, "bsdf", Some(copy));
+        if source.is_some() { materials::change(&mut self.document, copy, before, after) } else { Ok(()) }
+    }
+
+    fn free_id(&self, name: &str) -> String {
+        let is_taken = |id: &str| {
+            self.document.elements().any(|(_, e)| e.attribute("id").is_some_and(|a| a.value == id))
+        };
+        let mut id = name.to_owned();
+        let mut number = 1;
+        while is_taken(&id) {
+            number += 1;
+            id = format!("{name}-{number}");
+        }
+        id
+    }
+}
+
+fn changed_geometry(old: &Geometry, new: &Geometry) -> bool {
+    match (old, new) {
+        (Geometry::Sphere { centre: c, radius: r }, Geometry::Sphere { centre, radius }) => {
+            (c, r) != (centre, radius)
+        }
+        (Geometry::Cylinder { from: a, to: b, radius: r }, Geometry::Cylinder { from, to, radius }) => {
+            (a, b, r) != (from, to, radius)
+        }
+        _ => false,
+    }
+}

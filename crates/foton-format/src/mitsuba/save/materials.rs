@@ -1,0 +1,141 @@
+//! Changed materials in a document: the values that changed, or where their structure did, the whole element anew.
+
+use foton_scene::description::{Bsdf, Colour, Material};
+use foton_scene::parameter::{Bound, Kind, Parameter, Slot};
+use foton_scene::plugins::wrappers::OPACITY;
+
+use super::tree::Obstacle;
+use crate::mitsuba::document::{Document, NodeId};
+use crate::mitsuba::write::material_xml;
+use crate::mitsuba::write::surfaces::{Stated, mean, stated};
+use crate::mitsuba::write::xml::single;
+
+/// Makes the `<bsdf>` of one material that of another.
+pub(super) fn change(
+    document: &mut Document,
+    node: NodeId,
+    old: &Material,
+    new: &Material,
+) -> Result<(), Obstacle> {
+    let mut tried = document.clone();
+    if change_values(&mut tried, node, old, new).is_some() {
+        *document = tried;
+        return Ok(());
+    }
+    let parent = document.parent(node).ok_or("its material is the whole file")?;
+    let indentation = document.indentation(parent, node);
+    let attribute = |name| document.element(node)?.attribute(name).map(|a| a.value.clone());
+    let kept: Vec<_> = ["id", "name"].into_iter().filter_map(|n| Some((n, attribute(n)?))).collect();
+    let anew = build(document, new, &indentation)?;
+    if let Some(element) = document.element_mut(anew) {
+        element.attributes.retain(|a| a.name != "id");
+    }
+    for (name, value) in kept {
+        document.set_attribute(anew, name, &value);
+    }
+    if let Some(element) = document.element_mut(parent) {
+        let place = element.children.iter_mut().find(|c| **c == node);
+        place.into_iter().for_each(|place| *place = anew);
+    }
+    Ok(())
+}
+
+/// A new `<bsdf>`, with an id that is like the material's name.
+pub(super) fn build(document: &mut Document, new: &Material, indentation: &str) -> Result<NodeId, Obstacle> {
+    let mut textured = matches!(new.opacity, Some(Colour::Texture(_)));
+    for bsdf in [Some(new.front), new.back].into_iter().flatten() {
+        let _ = bsdf.map(|c| textured |= matches!(c, Colour::Texture(_)));
+    }
+    if textured {
+        return Err(format!("the material \"{}\" has textures and changed its kind", new.name));
+    }
+    let text = material_xml(new).trim_end().replace('\n', &format!("\n{indentation}"));
+    let element = Document::parse(&text).map_err(|(_, message)| message)?;
+    let (_, root) = document.append(element, 0).ok_or("the file has too many elements")?;
+    Ok(root)
+}
+
+/// Changes values alone; `None` where that is not enough.
+fn change_values(document: &mut Document, node: NodeId, old: &Material, new: &Material) -> Option<()> {
+    let mut node = node;
+    if kind(document, node)? == "mask" {
+        match (new.opacity, old.opacity) {
+            (new, old) if new == old => {}
+            (Some(Colour::Texture(_)), _) => return None,
+            (new, _) => {
+                let share = new.map_or(1.0, |c| if let Colour::Constant(c) = c { mean(c) } else { 1.0 });
+                document.set_value(node, "float", OPACITY.name, Some(&single(share))).ok()?;
+            }
+        }
+        node = *inside(document, node)?.first()?;
+    } else if old.opacity != new.opacity {
+        return None;
+    }
+    if kind(document, node)? == "twosided" {
+        let (old_back, new_back) = (old.back?, new.back?);
+        return match inside(document, node)?[..] {
+            [both] if new_back == new.front => change_side(document, both, &old.front, &new.front),
+            [front, back] => {
+                change_side(document, front, &old.front, &new.front)?;
+                change_side(document, back, &old_back, &new_back)
+            }
+            _ => None,
+        };
+    }
+    (old.back.is_none() && new.back.is_none()).then_some(())?;
+    change_side(document, node, &old.front, &new.front)
+}
+
+fn kind(document: &Document, node: NodeId) -> Option<String> {
+    let element = document.element(node).filter(|e| e.name == "bsdf")?;
+    Some(element.attribute("type")?.value.clone())
+}
+
+/// The bsdfs that stand inside one; `None` if there are references, whose targets others may use, too.
+fn inside(document: &Document, node: NodeId) -> Option<Vec<NodeId>> {
+    let referring = document.elements_in(node).any(|(_, e)| e.name == "ref" && e.attribute("name").is_none());
+    let bsdfs = document.elements_in(node).filter(|(_, e)| e.name == "bsdf").map(|(node, _)| node);
+    (!referring).then(|| bsdfs.collect())
+}
+
+fn change_side(document: &mut Document, node: NodeId, old: &Bsdf, new: &Bsdf) -> Option<()> {
+    (std::mem::discriminant(old) == std::mem::discriminant(new)).then_some(())?;
+    // The file's own name of the plugin may be another one that means the same.
+    if old.plugin() != new.plugin() {
+        document.set_attribute(node, "type", new.plugin());
+    }
+    let (mut old, mut new) = (*old, *new);
+    for (old, new) in old.parameters().iter().zip(&new.parameters()) {
+        change_value(document, node, old, new)?;
+    }
+    Some(())
+}
+
+fn change_value(document: &mut Document, node: NodeId, old: &Bound<'_>, new: &Bound<'_>) -> Option<()> {
+    let (before, after) = (stated(old), stated(new));
+    // A texture stays as it is.
+    if before == after {
+        return Some(());
+    }
+    let is_said = |name: &str| after.iter().any(|s| s.name == name);
+    for parameter in alternatives(new).filter(|p| !is_said(p.name)) {
+        document.set_value(node, "", parameter.name, None).ok()?;
+    }
+    for gone in before.iter().filter(|s| !is_said(s.name)) {
+        document.set_value(node, "", gone.name, None).ok()?;
+    }
+    // A metal that had a name gets both of its indices; what else did not change may be said by a default.
+    let is_metal = matches!(new.slot, Slot::Metal { .. });
+    for Stated { tag, name, text } in after.iter().filter(|s| is_metal || !before.contains(s)) {
+        document.set_value(node, tag, name, Some(text)).ok()?;
+    }
+    Some(())
+}
+
+/// Parameters that cannot stand beside each other: where one of them is written, the others go.
+fn alternatives(bound: &Bound<'_>) -> impl Iterator<Item = &'static Parameter> {
+    let is_one =
+        |p: &&Parameter| matches!(p.kind, Kind::Metal | Kind::Colour | Kind::Refraction | Kind::Number);
+    let parameters = if bound.parameters.len() > 1 { bound.parameters } else { &[] };
+    parameters.iter().filter(is_one)
+}

@@ -1,0 +1,328 @@
+//! A scene description as a Mitsuba 3 scene: one XML file, with its meshes and images in folders beside it.
+//!
+//! What is written reads back as an equal description, and Mitsuba renders the same picture from it. Numbers are the
+//! shortest that read back to the same bits. What the description does not hold (samplers, integrators by name) is
+//! written as parameters with defaults, so that the file serves both programs. Nothing is validated here.
+
+pub(crate) mod mesh;
+pub(crate) mod surfaces;
+pub(crate) mod xml;
+
+use std::collections::{HashMap, HashSet};
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use foton_film::{Image, Metadata, WriteError, atomic_write, is_same_file, write_exr};
+use foton_math::glam::DAffine3;
+use foton_scene::description::{
+    Bitmap, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
+    SensorDescription, ShapeDescription,
+};
+
+use foton_scene::plugins::{emitters, shapes};
+
+use crate::mitsuba::read::shapes::is_turned_inside_out;
+use xml::{Xml, colour, number, single, vector};
+
+/// Folders beside the scene file.
+const MESHES: &str = "meshes";
+const TEXTURES: &str = "textures";
+
+/// Writes a description as the scene file `path`, its meshes as `meshes/NAME-….ply` and its images as
+/// `textures/NAME-….exr` beside it, where `NAME` is that of the file. The scene file comes last.
+///
+/// Meshes and images get other names where theirs is that of a file in `kept`, by whatever link: those that a scene is made of.
+///
+/// A box filter of another radius than half a pixel, which Mitsuba does not have, becomes one of half a pixel.
+///
+/// # Errors
+/// [`WriteError`] with the path. Files that were there before are replaced one by one, each by a whole one.
+///
+/// # Panics
+/// If an index in the description refers to nothing.
+pub fn write_scene(description: &SceneDescription, path: &Path, kept: &[PathBuf]) -> Result<(), WriteError> {
+    let stem = path.file_stem().map_or_else(|| "scene".to_owned(), |s| file_name(&s.to_string_lossy()));
+    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    let mut writer = Writer::new(description, folder, stem, kept);
+    writer.scene()?;
+    let text = writer.xml.finish();
+    atomic_write(path, |file| file.write_all(text.as_bytes()))
+}
+
+/// A material without textures as its `<bsdf>` element.
+pub(crate) fn material_xml(material: &Material) -> String {
+    let description = SceneDescription::default();
+    let mut writer = Writer::new(&description, PathBuf::new(), String::new(), &[]);
+    writer.material(material);
+    writer.xml.finish()
+}
+
+struct Writer<'a> {
+    description: &'a SceneDescription,
+    folder: PathBuf,
+    /// What the names of all other files begin with.
+    stem: String,
+    /// Files that are not written to.
+    kept: &'a [PathBuf],
+    xml: Xml,
+    /// Ids that are taken.
+    ids: HashSet<String>,
+    /// Names of files that are taken, in lower case.
+    files: HashSet<String>,
+    /// Files of meshes and bitmaps that several things share, by address.
+    meshes: HashMap<*const Mesh, String>,
+    bitmaps: HashMap<*const Bitmap, String>,
+    texture_ids: Vec<String>,
+    material_ids: Vec<String>,
+}
+
+impl<'a> Writer<'a> {
+    fn new(description: &'a SceneDescription, folder: PathBuf, stem: String, kept: &'a [PathBuf]) -> Self {
+        Self {
+            description,
+            folder,
+            stem,
+            kept,
+            xml: Xml::new(),
+            ids: HashSet::new(),
+            files: HashSet::new(),
+            meshes: HashMap::new(),
+            bitmaps: HashMap::new(),
+            texture_ids: Vec::new(),
+            material_ids: Vec::new(),
+        }
+    }
+
+    fn scene(&mut self) -> Result<(), WriteError> {
+        self.xml.open("scene", &[("version", "3.0.0")]);
+        self.xml.leaf("default", &[("name", "integrator"), ("value", "path")]);
+        self.xml.leaf("default", &[("name", "spp"), ("value", "64")]);
+        self.xml.open("integrator", &[("type", "$integrator")]);
+        let depth = self.description.max_depth.map_or(-1, i64::from);
+        self.xml.value("integer", "max_depth", &depth.to_string());
+        self.xml.close("integrator");
+        // Shapes come first where names collide: theirs stand in every output.
+        let shape_ids: Vec<String> = self.description.shapes.iter().map(|s| self.id(&s.name)).collect();
+        for sensor in &self.description.sensors {
+            self.sensor(sensor);
+        }
+        for texture in &self.description.textures {
+            let id = self.texture(texture)?;
+            self.texture_ids.push(id);
+        }
+        for material in &self.description.materials {
+            let id = self.material(material);
+            self.material_ids.push(id);
+        }
+        for emitter in &self.description.emitters {
+            self.emitter(emitter)?;
+        }
+        for (shape, id) in self.description.shapes.iter().zip(&shape_ids) {
+            self.shape(shape, id)?;
+        }
+        self.xml.close("scene");
+        Ok(())
+    }
+
+    /// An id that is like a name and not taken.
+    fn id(&mut self, name: &str) -> String {
+        let name = if name.is_empty() { "unnamed" } else { name };
+        let mut id = name.to_owned();
+        let mut number = 1;
+        while !self.ids.insert(id.clone()) {
+            number += 1;
+            id = format!("{name}-{number}");
+        }
+        id
+    }
+
+    /// A file beside the scene for something of a name: as it stands in the scene, and its path.
+    fn file(&mut self, folder: &str, name: &str, extension: &str) -> Result<(String, PathBuf), WriteError> {
+        let base = format!("{}-{}", self.stem, file_name(name));
+        let mut number = 1;
+        let mut file = format!("{folder}/{base}.{extension}");
+        while !self.files.insert(file.to_lowercase()) || self.is_kept(&self.folder.join(&file)) {
+            number += 1;
+            file = format!("{folder}/{base}-{number}.{extension}");
+        }
+        let inside = self.folder.join(folder);
+        fs::create_dir_all(&inside).map_err(|cause| WriteError::Io { path: inside, cause })?;
+        let path = self.folder.join(&file);
+        Ok((file, path))
+    }
+
+    /// Whether writing there would overwrite a file that is to be kept.
+    fn is_kept(&self, path: &Path) -> bool {
+        path.exists() && self.kept.iter().any(|kept| is_same_file(kept, path))
+    }
+
+    fn bitmap(&mut self, bitmap: &Arc<Bitmap>, name: &str) -> Result<String, WriteError> {
+        let key = Arc::as_ptr(bitmap);
+        if let Some(file) = self.bitmaps.get(&key) {
+            return Ok(file.clone());
+        }
+        let (file, path) = self.file(TEXTURES, name, "exr")?;
+        let Bitmap { width, height, pixels } = &**bitmap;
+        let image = Image { width: *width, height: *height, pixels: pixels.clone() };
+        write_exr(&path, &image, &[], &Metadata::default())?;
+        self.bitmaps.insert(key, file.clone());
+        Ok(file)
+    }
+
+    fn sensor(&mut self, sensor: &SensorDescription) {
+        let id = self.id(&sensor.name);
+        let xml = &mut self.xml;
+        xml.open("sensor", &[("type", "perspective"), ("id", &id)]);
+        xml.value("float", "fov", &number(sensor.fov_degrees));
+        let axis = match sensor.fov_axis {
+            FovAxis::X => "x",
+            FovAxis::Y => "y",
+            FovAxis::Diagonal => "diagonal",
+            FovAxis::Smaller => "smaller",
+            FovAxis::Larger => "larger",
+        };
+        xml.value("string", "fov_axis", axis);
+        for (name, clip) in [("near_clip", sensor.near_clip), ("far_clip", sensor.far_clip)] {
+            if let Some(clip) = clip {
+                xml.value("float", name, &number(clip));
+            }
+        }
+        xml.transform("to_world", &sensor.to_world);
+        xml.open("sampler", &[("type", "independent")]);
+        xml.value("integer", "sample_count", "$spp");
+        xml.close("sampler");
+        xml.open("film", &[("type", "hdrfilm")]);
+        xml.value("integer", "width", &sensor.width.to_string());
+        xml.value("integer", "height", &sensor.height.to_string());
+        if let Some(crop) = sensor.crop {
+            xml.value("integer", "crop_offset_x", &crop.x.to_string());
+            xml.value("integer", "crop_offset_y", &crop.y.to_string());
+            xml.value("integer", "crop_width", &crop.width.to_string());
+            xml.value("integer", "crop_height", &crop.height.to_string());
+        }
+        match sensor.filter {
+            Filter::Box { .. } => xml.leaf("rfilter", &[("type", "box")]),
+            Filter::Tent { radius } => xml.plugin("rfilter", "tent", &[("float", "radius", &number(radius))]),
+            Filter::Gaussian { stddev } => {
+                xml.plugin("rfilter", "gaussian", &[("float", "stddev", &number(stddev))]);
+            }
+        }
+        xml.close("film");
+        xml.close("sensor");
+    }
+
+    fn emitter(&mut self, emitter: &EmitterDescription) -> Result<(), WriteError> {
+        let id = self.id(&emitter.name);
+        let filename = match &emitter.kind {
+            EmitterKind::Environment { bitmap, .. } => self.bitmap(bitmap, &id)?,
+            _ => String::new(),
+        };
+        let xml = &mut self.xml;
+        let plugin = match emitter.kind {
+            EmitterKind::Point { .. } => emitters::POINT.name,
+            EmitterKind::Spot { .. } => emitters::SPOT.name,
+            EmitterKind::Constant { .. } => emitters::CONSTANT.name,
+            EmitterKind::Directional { .. } => emitters::DIRECTIONAL.name,
+            EmitterKind::Environment { .. } => emitters::ENVMAP.name,
+        };
+        xml.open("emitter", &[("type", plugin), ("id", &id)]);
+        match &emitter.kind {
+            EmitterKind::Point { position, intensity } => {
+                xml.value("point", emitters::POSITION.name, &vector(*position));
+                xml.value("rgb", emitters::INTENSITY.name, &colour(*intensity));
+            }
+            EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees } => {
+                xml.value("rgb", emitters::INTENSITY.name, &colour(*intensity));
+                xml.value("float", emitters::CUTOFF_ANGLE.name, &number(*cutoff_degrees));
+                xml.value("float", emitters::BEAM_WIDTH.name, &number(*beam_degrees));
+                xml.transform("to_world", to_world);
+            }
+            EmitterKind::Constant { radiance } => {
+                xml.value("rgb", emitters::RADIANCE.name, &colour(*radiance))
+            }
+            EmitterKind::Directional { direction, irradiance } => {
+                xml.value("vector", emitters::DIRECTION.name, &vector(*direction));
+                xml.value("rgb", emitters::IRRADIANCE.name, &colour(*irradiance));
+            }
+            EmitterKind::Environment { to_world, scale, .. } => {
+                xml.value("string", emitters::FILENAME.name, &filename);
+                xml.value("float", emitters::SCALE.name, &single(*scale));
+                xml.transform("to_world", to_world);
+            }
+        }
+        xml.close("emitter");
+        Ok(())
+    }
+
+    fn shape(&mut self, shape: &ShapeDescription, id: &str) -> Result<(), WriteError> {
+        let (plugin, filename) = match &shape.geometry {
+            Geometry::Sphere { .. } => ("sphere", None),
+            Geometry::Disc => ("disk", None),
+            Geometry::Cylinder { .. } => ("cylinder", None),
+            Geometry::Mesh(mesh) if mesh::same(mesh, &Mesh::rectangle()) => ("rectangle", None),
+            Geometry::Mesh(mesh) if mesh::same(mesh, &Mesh::cube()) => ("cube", None),
+            Geometry::Mesh(mesh) => ("ply", Some(self.mesh(mesh, id)?)),
+        };
+        let xml = &mut self.xml;
+        xml.open("shape", &[("type", plugin), ("id", id)]);
+        match &shape.geometry {
+            Geometry::Sphere { centre, radius } => {
+                xml.value("point", shapes::CENTER.name, &vector(*centre));
+                xml.value("float", shapes::RADIUS.name, &number(*radius));
+            }
+            Geometry::Cylinder { from, to, radius } => {
+                xml.value("point", shapes::P0.name, &vector(*from));
+                xml.value("point", shapes::P1.name, &vector(*to));
+                xml.value("float", shapes::RADIUS.name, &number(*radius));
+            }
+            Geometry::Disc => {}
+            Geometry::Mesh(mesh) => {
+                if let Some(file) = filename {
+                    xml.value("string", shapes::FILENAME.name, &file);
+                    if mesh.normals.is_empty() {
+                        xml.value("boolean", shapes::FACE_NORMALS.name, "true");
+                    }
+                }
+            }
+        }
+        xml.transform("to_world", &shape.to_world);
+        let turned = is_mirrored(&shape.to_world) && is_turned_inside_out(plugin, &shape.geometry);
+        if shape.flip_normals != turned {
+            xml.value("boolean", shapes::FLIP_NORMALS.name, "true");
+        }
+        xml.leaf("ref", &[("id", &self.material_ids[shape.material])]);
+        if let Some(radiance) = shape.radiance {
+            xml.plugin(
+                "emitter",
+                emitters::AREA.name,
+                &[("rgb", emitters::RADIANCE.name, &colour(radiance))],
+            );
+        }
+        xml.close("shape");
+        Ok(())
+    }
+
+    fn mesh(&mut self, mesh: &Arc<Mesh>, name: &str) -> Result<String, WriteError> {
+        let key = Arc::as_ptr(mesh);
+        if let Some(file) = self.meshes.get(&key) {
+            return Ok(file.clone());
+        }
+        let (file, path) = self.file(MESHES, name, "ply")?;
+        atomic_write(&path, |out| mesh::write_ply(mesh, out))?;
+        self.meshes.insert(key, file.clone());
+        Ok(file)
+    }
+}
+
+fn is_mirrored(to_world: &DAffine3) -> bool {
+    to_world.matrix3.determinant() < 0.0
+}
+
+/// A name as it may stand in a file name anywhere.
+fn file_name(name: &str) -> String {
+    let letter = |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '_' };
+    let name: String = name.chars().take(60).map(letter).collect();
+    if name.is_empty() { "unnamed".to_owned() } else { name }
+}

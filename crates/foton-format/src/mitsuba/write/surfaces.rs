@@ -1,0 +1,161 @@
+//! Materials and textures as the plugins of Mitsuba 3 that mean the same.
+
+use foton_film::WriteError;
+use foton_math::Rgb;
+use foton_math::glam::{DAffine2, DAffine3, DMat3};
+use foton_scene::bsdf::Microfacets;
+use foton_scene::description::{Bsdf, Colour, Material, Texture, TextureKind, Wrap};
+use foton_scene::parameter::{Bound, Slot};
+use foton_scene::plugins::{textures, wrappers};
+
+use super::Writer;
+use super::xml::{colour, single};
+use crate::mitsuba::read::textures::TURN;
+
+impl Writer<'_> {
+    /// Writes a texture and returns its id.
+    pub(super) fn texture(&mut self, texture: &Texture) -> Result<String, WriteError> {
+        let id = self.id(&texture.name);
+        match &texture.kind {
+            TextureKind::Bitmap { bitmap, wrap, bilinear } => {
+                let filename = self.bitmap(bitmap, &id)?;
+                let xml = &mut self.xml;
+                xml.open("texture", &[("type", textures::BITMAP.name), ("id", &id)]);
+                xml.value("string", textures::FILENAME.name, &filename);
+                xml.value(
+                    "string",
+                    textures::FILTER_TYPE.name,
+                    if *bilinear { "bilinear" } else { "nearest" },
+                );
+                let wrap = match wrap {
+                    Wrap::Repeat => textures::WRAPS[0],
+                    Wrap::Mirror => textures::WRAPS[1],
+                    Wrap::Clamp => textures::WRAPS[2],
+                };
+                xml.value("string", textures::WRAP_MODE.name, wrap);
+                // The description's v points up, Mitsuba's down.
+                xml.transform(textures::TO_UV.name, &in_space(TURN * texture.to_uv));
+            }
+            TextureKind::Checkerboard { colours } => {
+                let xml = &mut self.xml;
+                xml.open("texture", &[("type", textures::CHECKERBOARD.name), ("id", &id)]);
+                xml.value("rgb", textures::COLOR0.name, &colour(colours[0]));
+                xml.value("rgb", textures::COLOR1.name, &colour(colours[1]));
+                xml.transform(textures::TO_UV.name, &in_space(texture.to_uv));
+            }
+        }
+        self.xml.close("texture");
+        Ok(id)
+    }
+
+    /// Writes a material and returns its id.
+    pub(super) fn material(&mut self, material: &Material) -> String {
+        let id = self.id(&material.name);
+        let mut attributes = vec![("id", id.as_str())];
+        if let Some(opacity) = &material.opacity {
+            self.xml.open("bsdf", &[("type", wrappers::MASK.name), attributes.remove(0)]);
+            match *opacity {
+                Colour::Constant(share) => {
+                    self.xml.value("float", wrappers::OPACITY.name, &single(mean(share)))
+                }
+                texture @ Colour::Texture(_) => self.colour(wrappers::OPACITY.name, texture),
+            }
+        }
+        match material.back {
+            Some(back) if !material.front.transmits() => {
+                let mut outer = vec![("type", wrappers::TWOSIDED.name)];
+                outer.append(&mut attributes);
+                self.xml.open("bsdf", &outer);
+                self.bsdf(&material.front, &[]);
+                if back != material.front {
+                    self.bsdf(&back, &[]);
+                }
+                self.xml.close("bsdf");
+            }
+            _ => self.bsdf(&material.front, &attributes),
+        }
+        if material.opacity.is_some() {
+            self.xml.close("bsdf");
+        }
+        id
+    }
+
+    fn bsdf(&mut self, bsdf: &Bsdf, more: &[(&str, &str)]) {
+        let mut attributes = vec![("type", bsdf.plugin())];
+        attributes.extend(more);
+        self.xml.open("bsdf", &attributes);
+        if let Some([tag, name, value]) = bsdf.info().stated {
+            self.xml.value(tag, name, value);
+        }
+        let mut bsdf = *bsdf;
+        for bound in bsdf.parameters() {
+            let parameter = &bound.parameters[0];
+            match &bound.slot {
+                // A factor need not stand where it changes nothing.
+                Slot::Share(share) if parameter.default == 1.0 && **share == parameter.default_colour() => {}
+                Slot::Share(share) => self.colour(parameter.name, **share),
+                _ => {
+                    for Stated { tag, name, text } in stated(&bound) {
+                        self.xml.value(tag, name, &text);
+                    }
+                }
+            }
+        }
+        self.xml.close("bsdf");
+    }
+
+    fn colour(&mut self, name: &str, value: Colour) {
+        match value {
+            Colour::Constant(c) => self.xml.value("rgb", name, &colour(c)),
+            Colour::Texture(i) => self.xml.leaf("ref", &[("name", name), ("id", &self.texture_ids[i])]),
+        }
+    }
+}
+
+/// A value as it stands in a file.
+#[derive(PartialEq)]
+pub(crate) struct Stated {
+    /// Its tag.
+    pub(crate) tag: &'static str,
+    /// Its name.
+    pub(crate) name: &'static str,
+    /// Its text.
+    pub(crate) text: String,
+}
+
+/// What stands in a file for parameters of a BSDF; nothing for a texture, which stands elsewhere.
+pub(crate) fn stated(bound: &Bound<'_>) -> Vec<Stated> {
+    let name = bound.parameters[0].name;
+    let of = |tag, name, text| Stated { tag, name, text };
+    match &bound.slot {
+        Slot::Share(Colour::Constant(c)) => vec![of("rgb", name, colour(*c))],
+        Slot::Share(Colour::Texture(_)) | Slot::Roughness(None) => Vec::new(),
+        Slot::Refraction(ior) => vec![of("float", name, single(**ior))],
+        Slot::Boolean(flag) => vec![of("boolean", name, flag.to_string())],
+        Slot::Metal { eta, k } => vec![of("rgb", "eta", colour(**eta)), of("rgb", "k", colour(**k))],
+        Slot::Roughness(Some(Microfacets { distribution, alpha_u, alpha_v })) => {
+            let mut all = vec![of("string", "distribution", distribution.name().to_owned())];
+            if alpha_u == alpha_v {
+                all.push(of("float", "alpha", single(*alpha_u)));
+            } else {
+                all.push(of("float", "alpha_u", single(*alpha_u)));
+                all.push(of("float", "alpha_v", single(*alpha_v)));
+            }
+            all
+        }
+    }
+}
+
+/// The mean channel; the channel itself where all are the same.
+pub(crate) fn mean(c: Rgb) -> f32 {
+    if c.r == c.g && c.g == c.b { c.r } else { c.mean() }
+}
+
+/// A transform of the plane as one of space.
+fn in_space(t: DAffine2) -> DAffine3 {
+    let m = t.matrix2;
+    DAffine3::from_mat3_translation(
+        DMat3::from_cols(m.x_axis.extend(0.0), m.y_axis.extend(0.0), foton_math::glam::DVec3::Z),
+        t.translation.extend(0.0),
+    )
+}
