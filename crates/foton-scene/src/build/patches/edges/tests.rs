@@ -1,3 +1,5 @@
+//! Edges in parts against edges sorted at once.
+
 use super::*;
 use crate::build::{BuildOptions, BuildStep};
 
