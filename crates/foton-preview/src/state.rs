@@ -35,7 +35,7 @@ pub(crate) struct Message {
     pub(crate) is_logged: bool,
 }
 
-/// A picture kept to compare with.
+/// A picture to compare with.
 #[derive(Clone, Debug)]
 pub(crate) struct Pinned {
     pub(crate) picture: Picture,
@@ -104,6 +104,13 @@ impl Trace {
     }
 }
 
+/// The pass that traces end at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Traced {
+    pub(crate) render: u64,
+    pub(crate) pass: u64,
+}
+
 /// All of it.
 pub(crate) struct State {
     pub(crate) frame: Option<Frame>,
@@ -114,7 +121,7 @@ pub(crate) struct State {
     pub(crate) placement: Placement,
     pub(crate) exposure_stops: f32,
     pub(crate) tone_map: ToneMap,
-    pub(crate) shown: ViewMode,
+    pub(crate) view: ViewMode,
     pub(crate) show_photons: bool,
     pub(crate) auto_snapshots: bool,
     pub(crate) pinned: Option<Pinned>,
@@ -131,8 +138,8 @@ pub(crate) struct State {
     pub(crate) radius: Trace,
     /// Total error in per cent.
     pub(crate) error: Trace,
-    /// Which render and pass the traces ended at.
-    pub(crate) traced: (u64, u64),
+    /// Where the traces end.
+    pub(crate) traced: Traced,
     /// The scene's file changed on the disk.
     pub(crate) changed_on_disk: bool,
     pub(crate) built_in: Vec<String>,
@@ -158,7 +165,7 @@ impl State {
             placement: Placement::FIT,
             exposure_stops: 0.0,
             tone_map: ToneMap::default(),
-            shown: ViewMode::Radiance,
+            view: ViewMode::Radiance,
             show_photons: false,
             auto_snapshots: false,
             pinned: None,
@@ -171,7 +178,7 @@ impl State {
             rate: Trace::default(),
             radius: Trace::default(),
             error: Trace::default(),
-            traced: (0, 0),
+            traced: Traced::default(),
             changed_on_disk: false,
             built_in,
             places: Vec::new(),
@@ -184,17 +191,17 @@ impl State {
 
     /// Takes the newest frame.
     pub(crate) fn show(&mut self, frame: Frame) {
-        let now = (frame.render, frame.numbers.passes);
-        if frame.render != self.traced.0 {
+        let now = Traced { render: frame.render, pass: frame.stats.passes };
+        if frame.render != self.traced.render {
             self.rate = Trace::default();
             self.radius = Trace::default();
             self.error = Trace::default();
         }
-        if now != self.traced && frame.numbers.passes > 1 {
-            let seconds = frame.numbers.elapsed.as_secs_f64();
-            self.rate.push(seconds, frame.numbers.photons_per_s / 1e6);
-            self.radius.push(seconds, frame.numbers.radii.median);
-            if let Some(error) = frame.numbers.error {
+        if now != self.traced && frame.stats.passes > 1 {
+            let seconds = frame.stats.elapsed.as_secs_f64();
+            self.rate.push(seconds, frame.stats.photons_per_s / 1e6);
+            self.radius.push(seconds, frame.stats.radii.median);
+            if let Some(error) = frame.stats.error {
                 self.error.push(seconds, 100.0 * error.total);
             }
         }
@@ -251,10 +258,10 @@ impl State {
     }
 
     /// What frames should carry, told to the engine.
-    pub(crate) fn choose_shown(&mut self, shown: ViewMode) {
-        if self.shown != shown {
-            self.shown = shown;
-            self.ask(Command::Show(shown));
+    pub(crate) fn choose_view(&mut self, view: ViewMode) {
+        if self.view != view {
+            self.view = view;
+            self.ask(Command::Show(view));
         }
     }
 

@@ -1,4 +1,4 @@
-//! RenderSettings for a purpose, as `foton measure` found them: docs/measure.md has the figures.
+//! Settings for a purpose, as `foton measure` found them: docs/measure.md has the figures.
 
 use std::num::NonZeroU32;
 
@@ -12,7 +12,7 @@ pub enum Preset {
     /// The defaults.
     Balanced,
     /// Minutes and more: radii that have adapted for that long are better off with a larger α, which leaves them where they are
-    /// unless blur clearly outweighs noise.
+    /// unless bias clearly outweighs noise.
     Final,
 }
 

@@ -47,7 +47,7 @@ pub(crate) fn run(args: &Measure, console: &mut Console) -> Result<(), Failure> 
         return Err(Failure::Memory(why));
     }
     console.stage("collecting hit points");
-    // What a part found is kept when it is done: one that is interrupted may as well end at once.
+    // What a part found is stored when it is done: one that is interrupted may as well end at once.
     let outcome = {
         let mut tell = |event: &Event| say(event, console);
         pool.install(|| sweep.run(&|| interrupt.is_requested(), interrupt.cancel(), &mut tell))

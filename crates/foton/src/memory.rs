@@ -1,6 +1,9 @@
 //! How much memory a render may take: what was asked for, or a share of what is free, and never more than the system's limits on
 //! the program leave it.
 
+#[cfg(test)]
+mod tests;
+
 use std::fmt;
 use std::fs;
 use std::path::Path;
@@ -21,7 +24,7 @@ pub(crate) fn limit(asked: Option<u64>) -> Option<f64> {
     let wanted = asked.or_else(|| free().map(|bytes| bytes * SHARE));
     let room = confined.map(|confined| match asked {
         // Whoever asks for an amount, and keeps the C library from its heaps, knows what there is.
-        Some(_) if confined.kept == 0.0 => confined.limit,
+        Some(_) if confined.reserved == 0.0 => confined.limit,
         Some(_) => confined.room(),
         None => confined.room() * SHARE,
     });
@@ -35,8 +38,8 @@ pub(crate) struct Confined {
     limit: f64,
     /// Bytes that it has of them.
     used: f64,
-    /// Bytes that the C library will keep.
-    kept: f64,
+    /// Bytes that the C library will reserve.
+    reserved: f64,
     /// How a shell sets it.
     option: &'static str,
 }
@@ -47,7 +50,7 @@ impl Confined {
     pub(crate) fn of_system() -> Option<Self> {
         use rustix::process::{Resource, getrlimit};
         let status = fs::read_to_string("/proc/self/status").ok()?;
-        let kept = if cfg!(target_env = "gnu") && std::env::var_os("MALLOC_ARENA_MAX").is_none() {
+        let reserved = if cfg!(target_env = "gnu") && std::env::var_os("MALLOC_ARENA_MAX").is_none() {
             HEAP_OF_THREAD * foton_session::threads::count(None) as f64
         } else {
             0.0
@@ -55,7 +58,7 @@ impl Confined {
         let limits = [(Resource::As, "VmSize:", "ulimit -v"), (Resource::Data, "VmData:", "ulimit -d")];
         let set = limits.into_iter().filter_map(|(resource, name, option)| {
             let limit = getrlimit(resource).current? as f64;
-            Some(Self { limit, used: kibibytes(&status, name)?, kept, option })
+            Some(Self { limit, used: kibibytes(&status, name)?, reserved, option })
         });
         set.reduce(|a, b| if b.room() < a.room() { b } else { a })
     }
@@ -68,7 +71,7 @@ impl Confined {
 
     /// Bytes for a render, the program's own included, as estimates have it.
     fn room(&self) -> f64 {
-        (self.limit - self.kept - (self.used - MemoryEstimate::PROGRAM_BYTES).max(0.0)).max(0.0)
+        (self.limit - self.reserved - (self.used - MemoryEstimate::PROGRAM_BYTES).max(0.0)).max(0.0)
     }
 }
 
@@ -82,11 +85,11 @@ impl fmt::Display for Confined {
             self.option,
             mebibytes(self.used)
         )?;
-        if self.kept > 0.0 {
+        if self.reserved > 0.0 {
             write!(
                 f,
                 " and the C library keeps up to {:.0} MiB for threads (none with MALLOC_ARENA_MAX=1)",
-                mebibytes(self.kept)
+                mebibytes(self.reserved)
             )?;
         }
         Ok(())
@@ -140,50 +143,4 @@ fn left_in_groups(groups: &str, root: &Path) -> Option<f64> {
         }
     }
     least
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_tightest_of_nested_control_groups_counts() {
-        let root = std::env::temp_dir().join(format!("foton-groups-{}", std::process::id()));
-        let group = |path: &str, files: &[(&str, &str)]| {
-            let folder = root.join(path);
-            fs::create_dir_all(&folder).expect("a folder");
-            files.iter().for_each(|(name, text)| fs::write(folder.join(name), text).expect("written"));
-        };
-        group("a/b", &[("memory.max", "max\n"), ("memory.current", "10\n")]);
-        group(
-            "a",
-            &[
-                ("memory.max", "1000\n"),
-                ("memory.current", "700\n"),
-                ("memory.stat", "anon 1\ninactive_file 200\n"),
-            ],
-        );
-        group("", &[("memory.max", "9000\n"), ("memory.current", "100\n")]);
-        group("memory/c", &[("memory.limit_in_bytes", "400\n"), ("memory.usage_in_bytes", "100\n")]);
-        assert_eq!(left_in_groups("0::/a/b\n", &root), Some(500.0));
-        assert_eq!(left_in_groups("0::/gone\n", &root), Some(8900.0));
-        assert_eq!(left_in_groups("1:cpu:/c\n4:blkio,memory:/c\n", &root), Some(300.0));
-        assert_eq!(left_in_groups("1:cpu:/a\nbroken\n", &root), None);
-        let _ = fs::remove_dir_all(root);
-    }
-
-    #[test]
-    fn address_space_that_is_used_or_kept_is_no_room() {
-        let mebibytes = |n: i32| f64::from(n) * f64::from(1 << 20);
-        let confined = Confined {
-            limit: mebibytes(500),
-            used: mebibytes(36),
-            kept: mebibytes(128),
-            option: "ulimit -v",
-        };
-        assert_eq!(confined.room(), mebibytes(500 - 20 - 128));
-        let said = "the system confines the program to 500 MiB (ulimit -v), of which it has 36 MiB already and the C library keeps up \
-                    to 128 MiB for threads (none with MALLOC_ARENA_MAX=1)";
-        assert_eq!(confined.to_string(), said);
-    }
 }

@@ -100,7 +100,7 @@ impl Roles {
         self.with("--resume", path, Use::StateRead, None)
     }
 
-    /// Where the state is kept; where it was read from is such a place.
+    /// Where checkpoints are written; where it was read from is such a place.
     pub(crate) fn keeps(self, path: Option<&Path>) -> Self {
         self.with("--checkpoint", path, Use::StateWritten, None)
     }

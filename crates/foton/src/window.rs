@@ -37,7 +37,7 @@ pub(crate) fn show(scene: Option<&Path>, frame_log: Option<&Path>) -> Result<(),
 /// Whether there is a window that signals may close.
 static IS_OPEN: AtomicBool = AtomicBool::new(true);
 
-/// Ctrl-C, SIGTERM and the limits of the system close the window, so that a checkpoint that is kept has the last pass. Asked again,
+/// Ctrl-C, SIGTERM and the limits of the system close the window, so that the checkpoint of the render has the last pass. Asked again,
 /// nothing is waited for. Elsewhere than on Unix only one may listen, and that is the render that goes on where there is no window.
 fn close_on_signals(close: Close) {
     if cfg!(unix) {

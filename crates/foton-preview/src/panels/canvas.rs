@@ -2,7 +2,7 @@
 
 use egui::{Pos2, Rect, Sense, Vec2};
 use foton_edit::DragMode;
-use foton_session::engine::{Change, Command, Gesture, Picture as EnginePicture};
+use foton_session::engine::{Command, Gesture, Picture as EnginePicture, SceneEdit};
 
 use super::film_place::{Film, place};
 use super::{legend, overlay};
@@ -69,7 +69,7 @@ fn hint(ui: &egui::Ui, rect: Rect, text: &str) {
     );
 }
 
-/// How a picture is shown, and the scale of false colours.
+/// How a picture is drawn, and the scale of false colours.
 fn mode(picture: &EnginePicture) -> (Mode, Option<legend::Scale>) {
     match picture {
         EnginePicture::Colour(_) => (Mode::Radiance, None),
@@ -192,7 +192,7 @@ fn begin(state: &mut State, response: &egui::Response, film: Film, at: Pos2, mod
         Grip::Pan
     } else if over_chosen || on_handle {
         let mode = if on_handle || modifiers.alt { DragMode::Vertical } else { DragMode::Horizontal };
-        state.ask(Command::Edit(Change::BeginDrag { film: film.to_film(at), mode }));
+        state.ask(Command::Edit(SceneEdit::BeginDrag { film: film.to_film(at), mode }));
         Grip::Object
     } else {
         Grip::Orbit
@@ -219,7 +219,7 @@ fn go_on(state: &mut State, response: &egui::Response, film: Film) {
         }
         Grip::Object => {
             if let Some(at) = response.interact_pointer_pos() {
-                state.ask(Command::Edit(Change::DragTo(film.to_film(at))));
+                state.ask(Command::Edit(SceneEdit::DragTo(film.to_film(at))));
             }
         }
         Grip::Wipe => {
@@ -235,7 +235,7 @@ fn end(state: &mut State, response: &egui::Response, film: Film) {
         Grip::Orbit | Grip::Pan => state.ask(Command::Moving(false)),
         Grip::Object => {
             let at = response.interact_pointer_pos().unwrap_or(film.image.center());
-            state.ask(Command::Edit(Change::EndDrag(film.to_film(at))));
+            state.ask(Command::Edit(SceneEdit::EndDrag(film.to_film(at))));
         }
         Grip::None | Grip::Image | Grip::Wipe => {}
     }

@@ -1,4 +1,4 @@
-//! The sliders: what steers the render while it runs, and what starts it anew.
+//! The sliders: what steers the render while it runs, and what restarts it.
 
 use std::num::NonZeroU32;
 use std::time::Duration;
@@ -19,8 +19,8 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
     steer(ui, state, &settings);
     heading(ui, "Stop");
     stop_rule(ui, state, stop);
-    heading(ui, "Starts anew");
-    anew(ui, state, &settings, threads);
+    heading(ui, "Restarts the render");
+    restarting(ui, state, &settings, threads);
     heading(ui, "Camera");
     camera(ui, state, settings.sensor);
 }
@@ -87,12 +87,26 @@ fn stop_rule(ui: &mut egui::Ui, state: &mut State, rule: StopRule) {
     }
 }
 
-/// RenderSettings that start the render anew: sent when a control is let go.
-fn anew(ui: &mut egui::Ui, state: &mut State, settings: &RenderSettings, threads: Option<usize>) {
+/// Settings that restart the render: sent when a control is let go.
+fn restarting(ui: &mut egui::Ui, state: &mut State, settings: &RenderSettings, threads: Option<usize>) {
     let now = Configuration::of(settings, threads);
     let mut draft = state.draft.take().unwrap_or_else(|| now.clone());
-    let mut held = false;
-    let mut hold = |response: &egui::Response| held |= response.dragged() || response.has_focus();
+    methods(ui, &mut draft);
+    let median = state.frame.as_ref().map_or(1.0, |f| f.stats.radii.median);
+    let is_held = samples(ui, &mut draft) | radii(ui, &mut draft, median) | seed_and_threads(ui, &mut draft);
+    sensors(ui, state, &mut draft);
+    if draft != now {
+        if is_held {
+            state.draft = Some(draft);
+        } else {
+            state.ask(Command::Configure(draft));
+            state.notice("Restarted with the new settings");
+        }
+    }
+}
+
+/// How direct light is estimated, and how radii shrink.
+fn methods(ui: &mut egui::Ui, draft: &mut Configuration) {
     ui.horizontal(|ui| {
         ui.label("Direct light");
         ui.selectable_value(&mut draft.direct_light, DirectLight::Photons, "photons").on_hover_text(
@@ -115,6 +129,12 @@ fn anew(ui: &mut egui::Ui, state: &mut State, settings: &RenderSettings, threads
             "Each as far as bias outweighs noise there; α says how fast where they are in balance",
         );
     });
+}
+
+/// Eye samples. Whether a control is held.
+fn samples(ui: &mut egui::Ui, draft: &mut Configuration) -> bool {
+    let mut held = false;
+    let mut hold = |response: &egui::Response| held |= response.dragged() || response.has_focus();
     let mut samples = draft.samples_per_pixel.get();
     let value = ui.add(slider(&mut samples, 1..=64).text("hit points a pixel"));
     hold(&value);
@@ -122,12 +142,19 @@ fn anew(ui: &mut egui::Ui, state: &mut State, settings: &RenderSettings, threads
         "Eye samples a pixel, 1 to 64. More: smoother edges and gloss. Memory and gathering grow with it.",
     );
     draft.samples_per_pixel = NonZeroU32::new(samples).unwrap_or(NonZeroU32::MIN);
+    held
+}
+
+/// The first and the smallest radius. Whether a control is held.
+fn radii(ui: &mut egui::Ui, draft: &mut Configuration, median: f64) -> bool {
+    let mut held = false;
+    let mut hold = |response: &egui::Response| held |= response.dragged() || response.has_focus();
     ui.horizontal(|ui| {
         let mut own = draft.radius.is_some();
         let label = ui.checkbox(&mut own, "first radius").on_hover_text(
-            "Off: from each pixel's footprint. Large: smooth and blurred at first; small: sharp and noisy",
+            "Off: from each pixel's footprint. Large: smooth and biased at first; small: sharp and noisy",
         );
-        let start = state.frame.as_ref().map_or(1.0, |f| f.numbers.radii.median).max(1e-9);
+        let start = median.max(1e-9);
         let mut radius = draft.radius.unwrap_or(start);
         let speed = radius * 0.01;
         let value = ui.add_enabled(
@@ -149,6 +176,13 @@ fn anew(ui: &mut egui::Ui, state: &mut State, settings: &RenderSettings, threads
         );
         draft.radius_floor = RadiusFloor::new(spacings).unwrap_or(draft.radius_floor);
     });
+    held
+}
+
+/// The seed, and threads. Whether a control is held.
+fn seed_and_threads(ui: &mut egui::Ui, draft: &mut Configuration) -> bool {
+    let mut held = false;
+    let mut hold = |response: &egui::Response| held |= response.dragged() || response.has_focus();
     ui.horizontal(|ui| {
         let label = ui.label("Seed");
         let value = ui.add(egui::DragValue::new(&mut draft.seed)).labelled_by(label.id);
@@ -164,15 +198,7 @@ fn anew(ui: &mut egui::Ui, state: &mut State, settings: &RenderSettings, threads
             draft.threads = Some(n);
         }
     });
-    sensors(ui, state, &mut draft);
-    if draft != now {
-        if held {
-            state.draft = Some(draft);
-        } else {
-            state.ask(Command::Configure(draft));
-            state.notice("Started anew with the new settings");
-        }
-    }
+    held
 }
 
 fn sensors(ui: &mut egui::Ui, state: &State, draft: &mut Configuration) {

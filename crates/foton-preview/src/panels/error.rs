@@ -45,15 +45,28 @@ pub(super) fn status(ui: &mut egui::Ui, error: Option<&ErrorEstimate>) {
     ui.separator();
 }
 
-/// The rows of the table: name, value, help.
-pub(super) fn rows(state: &State) -> Vec<(&'static str, String, &'static str)> {
-    let Some((frame, e)) = state.frame.as_ref().and_then(|f| Some((f, f.numbers.error?))) else {
+/// A row of the table of statistics.
+pub(super) struct Row {
+    pub(super) name: &'static str,
+    pub(super) value: String,
+    pub(super) help: &'static str,
+}
+
+impl Row {
+    pub(super) fn new(name: &'static str, value: impl Into<String>, help: &'static str) -> Self {
+        Self { name, value: value.into(), help }
+    }
+}
+
+/// The rows of the error.
+pub(super) fn rows(state: &State) -> Vec<Row> {
+    let Some((frame, e)) = state.frame.as_ref().and_then(|f| Some((f, f.stats.error?))) else {
         return Vec::new();
     };
     let mut rows = vec![
-        ("error", percent(e.total), HELP),
-        ("noise, bias", format!("{}, {}", percent(e.noise), percent(e.bias)), HELP),
-        (
+        Row::new("error", percent(e.total), HELP),
+        Row::new("noise, bias", format!("{}, {}", percent(e.noise), percent(e.bias)), HELP),
+        Row::new(
             "from, to ",
             format!("{}, {}", percent(e.low), percent(e.high)),
             "The error lies between these, nine times in ten; the upper end takes all bias to be that of edges, of which the \
@@ -61,7 +74,7 @@ pub(super) fn rows(state: &State) -> Vec<(&'static str, String, &'static str)> {
         ),
     ];
     if e.is_of_narrow_light() {
-        rows.push((
+        rows.push(Row::new(
             "narrow light",
             percent(e.focus),
             "Light narrower than the discs (foci, beams) may add this: a few bright pixels decide, and how much is uncertain. More eye \
@@ -70,12 +83,12 @@ pub(super) fn rows(state: &State) -> Vec<(&'static str, String, &'static str)> {
     }
     for ((name, help), part) in CLASSES.into_iter().zip(e.classes.iter().flatten()) {
         let text = format!("{} ({}, {})", percent(part.total()), percent(part.noise), percent(part.bias));
-        rows.push((name, text, help));
+        rows.push(Row::new(name, text, help));
     }
     let goal = frame.stop.error.unwrap_or(USUAL_GOAL);
     if let Some(seconds) = seconds_to(&state.error, goal) {
         let text = format!("about {} to {}", duration(seconds), percent(goal));
-        rows.push(("time left", text, "From the slope of the error over time, both as logarithms"));
+        rows.push(Row::new("time left", text, "From the slope of the error over time, both as logarithms"));
     }
     rows
 }

@@ -1,7 +1,7 @@
-//! What is chosen: its material and numbers, all of them editable live.
+//! What is chosen: its material and fields, all of them editable live.
 
 use foton_edit::{Control, Field, Value};
-use foton_session::engine::{Change, Command};
+use foton_session::engine::{Command, SceneEdit};
 
 use super::widgets::{heading, slider};
 use crate::state::State;
@@ -26,7 +26,7 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
                 ui.weak(format!("shared by {} shapes", material.shapes));
                 let own = ui.button("Make its own").on_hover_text("Edits then change this shape alone");
                 if own.clicked() {
-                    state.ask(Command::Edit(Change::OwnMaterial));
+                    state.ask(Command::Edit(SceneEdit::OwnMaterial));
                 }
             }
         });
@@ -50,8 +50,8 @@ fn history(ui: &mut egui::Ui, state: &mut State) {
     let Some(scene) = state.frame.as_ref().map(|f| f.scene.clone()) else { return };
     ui.horizontal(|ui| {
         let steps = [
-            ("Undo", &scene.undo, Change::Undo, "Ctrl+Z"),
-            ("Redo", &scene.redo, Change::Redo, "Ctrl+Shift+Z"),
+            ("Undo", &scene.undo, SceneEdit::Undo, "Ctrl+Z"),
+            ("Redo", &scene.redo, SceneEdit::Redo, "Ctrl+Shift+Z"),
         ];
         for (label, step, change, keys) in steps {
             let button = ui.add_enabled(step.is_some(), egui::Button::new(label));
@@ -67,7 +67,7 @@ fn history(ui: &mut egui::Ui, state: &mut State) {
 fn show_field(ui: &mut egui::Ui, state: &mut State, field: &Field) {
     let label = ui.label(field.label).on_hover_text(field.help).id;
     let mut set = |value: Value, done: bool| {
-        state.ask(Command::Edit(Change::SetField { field: field.id, value, done }));
+        state.ask(Command::Edit(SceneEdit::SetField { field: field.id, value, done }));
     };
     match (&field.control, field.value) {
         (Control::Number { min, max, logarithmic }, Value::Number(value)) => {

@@ -2,7 +2,7 @@
 
 use egui::{Key, Modifiers};
 use foton_edit::DragMode;
-use foton_session::engine::{Activity, Change, Command, Gesture};
+use foton_session::engine::{Activity, Command, Gesture, SceneEdit};
 
 use super::toolbar::{PICTURES, open_dialog, save_dialog};
 use crate::state::{Grip, Pinned, Placement, State};
@@ -19,10 +19,10 @@ pub(super) fn obey(ui: &egui::Ui, state: &mut State) {
     }
     let pressed = |modifiers: Modifiers, key: Key| ui.input_mut(|i| i.consume_key(modifiers, key));
     if pressed(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z) || pressed(Modifiers::COMMAND, Key::Y) {
-        state.ask(Command::Edit(Change::Redo));
+        state.ask(Command::Edit(SceneEdit::Redo));
     }
     let with_command: [(Key, Act); 5] = [
-        (Key::Z, |s| s.ask(Command::Edit(Change::Undo))),
+        (Key::Z, |s| s.ask(Command::Edit(SceneEdit::Undo))),
         (Key::R, |s| s.ask(Command::Restart)),
         (Key::O, open_dialog),
         (Key::S, save_dialog),
@@ -57,10 +57,10 @@ pub(super) fn obey(ui: &egui::Ui, state: &mut State) {
             act(state);
         }
     }
-    for (key, (_, shown)) in [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5].into_iter().zip(PICTURES)
+    for (key, (_, view)) in [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5].into_iter().zip(PICTURES)
     {
         if pressed(Modifiers::NONE, key) {
-            state.choose_shown(shown);
+            state.choose_view(view);
         }
     }
     nudge(ui, state);
@@ -77,7 +77,7 @@ fn toggle_pin(state: &mut State) {
         return;
     }
     let Some(frame) = &state.frame else { return };
-    let label = format!("pass {}", frame.numbers.passes);
+    let label = format!("pass {}", frame.stats.passes);
     state.pinned = frame.picture.clone().map(|picture| Pinned { picture, label });
 }
 
@@ -86,7 +86,7 @@ fn escape(state: &mut State) {
         state.show_help = false;
     } else if state.grip == Grip::Object {
         state.grip = Grip::None;
-        state.ask(Command::Edit(Change::CancelDrag));
+        state.ask(Command::Edit(SceneEdit::CancelDrag));
     } else {
         state.ask(Command::Choose(None));
     }
@@ -106,7 +106,7 @@ fn nudge(ui: &egui::Ui, state: &mut State) {
     ];
     for (key, steps, mode) in steps {
         if ui.input_mut(|i| i.consume_key(Modifiers::NONE, key)) {
-            state.ask(Command::Edit(Change::Nudge { steps, mode }));
+            state.ask(Command::Edit(SceneEdit::Nudge { steps, mode }));
         }
     }
 }

@@ -10,8 +10,8 @@ mod inspector;
 mod keys;
 mod legend;
 mod messages;
-mod numbers;
 mod overlay;
+mod stats;
 mod text;
 mod toolbar;
 mod widgets;
@@ -39,12 +39,12 @@ pub(crate) fn show(ui: &mut egui::Ui, state: &mut State) {
     // shader takes some 60 ns of a core for each pixel, which makes fills the most of a frame.
     let frame = egui::Frame::side_top_panel(ui.style()).fill(egui::Color32::TRANSPARENT);
     egui::Panel::top("toolbar").frame(frame).show(ui, |ui| toolbar::show(ui, state));
-    egui::Panel::bottom("status").frame(frame).show(ui, |ui| numbers::status(ui, state));
+    egui::Panel::bottom("status").frame(frame).show(ui, |ui| stats::status(ui, state));
     let controls = egui::Panel::left("controls").frame(frame);
     controls.default_size(300.0).size_range(260.0..=440.0).show(ui, |ui| {
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             controls::show(ui, state);
-            numbers::show(ui, state);
+            stats::show(ui, state);
         });
     });
     if state.frame.as_ref().is_some_and(|f| f.selection.is_some()) {

@@ -44,7 +44,7 @@ pub(super) fn draw(painter: &egui::Painter, state: &State, frame: &Frame, film: 
         let font = egui::FontId::proportional(12.0);
         let at = Pos2::new(x + 8.0, film.rect.bottom() - 10.0);
         painter.text(at, egui::Align2::LEFT_BOTTOM, &pinned.label, font.clone(), Color32::WHITE);
-        let now = format!("pass {}", frame.numbers.passes);
+        let now = format!("pass {}", frame.stats.passes);
         let at = Pos2::new(x - 8.0, film.rect.bottom() - 10.0);
         painter.text(at, egui::Align2::RIGHT_BOTTOM, now, font, Color32::WHITE);
     }

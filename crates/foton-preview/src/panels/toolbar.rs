@@ -1,9 +1,9 @@
-//! The bar on top: scene, run, snapshot, what is shown.
+//! The bar on top: scene, run, snapshot, view.
 
 use std::path::PathBuf;
 
 use foton_film::ToneMap;
-use foton_session::engine::{Activity, Command, Configuration, ErrorPart, Source, ViewMode};
+use foton_session::engine::{Activity, BuildProgress, Command, Configuration, ErrorPart, Source, ViewMode};
 
 use crate::files::{CHECKPOINTS, FileDialog, SCENES};
 use crate::state::{DialogPurpose, Pinned, Placement, State};
@@ -62,7 +62,7 @@ fn scene_menu(ui: &mut egui::Ui, state: &mut State) {
     if let Some((name, building)) = opening {
         ui.spinner();
         ui.label(format!("Opening {name}"));
-        if let Some((step, share)) = building {
+        if let Some(BuildProgress { step, share }) = building {
             ui.add(egui::ProgressBar::new(share as f32).desired_width(160.0).text(step.text()));
         }
         if ui.button("Cancel").clicked() {
@@ -93,7 +93,7 @@ fn beside_the_scene(state: &State, ending: &str) -> PathBuf {
 
 fn checkpoints(ui: &mut egui::Ui, state: &mut State) {
     let keep = ui.button("Keep a checkpoint…").on_hover_text(
-        "The state of this render in a file, brought up to date every 30 s and at the end, until it starts anew; \
+        "The state of this render in a file, brought up to date every 30 s and at the end, until it restarts; \
          `foton render --resume` takes it up as well",
     );
     if keep.clicked() {
@@ -140,7 +140,7 @@ fn run(ui: &mut egui::Ui, state: &mut State) {
     }
 }
 
-/// What can be shown, by name.
+/// Views, by name.
 pub(super) const PICTURES: [(&str, ViewMode); 8] = [
     ("Radiance", ViewMode::Radiance),
     ("Luminance", ViewMode::Luminance),
@@ -153,18 +153,17 @@ pub(super) const PICTURES: [(&str, ViewMode); 8] = [
 ];
 
 fn view(ui: &mut egui::Ui, state: &mut State) {
-    let now =
-        PICTURES.iter().find(|(_, shown)| *shown == state.shown).map_or("Light by kind", |(name, _)| name);
+    let now = PICTURES.iter().find(|(_, view)| *view == state.view).map_or("Light by kind", |(name, _)| name);
     let label = ui.label("Show");
     let list = egui::ComboBox::from_id_salt("picture").selected_text(now).show_ui(ui, |ui| {
-        for (name, shown) in PICTURES {
-            if ui.selectable_label(state.shown == shown, name).clicked() {
-                state.choose_shown(shown);
+        for (name, view) in PICTURES {
+            if ui.selectable_label(state.view == view, name).clicked() {
+                state.choose_view(view);
             }
         }
     });
     list.response.labelled_by(label.id);
-    if matches!(state.shown, ViewMode::Radiance | ViewMode::Classes { .. }) {
+    if matches!(state.view, ViewMode::Radiance | ViewMode::Classes { .. }) {
         let label = ui.label("Exposure");
         let exposure = ui.add(
             egui::Slider::new(&mut state.exposure_stops, -8.0..=8.0)
@@ -174,7 +173,7 @@ fn view(ui: &mut egui::Ui, state: &mut State) {
         );
         exposure
             .labelled_by(label.id)
-            .on_hover_text("Each stop doubles the light on the screen; nothing is rendered anew");
+            .on_hover_text("Each stop doubles the light on the screen; nothing is rendered again");
         let label = ui.label("Tone");
         let list =
             egui::ComboBox::from_id_salt("tone").selected_text(state.tone_map.name()).show_ui(ui, |ui| {
@@ -185,7 +184,7 @@ fn view(ui: &mut egui::Ui, state: &mut State) {
         list.response.labelled_by(label.id);
         ui.menu_button("Light", |ui| classes(ui, state))
             .response
-            .on_hover_text("Which kinds of light are shown");
+            .on_hover_text("Which kinds of light the view has");
     }
     let photons = ui.toggle_value(&mut state.show_photons, "Photons");
     state.place("photons", &photons);
@@ -201,7 +200,7 @@ fn view(ui: &mut egui::Ui, state: &mut State) {
 }
 
 fn classes(ui: &mut egui::Ui, state: &mut State) {
-    let (mut reflected, mut emission) = match state.shown {
+    let (mut reflected, mut emission) = match state.view {
         ViewMode::Classes { reflected, emission } => (reflected, emission),
         _ => ([true; 3], true),
     };
@@ -211,25 +210,25 @@ fn classes(ui: &mut egui::Ui, state: &mut State) {
         ui.checkbox(on, name);
     }
     ui.checkbox(&mut emission, "Emitters");
-    ui.weak("Keeping kinds apart takes more memory;\nswitching it on starts anew.");
+    ui.weak("Separate kinds take more memory;\nswitching them on restarts the render.");
     if (reflected, emission) == before {
         return;
     }
     if reflected == [true; 3] && emission {
-        state.choose_shown(ViewMode::Radiance);
+        state.choose_view(ViewMode::Radiance);
         return;
     }
-    state.choose_shown(ViewMode::Classes { reflected, emission });
+    state.choose_view(ViewMode::Classes { reflected, emission });
     let apart = state.frame.as_ref().map(|f| (f.settings.clone(), f.threads));
     if let Some((settings, threads)) = apart.filter(|(settings, _)| !settings.layers) {
         let configuration = Configuration { layers: true, ..Configuration::of(&settings, threads) };
         state.ask(Command::Configure(configuration));
-        state.notice("Started anew, with direct, caustic and indirect light kept apart");
+        state.notice("Restarted, with direct, caustic and indirect light separate");
     }
 }
 
 fn compare(ui: &mut egui::Ui, state: &mut State) {
-    let picture = state.frame.as_ref().and_then(|f| f.picture.clone().map(|p| (p, f.numbers.passes)));
+    let picture = state.frame.as_ref().and_then(|f| f.picture.clone().map(|p| (p, f.stats.passes)));
     if state.pinned.is_some() {
         if ui.button("Unpin").on_hover_text("Ends the comparison (K)").clicked() {
             state.pinned = None;

@@ -5,7 +5,7 @@ use super::texture::{Shown, create_texture, write_rows};
 use super::uniforms::{self, Kind};
 use super::{Area, Picture, View, colour_map};
 
-/// Pipelines that are kept, of the thirty that there can be: adapters in software hold megabytes of machine code for each.
+/// Pipelines that are retained, of the thirty that there can be: adapters in software hold megabytes of machine code for each.
 const MAX_PIPELINES: usize = 4;
 
 /// Encoded bytes, as they go to the screen.
@@ -24,7 +24,7 @@ pub(crate) struct Presenter {
     colour_map: wgpu::Texture,
     picture: Option<Shown>,
     pinned: Option<Shown>,
-    /// Made anew when a texture is.
+    /// Replaced when a texture is.
     bindings: Option<wgpu::BindGroup>,
     shaded: Option<Shaded>,
 }

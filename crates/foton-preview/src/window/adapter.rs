@@ -82,7 +82,7 @@ impl Adapter {
         }
     }
 
-    /// Draws what egui made. A surface that is lost or outdated is made anew by the painter, which then asks for another frame.
+    /// Draws what egui made. A surface that is lost or outdated is made again by the painter, which then asks for another frame.
     /// Returns whether there still was a device to draw with.
     ///
     /// # Panics

@@ -1,11 +1,11 @@
-//! What happens when: the system's events, the engine's frames, and frames for the screen, never when nobody looks.
+//! What happens when: the system's events, the engine's frames, and frames for the screen, never when nobody sees them.
 
 use std::io::Write;
 use std::path::PathBuf;
 use std::time::{Duration, Instant, SystemTime};
 
 use foton_session::Engine;
-use foton_session::engine::{Change, Command, Event, Frame};
+use foton_session::engine::{Command, Event, Frame, SceneEdit};
 use winit::application::ApplicationHandler;
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
@@ -18,10 +18,10 @@ use super::live::Live;
 use super::pace::Pace;
 use crate::state::{State, Tone};
 
-/// Between looks at whether the scene's file has changed.
+/// How often to check whether the scene's file has changed.
 const WATCH: Duration = Duration::from_secs(1);
 
-/// Between looks for another adapter after one was lost: a driver that starts anew takes a while.
+/// How often to look for another adapter after one was lost: a driver that restarts takes a while.
 const RETRY: Duration = Duration::from_secs(1);
 
 pub(super) struct App {
@@ -195,7 +195,7 @@ impl App {
 
 /// Whether a small picture follows at once, so that a frame without it is not worth its time.
 const fn answers_soon(command: &Command) -> bool {
-    matches!(command, Command::Camera { moving: true, .. } | Command::Edit(Change::DragTo(_)))
+    matches!(command, Command::Camera { moving: true, .. } | Command::Edit(SceneEdit::DragTo(_)))
 }
 
 impl ApplicationHandler<UserEvent> for App {

@@ -83,7 +83,7 @@ impl FrameLog {
 }
 
 fn describe(frame: &Frame) -> Value {
-    let n = &frame.numbers;
+    let n = &frame.stats;
     let mut line = json!({
         "number": frame.number,
         "render": frame.render,
@@ -105,7 +105,7 @@ fn describe(frame: &Frame) -> Value {
         line["probe"] = json!({
             "pixel": probe.pixel,
             "radiance": [probe.radiance.r, probe.radiance.g, probe.radiance.b],
-            "surface": probe.surface,
+            "surface": probe.surface.as_ref().map(|names| [&names.shape, &names.material]),
         });
     }
     if let Some(selection) = &frame.selection {

@@ -126,7 +126,7 @@ impl Live {
             return false;
         }
         let Some(adapter) = &mut self.adapter else { return false };
-        adapter.inject_fault(state.frame.as_ref().map_or(0, |frame| frame.numbers.passes));
+        adapter.inject_fault(state.frame.as_ref().map_or(0, |frame| frame.stats.passes));
         let shapes = std::mem::take(&mut output.shapes);
         let ground = panels::ground(&self.context.style_of(theme).visuals);
         let pixels_per_point = output.pixels_per_point;

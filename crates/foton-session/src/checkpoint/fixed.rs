@@ -42,16 +42,16 @@ pub(super) fn of(render: &Render, scene: &SceneIdentity) -> String {
 }
 
 /// What differs between a checkpoint's lines and those of a render, in words; `None` if nothing does.
-pub(super) fn difference(kept: &str, here: &str) -> Option<String> {
-    if kept == here {
+pub(super) fn difference(stored: &str, here: &str) -> Option<String> {
+    if stored == here {
         return None;
     }
     let pairs = |text: &str| -> Vec<(String, String)> {
         let pairs = text.lines().filter_map(|line| line.split_once('='));
         pairs.map(|(name, value)| (name.to_owned(), value.to_owned())).collect()
     };
-    let (kept, here) = (pairs(kept), pairs(here));
-    let mut differing = kept.iter().zip(&here).filter(|(kept, here)| kept != here).peekable();
+    let (stored, here) = (pairs(stored), pairs(here));
+    let mut differing = stored.iter().zip(&here).filter(|(stored, here)| stored != here).peekable();
     match differing.peek() {
         Some(((name, _), _)) if name == SCENE => {
             Some("is of another scene: its file, a file that it names, or a parameter is another".to_owned())
@@ -60,8 +60,8 @@ pub(super) fn difference(kept: &str, here: &str) -> Option<String> {
         Some(_) => {
             let all: Vec<String> = differing
                 .take(MAX)
-                .map(|((name, kept), (_, here))| {
-                    format!("{} {}, not {}", shown(name), shown(kept), shown(here))
+                .map(|((name, stored), (_, here))| {
+                    format!("{} {}, not {}", shown(name), shown(stored), shown(here))
                 })
                 .collect();
             let caused = if all.len() > 1 {

@@ -2,7 +2,7 @@
 //!
 //! Layout, little-endian: 8 bytes of magic, version (u32), length of the text (u64), nanoseconds of rendering (u64), rays (u64),
 //! length of the state (u64), the text (what must be the same: see `fixed`), the state as zstd, and a hash of all bytes before (u64).
-//! What the start of a render makes anew is not in it: hit points are collected again.
+//! What the start of a render makes is not in it: hit points are collected again.
 
 mod fixed;
 mod keeper;
@@ -112,7 +112,7 @@ pub fn write(
     })
 }
 
-/// Takes a checkpoint up in a render that was started with the same scene and settings. α and photons a pass come from the
+/// Resumes a checkpoint in a render that was started with the same scene and settings. α and photons a pass come from the
 /// checkpoint.
 ///
 /// # Errors

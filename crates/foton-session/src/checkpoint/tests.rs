@@ -56,9 +56,9 @@ fn a_state_that_could_not_be_written_is_written_at_the_end() {
 
 #[test]
 fn what_differs_is_said_by_name() {
-    let kept = "scene=12\nseed=7\nspp=2\nhit points=5\n";
-    let said = |here: &str| difference(kept, here);
-    assert_eq!(said(kept), None);
+    let stored = "scene=12\nseed=7\nspp=2\nhit points=5\n";
+    let said = |here: &str| difference(stored, here);
+    assert_eq!(said(stored), None);
     let seed = "was made with seed 7, not 0, which cannot change on the way";
     assert_eq!(said("scene=12\nseed=0\nspp=2\nhit points=5\n").as_deref(), Some(seed));
     let both = "was made with seed 7, not 0; spp 2, not 4, which cannot change on the way";

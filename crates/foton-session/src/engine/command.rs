@@ -16,7 +16,7 @@ pub enum Source {
     File(PathBuf),
 }
 
-/// What starts a render anew when it changes. The rest of [`RenderSettings`] changes between passes.
+/// What restarts a render when it changes. The rest of [`RenderSettings`] changes between passes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Configuration {
     /// First radius in world units; `None`: from the pixel's footprint.
@@ -33,7 +33,7 @@ pub struct Configuration {
     pub seed: u64,
     /// Index of the sensor.
     pub sensor: usize,
-    /// Whether direct, caustic and indirect light are kept apart.
+    /// Whether direct, caustic and indirect light are separated.
     pub layers: bool,
     /// Longest path in edges; `None`: what the scene says.
     pub max_depth: Option<u32>,
@@ -59,7 +59,7 @@ impl Configuration {
         }
     }
 
-    /// RenderSettings with this configuration.
+    /// Settings with this configuration.
     pub(super) fn apply(&self, settings: &mut RenderSettings) {
         settings.ppm.radius = self.radius;
         settings.ppm.radius_floor = self.radius_floor;
@@ -112,9 +112,9 @@ pub enum Gesture {
     FieldOfView(f64),
 }
 
-/// A change of the scene. Film positions are pixels from the image's top left corner.
+/// An edit of the scene. Film positions are pixels from the image's top left corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Change {
+pub enum SceneEdit {
     /// Takes hold of what is chosen.
     BeginDrag {
         /// Where.
@@ -196,7 +196,7 @@ pub enum Command {
     CancelOpen,
     /// From the next pass on.
     Steer(foton_integrator::SettingChange),
-    /// Starts anew.
+    /// Restarts with other settings.
     Configure(Configuration),
     /// Finishes the pass under way and waits.
     Pause,
@@ -204,7 +204,7 @@ pub enum Command {
     Resume,
     /// One pass, then waits.
     Step,
-    /// Starts anew with the same settings.
+    /// Restarts with the same settings.
     Restart,
     /// When to stop.
     StopAt(StopRule),
@@ -222,7 +222,7 @@ pub enum Command {
     /// Chooses the surface or light at a film position.
     Choose(Option<[f64; 2]>),
     /// Changes the scene.
-    Edit(Change),
+    Edit(SceneEdit),
     /// What frames carry.
     Show(ViewMode),
     /// Whether frames carry the photons of the last pass.
@@ -235,7 +235,7 @@ pub enum Command {
     AutoSnapshots(Option<PathBuf>),
     /// Writes the scene with its edits to a file.
     SaveScene(PathBuf),
-    /// Writes the render to a checkpoint, and again every half minute and at the end, until it starts anew.
+    /// Writes the render to a checkpoint, and again every half minute and at the end, until it restarts.
     KeepCheckpoint(PathBuf),
     /// Goes on from a checkpoint of this scene and configuration, whole or by `foton render`.
     ResumeCheckpoint(PathBuf),

@@ -1,4 +1,4 @@
-//! What a window sees of a render: a picture and numbers, never a hit point or a scene.
+//! What a window sees of a render: a picture and statistics, never a hit point or a scene.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -39,7 +39,7 @@ pub enum Activity {
 pub enum Picture {
     /// Linear radiance.
     Colour(Arc<Image>),
-    /// A measure, to be shown in false colours.
+    /// A measure, for false colours.
     Measure {
         /// What and in which unit.
         label: &'static str,
@@ -68,6 +68,24 @@ pub struct Dot {
     pub class: PathClass,
 }
 
+/// How far building a scene is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BuildProgress {
+    /// The step under way.
+    pub step: BuildStep,
+    /// The share of it that is done.
+    pub share: f64,
+}
+
+/// Names of what a ray meets.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SurfaceNames {
+    /// The shape.
+    pub shape: String,
+    /// Its material.
+    pub material: String,
+}
+
 /// What is known of the pixel that a person points at.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probe {
@@ -84,7 +102,7 @@ pub struct Probe {
     /// Distance from the camera to its first hit point, in world units.
     pub distance: Option<f64>,
     /// Names of the shape and material that it sees first.
-    pub surface: Option<(String, String)>,
+    pub surface: Option<SurfaceNames>,
     /// The outline of its first hit point's disc, in pixels of the image.
     pub disc: Vec<[f32; 2]>,
     /// Photons of the last pass within that disc.
@@ -136,7 +154,7 @@ pub struct SceneFacts {
 
 /// How a render stands.
 #[derive(Clone, Debug, Default)]
-pub struct Numbers {
+pub struct RenderStats {
     /// Passes.
     pub passes: u64,
     /// Photons emitted.
@@ -180,16 +198,16 @@ pub struct Frame {
     pub activity: Activity,
     /// Whether another scene is being opened.
     pub opening: Option<String>,
-    /// What building that scene is at and the share of it that is done; `None` while its file is read.
-    pub building: Option<(BuildStep, f64)>,
+    /// How far building that scene is; `None` while its file is read.
+    pub building: Option<BuildProgress>,
     /// Size of the whole image in pixels.
     pub size: [u32; 2],
     /// The picture; smaller than `size` while things move.
     pub picture: Option<Picture>,
-    /// What the picture shows.
-    pub shown: ViewMode,
-    /// The numbers.
-    pub numbers: Numbers,
+    /// What the picture is of.
+    pub view: ViewMode,
+    /// How the render stands.
+    pub stats: RenderStats,
     /// The settings as they are now.
     pub settings: RenderSettings,
     /// Threads; `None`: as many as the machine has.

@@ -23,9 +23,9 @@ impl Worker {
         match self.first_checkpoint(path) {
             Ok(keeper) => {
                 self.event(Event::Saved(vec![path.to_owned()]));
-                self.keeper = Some(keeper);
+                self.files.keeper = Some(keeper);
                 // The last state is owed from now on, so that the end waits for it.
-                self.unwritten.fetch_add(1, Ordering::SeqCst);
+                self.files.unwritten.fetch_add(1, Ordering::SeqCst);
             }
             Err(message) => self.event(Event::Failed(message)),
         }
@@ -33,7 +33,7 @@ impl Worker {
 
     fn first_checkpoint(&self, path: &Path) -> Result<Keeper, String> {
         let scene = self.named_by_its_file()?;
-        let (render, _) = self.rendered().ok_or("there is no pass to keep yet")?;
+        let (render, _) = self.rendered().ok_or("there is no pass to write yet")?;
         let session = render.session();
         let mut keeper = Keeper::new(path, scene, EVERY, session.elapsed());
         let written = keeper.write(session.render(), session.elapsed(), session.rays());
@@ -42,17 +42,17 @@ impl Worker {
 
     /// Finishes the checkpoint of a render that ends: the next render has no business in its file.
     pub(super) fn leave_checkpoint(&mut self) {
-        if let Some(keeper) = &self.keeper {
+        if let Some(keeper) = &self.files.keeper {
             let name = foton_input::shown_path(keeper.path());
-            self.event(Event::Notice(format!("{name} keeps the render before; this one is not kept")));
+            self.event(Event::Notice(format!("{name} has the render before; this one has no checkpoint")));
         }
         self.finish_checkpoint();
     }
 
     /// Writes the checkpoint if it is due.
     pub(super) fn update_checkpoint(&mut self) {
-        let Some(keeper) = &mut self.keeper else { return };
-        let Some(session) = self.render.as_ref().map(LevelRender::session) else { return };
+        let Some(keeper) = &mut self.files.keeper else { return };
+        let Some(session) = self.current.render.as_ref().map(LevelRender::session) else { return };
         if !keeper.is_due(session.elapsed()) {
             return;
         }
@@ -63,7 +63,7 @@ impl Worker {
 
     /// Writes the checkpoint for the last time.
     pub(super) fn finish_checkpoint(&mut self) {
-        let Some(mut keeper) = self.keeper.take() else { return };
+        let Some(mut keeper) = self.files.keeper.take() else { return };
         let written = self.rendered().map_or(Ok(()), |(render, _)| keeper.write_last(render.session()));
         if let Err(unwritten) = written {
             let instead = unwritten.spare.map_or_else(
@@ -72,13 +72,13 @@ impl Worker {
             );
             self.event(Event::Failed(format!("{}; {instead}", unwritten.cause)));
         }
-        self.unwritten.fetch_sub(1, Ordering::SeqCst);
+        self.files.unwritten.fetch_sub(1, Ordering::SeqCst);
     }
 
     /// Resumes the checkpoint that was asked for in a render that has just started whole. Where the checkpoint does not fit, there
     /// is no render: the next one begins at its first pass.
     pub(super) fn resume_in(&mut self, mut render: LevelRender) -> Option<LevelRender> {
-        let Some(path) = self.resuming.take() else { return Some(render) };
+        let Some(path) = self.files.resuming.take() else { return Some(render) };
         let resumed = self.named_by_its_file().and_then(|scene| {
             checkpoint::resume(&path, render.session_mut(), &scene).map_err(|error| error.to_string())
         });
@@ -88,18 +88,18 @@ impl Worker {
             return None;
         }
         let settings = render.render().settings();
-        self.settings.ppm.alpha = settings.ppm.alpha;
-        self.settings.ppm.photons_per_pass = settings.ppm.photons_per_pass;
+        self.plan.settings.ppm.alpha = settings.ppm.alpha;
+        self.plan.settings.ppm.photons_per_pass = settings.ppm.photons_per_pass;
         self.event(Event::Notice(format!("Going on after {} passes", render.render().passes())));
         Some(render.resumed())
     }
 
     /// The scene that is rendered, if the hash of its file stands for it.
     fn named_by_its_file(&self) -> Result<SceneIdentity, String> {
-        let stage = self.stage.as_ref().ok_or("there is no render to keep")?;
-        if stage.is_as_opened() {
-            return Ok(stage.identity());
+        let scene = self.scene.as_ref().ok_or("there is no render to write")?;
+        if scene.is_as_opened() {
+            return Ok(scene.identity());
         }
-        Err("a checkpoint belongs to a scene file, and this scene has edits: save it, open the saved file, and keep that".into())
+        Err("a checkpoint belongs to a scene file, and this scene has edits: save it and open the saved file first".into())
     }
 }

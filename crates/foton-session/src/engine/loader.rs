@@ -9,9 +9,10 @@ use std::thread;
 use crossbeam_channel::{Receiver, Sender, bounded};
 use foton_integrator::{Cancel, RenderSettings};
 use foton_scene::description::SceneDescription;
-use foton_scene::{BuildError, BuildOptions, BuildStep, Scene};
+use foton_scene::{BuildError, BuildOptions, Scene};
 
 use super::command::Source;
+use super::frame::BuildProgress;
 use crate::findings::{self, Finding, SettingNames};
 use crate::metadata::SceneIdentity;
 use crate::panic::catch_panic;
@@ -23,7 +24,7 @@ pub struct Loaded {
     pub description: SceneDescription,
     /// Its name and hash.
     pub identity: SceneIdentity,
-    /// RenderSettings, with what the file suggests.
+    /// Settings, with what the file suggests.
     pub settings: RenderSettings,
     /// What the file says without effect, each with its place.
     pub warnings: Vec<String>,
@@ -67,14 +68,11 @@ pub(super) struct Ready {
     pub(super) findings: Vec<Finding>,
 }
 
-/// What building a scene is at, and the share of that which is done.
-pub(super) type Building = (BuildStep, f64);
-
 /// A scene that is being opened; dropped it is given up.
 pub(super) struct Opening {
     pub(super) name: String,
     pub(super) result: Receiver<Result<Box<Ready>, String>>,
-    at: Arc<Mutex<Option<Building>>>,
+    at: Arc<Mutex<Option<BuildProgress>>>,
     cancel: Cancel,
 }
 
@@ -101,7 +99,7 @@ impl Opening {
     }
 
     /// How far building is; `None` while the file is read.
-    pub(super) fn building(&self) -> Option<Building> {
+    pub(super) fn building(&self) -> Option<BuildProgress> {
         *self.at.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -110,7 +108,7 @@ fn open(
     loader: &dyn Loader,
     source: Source,
     sender: &Sender<Result<Box<Ready>, String>>,
-    at: &Mutex<Option<Building>>,
+    at: &Mutex<Option<BuildProgress>>,
     cancel: Cancel,
 ) {
     let name = source.to_string();
@@ -124,11 +122,13 @@ fn open(
 fn open_and_build(
     loader: &dyn Loader,
     source: Source,
-    at: &Mutex<Option<Building>>,
+    at: &Mutex<Option<BuildProgress>>,
     cancel: Cancel,
 ) -> Result<Box<Ready>, String> {
     loader.open(&source, &cancel).and_then(|loaded| {
-        let tell = |step, share| *at.lock().unwrap_or_else(PoisonError::into_inner) = Some((step, share));
+        let tell = |step, share| {
+            *at.lock().unwrap_or_else(PoisonError::into_inner) = Some(BuildProgress { step, share });
+        };
         let options = BuildOptions { cancel, tell: Some(&tell), ..BuildOptions::default() };
         let built = Scene::build_with(&loaded.description, &options);
         let scene = built.map_err(|cause| loader.why_not_built(&loaded, &cause))?;

@@ -3,7 +3,9 @@
 //! Threads meet here and nowhere else: commands come in over one bounded channel, frames leave over a slot that keeps the newest,
 //! events (which must not get lost) over a third. The engine calls `wake` when there is something to see.
 
+mod cancels;
 mod command;
+mod editable_scene;
 mod frame;
 mod keeping;
 mod loader;
@@ -12,7 +14,6 @@ mod rates;
 mod render;
 mod setup;
 mod slot;
-mod stage;
 mod worker;
 mod writing;
 
@@ -22,18 +23,21 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, Sender, bounded};
-use foton_integrator::Cancel;
 
-pub use command::{Change, Command, Configuration, ErrorPart, Event, Gesture, Source, ViewMode};
+use cancels::Cancels;
+pub use command::{Command, Configuration, ErrorPart, Event, Gesture, SceneEdit, Source, ViewMode};
 pub use foton_scene::BuildStep;
-pub use frame::{Activity, Dot, Frame, Numbers, Picture, Probe, SceneFacts, Selection, SensorFacts};
+pub use frame::{
+    Activity, BuildProgress, Dot, Frame, Picture, Probe, RenderStats, SceneFacts, Selection, SensorFacts,
+    SurfaceNames,
+};
 pub use loader::{Loaded, Loader};
 pub use setup::Setup;
 
 /// Commands that may wait at once. A window sends a few for each frame it draws.
 const COMMANDS: usize = 1024;
 
-/// Events that may wait at once; the oldest are kept.
+/// Events that may wait at once; the newest are dropped.
 const EVENTS: usize = 256;
 
 /// A handle on the engine. Dropping it ends the engine after what it is writing.
@@ -41,15 +45,13 @@ pub struct Engine {
     commands: Sender<Command>,
     frames: Receiver<Frame>,
     events: Receiver<Event>,
-    cancel: Cancel,
-    /// Gives up whatever is built, for good.
-    quit: Cancel,
+    cancels: Cancels,
     /// Files that were asked for and are not written yet.
     unwritten: Arc<AtomicUsize>,
 }
 
-/// Between looks at whether all files are written.
-const LOOK_AGAIN: Duration = Duration::from_millis(2);
+/// How often to check whether all files are written.
+const POLL: Duration = Duration::from_millis(2);
 
 /// How long to wait for files at most.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -63,14 +65,13 @@ impl Engine {
         let (commands, command_receiver) = bounded(COMMANDS);
         let (frame_sender, frames) = slot::newest();
         let (event_sender, events) = bounded(EVENTS);
-        let (cancel, quit) = (Cancel::default(), Cancel::default());
+        let cancels = Cancels::default();
         let channels =
             worker::Channels { commands: command_receiver, frames: frame_sender, events: event_sender };
         let unwritten = Arc::new(AtomicUsize::new(0));
-        let worker =
-            worker::Worker::new(setup, channels, [cancel.clone(), quit.clone()], Arc::clone(&unwritten));
+        let worker = worker::Worker::new(setup, channels, cancels.clone(), Arc::clone(&unwritten));
         thread::Builder::new().name("engine".to_owned()).spawn(move || worker.run())?;
-        Ok(Self { commands, frames, events, cancel, quit, unwritten })
+        Ok(Self { commands, frames, events, cancels, unwritten })
     }
 
     /// Asks for something. Where the pass under way would be for nothing, it is discarded. Returns whether the engine is there
@@ -78,7 +79,7 @@ impl Engine {
     pub fn send(&self, command: Command) -> bool {
         let (interrupts, writes) = (command.interrupts(), command.writes());
         if matches!(command, Command::Quit) {
-            self.quit.request();
+            self.cancels.quit.request();
         }
         if writes {
             self.unwritten.fetch_add(1, Ordering::SeqCst);
@@ -88,7 +89,7 @@ impl Engine {
             self.unwritten.fetch_sub(1, Ordering::SeqCst);
         }
         if interrupts {
-            self.cancel.request();
+            self.cancels.work.request();
         }
         sent
     }
@@ -99,7 +100,7 @@ impl Engine {
         self.send(Command::Quit);
         let begin = Instant::now();
         while self.unwritten.load(Ordering::SeqCst) > 0 && begin.elapsed() < PATIENCE {
-            thread::sleep(LOOK_AGAIN);
+            thread::sleep(POLL);
         }
     }
 

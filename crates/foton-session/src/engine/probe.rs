@@ -8,7 +8,7 @@ use foton_math::glam::{DVec3, Vec2};
 use foton_scene::Scene;
 use rayon::prelude::*;
 
-use super::frame::{Dot, Probe};
+use super::frame::{Dot, Probe, SurfaceNames};
 
 /// Photons drawn at most.
 const DOTS: usize = 20_000;
@@ -73,10 +73,10 @@ pub(super) fn probe(render: &Render, pixel: [u32; 2]) -> Option<Probe> {
     })
 }
 
-fn surface(scene: &Scene, ray: Ray) -> Option<(String, String)> {
+fn surface(scene: &Scene, ray: Ray) -> Option<SurfaceNames> {
     let hit = scene.nearest(ray)?;
     let shape = scene.shapes().get(hit.shape as usize)?;
-    Some((shape.name.clone(), scene.material(hit.shape).name.clone()))
+    Some(SurfaceNames { shape: shape.name.clone(), material: scene.material(hit.shape).name.clone() })
 }
 
 /// The edge of a disc in pixels; empty where a part of it is behind the camera.

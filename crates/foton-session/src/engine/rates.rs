@@ -21,6 +21,13 @@ impl Mark {
     }
 }
 
+/// What a render makes a second.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct PerSecond {
+    pub(super) photons: f64,
+    pub(super) rays: f64,
+}
+
 /// Marks of the last passes, oldest first; never none.
 pub(super) struct Rates(Vec<Mark>);
 
@@ -37,13 +44,16 @@ impl Rates {
         self.0.drain(..old.saturating_sub(1));
     }
 
-    /// Photons and rays a second; zero until time has passed.
-    pub(super) fn per_second(&self) -> (f64, f64) {
-        let (Some(first), Some(last)) = (self.0.first(), self.0.last()) else { return (0.0, 0.0) };
+    /// Zero until time has passed.
+    pub(super) fn per_second(&self) -> PerSecond {
+        let (Some(first), Some(last)) = (self.0.first(), self.0.last()) else { return PerSecond::default() };
         // Nothing here relies on clocks that go forwards: a checkpoint brings its own time.
         let seconds = last.elapsed.saturating_sub(first.elapsed).as_secs_f64();
         let rate = |n: u64| if seconds > 0.0 { n as f64 / seconds } else { 0.0 };
-        (rate(last.photons.saturating_sub(first.photons)), rate(last.rays.saturating_sub(first.rays)))
+        PerSecond {
+            photons: rate(last.photons.saturating_sub(first.photons)),
+            rays: rate(last.rays.saturating_sub(first.rays)),
+        }
     }
 }
 
@@ -58,12 +68,12 @@ mod tests {
     #[test]
     fn rates_are_those_of_the_last_two_seconds() {
         let mut rates = Rates::since(mark(1.0, 0));
-        assert_eq!(rates.per_second(), (0.0, 0.0));
+        assert_eq!(rates.per_second(), PerSecond::default());
         for (seconds, photons) in [(2.0, 100), (3.0, 200), (4.5, 500), (5.0, 600)] {
             rates.add(mark(seconds, photons));
         }
         // From the mark at two seconds on: the last one that is older than the span.
-        assert_eq!(rates.per_second(), (500.0 / 3.0, 500.0));
+        assert_eq!(rates.per_second(), PerSecond { photons: 500.0 / 3.0, rays: 500.0 });
     }
 
     /// A checkpoint may have taken less time, or fewer photons, than the render that resumes it has by then.
@@ -71,10 +81,10 @@ mod tests {
     fn clocks_that_go_backwards_give_no_rate_rather_than_a_panic() {
         let mut rates = Rates::since(mark(5.0, 1000));
         rates.add(mark(1.0, 10));
-        assert_eq!(rates.per_second(), (0.0, 0.0));
+        assert_eq!(rates.per_second(), PerSecond::default());
         rates.add(Mark { elapsed: Duration::MAX, photons: u64::MAX, rays: u64::MAX });
-        assert!(rates.per_second().0.is_finite());
+        assert!(rates.per_second().photons.is_finite());
         rates.add(mark(2.0, 20));
-        assert!(rates.per_second().0 >= 0.0);
+        assert!(rates.per_second().photons >= 0.0);
     }
 }

@@ -12,8 +12,8 @@ use foton_scene::description::SensorDescription;
 use rayon::ThreadPool;
 
 use super::command::{ErrorPart, ViewMode};
-use super::frame::{Numbers, Picture};
-use super::rates::{Mark, Rates};
+use super::frame::{Picture, RenderStats};
+use super::rates::{Mark, PerSecond, Rates};
 use crate::findings::{self, Finding, SettingNames};
 use crate::session::{PassError, Session, StartError};
 
@@ -193,14 +193,14 @@ impl LevelRender {
     }
 
     /// How the render stands, whose error is to fall to a goal.
-    pub(super) fn numbers(&mut self, goal: Option<f64>) -> Numbers {
+    pub(super) fn stats(&mut self, goal: Option<f64>) -> RenderStats {
         let render = self.session.render();
         let RecentRadii { radii, .. } = match self.radii {
             Some(recent) if recent.at.elapsed() < RADII_EVERY => recent,
             _ => *self.radii.insert(RecentRadii { at: Instant::now(), radii: render.radii() }),
         };
-        let (photons_per_s, rays_per_s) = self.rates.per_second();
-        Numbers {
+        let PerSecond { photons: photons_per_s, rays: rays_per_s } = self.rates.per_second();
+        RenderStats {
             passes: render.passes(),
             photons: render.photons_emitted(),
             photons_in_pass: self.photons_in_pass,
@@ -218,15 +218,15 @@ impl LevelRender {
         }
     }
 
-    /// The picture as it stands; radiance where what is asked for is not kept.
-    pub(super) fn picture(&self, shown: ViewMode) -> Picture {
+    /// The picture as it stands; radiance where what is asked for is not estimated.
+    pub(super) fn picture(&self, view: ViewMode) -> Picture {
         let render = self.render();
         let measure = |label, values: Vec<f32>| {
             let image = &render.scene().sensors()[render.settings().sensor];
             let plane = Plane { width: image.width, height: image.height, values };
             Picture::Measure { label, plane: Arc::new(plane) }
         };
-        match shown {
+        match view {
             ViewMode::Radiance => Picture::Colour(Arc::new(render.image())),
             ViewMode::Classes { reflected, emission } => {
                 Picture::Colour(Arc::new(classes(render, reflected, emission)))

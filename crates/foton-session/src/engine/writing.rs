@@ -5,17 +5,17 @@ use std::path::Path;
 use foton_film::{check_writable, is_same_file};
 
 use super::command::Event;
+use super::editable_scene::EditableScene;
 use super::render::LevelRender;
-use super::stage::Stage;
 use super::worker::Worker;
 use crate::checkpoint::Keeper;
 use crate::snapshot::{self, Format};
 
 impl Worker {
     /// The whole render, once it has a pass.
-    pub(super) fn rendered(&self) -> Option<(&LevelRender, &Stage)> {
-        let render = self.render.as_ref().filter(|r| r.is_whole() && r.render().passes() > 0)?;
-        Some((render, self.stage.as_ref()?))
+    pub(super) fn rendered(&self) -> Option<(&LevelRender, &EditableScene)> {
+        let render = self.current.render.as_ref().filter(|r| r.is_whole() && r.render().passes() > 0)?;
+        Some((render, self.scene.as_ref()?))
     }
 
     pub(super) fn snapshot(&self, folder: &Path) {
@@ -26,34 +26,35 @@ impl Worker {
     }
 
     pub(super) fn auto_snapshot(&self, folder: &Path) {
-        let Some((render, stage)) = self.rendered() else { return };
-        let stem = Path::new(&stage.facts().name).file_stem().unwrap_or_default().to_owned();
+        let Some((render, scene)) = self.rendered() else { return };
+        let stem = Path::new(&scene.facts().name).file_stem().unwrap_or_default().to_owned();
         let path = snapshot::numbered(&folder.join(stem).with_extension("exr"), render.render().passes());
         self.write(&path.with_extension(""));
     }
 
     /// Why a file is not to be written over: the scene was read from it.
     pub(super) fn why_not_over_the_scene(&self, path: &Path) -> Option<String> {
-        let mut files = self.stage.iter().flat_map(|stage| &stage.files);
+        let mut files = self.scene.iter().flat_map(|scene| &scene.files);
         let file = files.find(|file| is_same_file(file, path))?;
         Some(format!("cannot write {}: the scene reads that file ({})", path.display(), file.display()))
     }
 
-    /// Why a picture is not to be written over a file: as for the scene, or the checkpoint is kept there.
+    /// Why a picture is not to be written over a file: as for the scene, or it is the checkpoint.
     fn why_not_over(&self, path: &Path) -> Option<String> {
         self.why_not_over_the_scene(path).or_else(|| self.why_not_over_the_checkpoint(path))
     }
 
     fn why_not_over_the_checkpoint(&self, path: &Path) -> Option<String> {
-        let checkpoint = self.keeper.as_ref().map(Keeper::path).filter(|file| is_same_file(file, path))?;
+        let checkpoint =
+            self.files.keeper.as_ref().map(Keeper::path).filter(|file| is_same_file(file, path))?;
         let [path, checkpoint] = [path, checkpoint].map(Path::display);
-        Some(format!("cannot write {path}: the checkpoint {checkpoint} is kept there"))
+        Some(format!("cannot write {path}: it is the checkpoint {checkpoint}"))
     }
 
     /// Writes both pictures of a stem.
     fn write(&self, stem: &Path) {
-        let Some((render, stage)) = self.rendered() else { return };
-        let identity = stage.identity();
+        let Some((render, scene)) = self.rendered() else { return };
+        let identity = scene.identity();
         let mut written = Vec::new();
         for (extension, format) in [("exr", Format::Exr), ("png", Format::Png)] {
             let path = stem.with_extension(extension);
@@ -77,12 +78,12 @@ impl Worker {
         if let Some(message) = self.why_not_over_the_checkpoint(path) {
             return self.event(Event::Failed(message));
         }
-        let Some(stage) = &mut self.stage else {
+        let Some(scene) = &mut self.scene else {
             return self.event(Event::Failed("there is no scene to save".to_owned()));
         };
-        match self.setup.loader.save(&*stage.origin, stage.description(), path) {
+        match self.setup.loader.save(&*scene.origin, scene.description(), path) {
             Ok(note) => {
-                stage.saved();
+                scene.saved();
                 self.event(Event::Saved(vec![path.to_owned()]));
                 if !note.is_empty() {
                     self.event(Event::Notice(note));

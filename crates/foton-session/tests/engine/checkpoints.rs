@@ -1,10 +1,10 @@
-//! A render that is kept in a file goes on from there, in another window or in none.
+//! A render that has a checkpoint goes on from there, in another window or in none.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use foton_edit::DragMode;
-use foton_session::engine::{Change, Command, Event, Frame, Gesture};
+use foton_session::engine::{Command, Event, Frame, Gesture, SceneEdit};
 use foton_session::{StopRule, checkpoint};
 
 use crate::rig::{BALL, Folder, Rig, headless, identity, image, scene_file, settings};
@@ -24,7 +24,7 @@ fn passes(path: &Path) -> u64 {
 }
 
 #[test]
-fn what_is_kept_is_taken_up_with_the_same_bits_and_written_at_the_end() {
+fn a_checkpoint_is_resumed_with_the_same_bits_and_written_at_the_end() {
     let folder = Folder::new("keep");
     let path = folder.0.join("room.checkpoint");
     let (rig, _) = Rig::at_pass(2);
@@ -40,10 +40,10 @@ fn what_is_kept_is_taken_up_with_the_same_bits_and_written_at_the_end() {
     other.send(Command::StopAt(StopRule::passes(5)));
     other.done(5);
     other.send(Command::ResumeCheckpoint(path));
-    let after = other.until("the rest", |f: &Frame| f.render != first.render && f.numbers.passes == 5);
+    let after = other.until("the rest", |f: &Frame| f.render != first.render && f.stats.passes == 5);
     let straight = headless(5, settings(), |_, _| ());
     assert_eq!(*image(&after), straight.render().image());
-    assert_eq!(after.numbers.photons, straight.render().photons_emitted());
+    assert_eq!(after.stats.photons, straight.render().photons_emitted());
 }
 
 /// Rates and stop rules go by the checkpoint's clock, which may show less than the eye pass has just taken, or much more.
@@ -57,19 +57,19 @@ fn a_checkpoint_of_any_age_is_resumed() {
         let (rig, first) = Rig::at_pass(1);
         rig.send(Command::StopAt(StopRule::passes(9)));
         rig.send(Command::ResumeCheckpoint(path.clone()));
-        let after = rig.until("the rest", |f| f.render != first.render && f.numbers.passes == 9);
+        let after = rig.until("the rest", |f| f.render != first.render && f.stats.passes == 9);
         assert_eq!(*image(&after), headless(9, settings(), |_, _| ()).render().image());
         // What the checkpoint brings was not made in this window.
-        let made = after.numbers.photons - two.render().photons_emitted();
-        let seconds = after.numbers.elapsed.saturating_sub(elapsed).as_secs_f64();
+        let made = after.stats.photons - two.render().photons_emitted();
+        let seconds = after.stats.elapsed.saturating_sub(elapsed).as_secs_f64();
         if elapsed < Duration::from_secs(1) {
-            assert!(after.numbers.photons_per_s * seconds <= 1.001 * made as f64, "{:?}", after.numbers);
+            assert!(after.stats.photons_per_s * seconds <= 1.001 * made as f64, "{:?}", after.stats);
         }
     }
 }
 
 #[test]
-fn a_render_that_starts_anew_leaves_what_was_kept_of_the_one_before() {
+fn a_render_that_restarts_leaves_the_checkpoint_of_the_one_before() {
     let folder = Folder::new("leave");
     let path = folder.0.join("room.checkpoint");
     let (rig, _) = Rig::at_pass(1);
@@ -81,7 +81,7 @@ fn a_render_that_starts_anew_leaves_what_was_kept_of_the_one_before() {
     rig.hear("of the end of keeping", |event| {
         matches!(event, Event::Notice(text) if text.contains("room.checkpoint")).then_some(())
     });
-    rig.until("the next render", |f| f.render != before.render && f.numbers.passes == 4);
+    rig.until("the next render", |f| f.render != before.render && f.stats.passes == 4);
     assert_eq!(passes(&path), 4);
 }
 
@@ -93,24 +93,24 @@ fn edited_scenes_and_other_files_are_refused_and_the_render_goes_on() {
     let (rig, before) = Rig::at_pass(2);
     rig.send(Command::ResumeCheckpoint(path.clone()));
     assert!(failure(&rig).contains("this is no checkpoint"));
-    let after = rig.until("a render all the same", |f| f.render != before.render && f.numbers.passes == 2);
+    let after = rig.until("a render all the same", |f| f.render != before.render && f.stats.passes == 2);
     assert_eq!(image(&after), image(&before));
 
     rig.send(Command::Choose(Some(BALL)));
-    rig.send(Command::Edit(Change::Nudge { steps: [3.0, 0.0], mode: DragMode::Horizontal }));
-    rig.until("the edit", |f| f.scene.is_edited && f.numbers.passes == 2);
+    rig.send(Command::Edit(SceneEdit::Nudge { steps: [3.0, 0.0], mode: DragMode::Horizontal }));
+    rig.until("the edit", |f| f.scene.is_edited && f.stats.passes == 2);
     rig.send(Command::KeepCheckpoint(path.clone()));
     assert!(failure(&rig).contains("save it"));
-    rig.send(Command::Edit(Change::Undo));
+    rig.send(Command::Edit(SceneEdit::Undo));
     rig.send(Command::Camera { gesture: Gesture::Zoom(1.1), moving: false });
-    rig.until("the camera", |f| f.scene.is_edited && f.numbers.passes == 2);
+    rig.until("the camera", |f| f.scene.is_edited && f.stats.passes == 2);
     rig.send(Command::KeepCheckpoint(path.clone()));
     assert!(failure(&rig).contains("save it"));
     assert_eq!(std::fs::read_to_string(&path).expect("still there"), "not one");
 }
 
 #[test]
-fn a_folder_that_vanishes_costs_what_is_kept_there_and_the_render_goes_on() {
+fn a_folder_that_vanishes_costs_its_checkpoint_and_the_render_goes_on() {
     let folder = Folder::new("vanish");
     let path = folder.0.join("room.checkpoint");
     let (rig, before) = Rig::at_pass(2);
@@ -120,7 +120,7 @@ fn a_folder_that_vanishes_costs_what_is_kept_there_and_the_render_goes_on() {
     rig.send(Command::StopAt(StopRule::passes(4)));
     let after = rig.done(4);
     assert_eq!(after.render, before.render);
-    // What is kept is written for the last time when another file is asked for; neither has a place.
+    // The checkpoint is written for the last time when another is asked for; neither has a place.
     rig.send(Command::KeepCheckpoint(path.clone()));
     let expected =
         format!("cannot write {}: the folder {} does not exist", path.display(), folder.0.display());
@@ -143,32 +143,31 @@ fn a_folder_that_vanishes_costs_what_is_kept_there_and_the_render_goes_on() {
 
 /// Not even by a link: the scene's own files stay, and so does a checkpoint where pictures go.
 #[test]
-fn nothing_is_written_over_what_the_scene_is_read_from_or_what_is_kept() {
+fn nothing_is_written_over_what_the_scene_is_read_from_or_its_checkpoint() {
     let folder = Folder::new("over");
-    let kept = folder.0.join("room.checkpoint");
+    let last = folder.0.join("room.checkpoint");
     std::fs::write(scene_file(), "the scene").expect("written");
     let (rig, _) = Rig::at_pass(2);
-    rig.send(Command::KeepCheckpoint(kept.clone()));
+    rig.send(Command::KeepCheckpoint(last.clone()));
     rig.saved();
     let over = |path: &Path, file: &Path| {
         format!("cannot write {}: the scene reads that file ({})", path.display(), file.display())
     };
     rig.send(Command::KeepCheckpoint(scene_file()));
     assert_eq!(failure(&rig), over(&scene_file(), &scene_file()));
-    // What was kept before is still kept.
-    rig.send(Command::SaveScene(kept.clone()));
-    let busy = |path: &Path| {
-        format!("cannot write {}: the checkpoint {} is kept there", path.display(), kept.display())
-    };
-    assert_eq!(failure(&rig), busy(&kept));
+    // The checkpoint before still follows the render.
+    rig.send(Command::SaveScene(last.clone()));
+    let busy =
+        |path: &Path| format!("cannot write {}: it is the checkpoint {}", path.display(), last.display());
+    assert_eq!(failure(&rig), busy(&last));
     let [exr, png] = ["exr", "png"].map(|e| folder.0.join("room-000004").with_extension(e));
     std::fs::hard_link(scene_file(), &exr).expect("a link");
-    std::fs::hard_link(&kept, &png).expect("a link");
+    std::fs::hard_link(&last, &png).expect("a link");
     rig.send(Command::AutoSnapshots(Some(folder.0.clone())));
     rig.send(Command::StopAt(StopRule::passes(4)));
     rig.done(4);
     assert_eq!([failure(&rig), failure(&rig)], [over(&exr, &scene_file()), busy(&png)]);
     assert_eq!(std::fs::read_to_string(scene_file()).expect("there"), "the scene");
-    assert_eq!(passes(&kept), 2);
+    assert_eq!(passes(&last), 2);
     std::fs::remove_file(scene_file()).expect("ours");
 }

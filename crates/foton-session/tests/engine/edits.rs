@@ -5,11 +5,11 @@ use std::time::Duration;
 use foton_edit::{DragMode, FieldId, Property, Side, Target, Value};
 use foton_film::Image;
 use foton_session::StopRule;
-use foton_session::engine::{Activity, Change, Command, Frame, Gesture};
+use foton_session::engine::{Activity, Command, Frame, Gesture, SceneEdit};
 
 use crate::rig::{BALL, Folder, Rig, SIZE, image};
 
-fn edit(rig: &Rig, change: Change) {
+fn edit(rig: &Rig, change: SceneEdit) {
     rig.send(Command::Edit(change));
 }
 
@@ -85,20 +85,20 @@ fn a_drag_changes_the_picture_and_undoing_it_brings_the_same_bits_back() {
     assert!(!selection.outline.is_empty());
     assert_eq!(chosen.render, before.render, "choosing starts nothing anew");
 
-    edit(&rig, Change::BeginDrag { film: BALL, mode: DragMode::Horizontal });
-    edit(&rig, Change::DragTo([BALL[0] + 25.0, BALL[1]]));
+    edit(&rig, SceneEdit::BeginDrag { film: BALL, mode: DragMode::Horizontal });
+    edit(&rig, SceneEdit::DragTo([BALL[0] + 25.0, BALL[1]]));
     let moving = moving(&rig, &before);
     assert_ne!(moving.selection.expect("kept").outline, selection.outline);
-    edit(&rig, Change::EndDrag([BALL[0] + 25.0, BALL[1] + 2.0]));
+    edit(&rig, SceneEdit::EndDrag([BALL[0] + 25.0, BALL[1] + 2.0]));
     let after = whole(&rig, &before);
     assert!(differing(&image(&before), &image(&after)) > 500);
     assert!(after.scene.is_edited && after.scene.undo.as_ref().is_some_and(|name| name.contains("ball")));
 
-    edit(&rig, Change::Undo);
+    edit(&rig, SceneEdit::Undo);
     let undone = whole(&rig, &after);
     assert_eq!(image(&undone), image(&before));
     assert_eq!(undone.selection.expect("kept").outline, selection.outline);
-    edit(&rig, Change::Redo);
+    edit(&rig, SceneEdit::Redo);
     let redone = rig.until("it again", |f| f.render != undone.render && f.activity == Activity::Done);
     assert_eq!(image(&redone), image(&after));
 }
@@ -112,22 +112,22 @@ fn in_a_large_scene_the_outline_is_dragged_and_the_picture_follows_when_it_is_le
     rig.send(Command::Choose(Some(BALL)));
     let chosen = rig.until("a choice", |f| f.selection.is_some()).selection.expect("just seen");
     let to = [BALL[0] + 25.0, BALL[1]];
-    edit(&rig, Change::BeginDrag { film: BALL, mode: DragMode::Horizontal });
-    edit(&rig, Change::DragTo(to));
+    edit(&rig, SceneEdit::BeginDrag { film: BALL, mode: DragMode::Horizontal });
+    edit(&rig, SceneEdit::DragTo(to));
     let is_elsewhere = |f: &Frame| f.selection.as_ref().is_some_and(|s| s.outline != chosen.outline);
     let moving = rig.until("the outline", is_elsewhere);
     assert_eq!(moving.render, before.render, "no other scene yet");
     assert_eq!(image(&moving), image(&before));
-    edit(&rig, Change::EndDrag(to));
+    edit(&rig, SceneEdit::EndDrag(to));
     let after = whole(&rig, &before);
     assert!(differing(&image(&before), &image(&after)) > 500);
     let outline = |f: &Frame| f.selection.as_ref().map(|s| s.outline.clone());
     assert_eq!(outline(&after), outline(&moving));
 
     // Called off, everything is where it was.
-    edit(&rig, Change::BeginDrag { film: to, mode: DragMode::Horizontal });
-    edit(&rig, Change::DragTo([to[0] - 40.0, to[1]]));
-    edit(&rig, Change::CancelDrag);
+    edit(&rig, SceneEdit::BeginDrag { film: to, mode: DragMode::Horizontal });
+    edit(&rig, SceneEdit::DragTo([to[0] - 40.0, to[1]]));
+    edit(&rig, SceneEdit::CancelDrag);
     let back = rig.until("it back", |f| f.render != after.render && f.activity == Activity::Done);
     assert_eq!(image(&back), image(&after));
 }
@@ -136,14 +136,14 @@ fn in_a_large_scene_the_outline_is_dragged_and_the_picture_follows_when_it_is_le
 fn what_is_undone_is_held_where_it_is() {
     let (rig, before) = Rig::at_pass(1);
     rig.send(Command::Choose(Some(BALL)));
-    let far = Change::Nudge { steps: [20.0, 0.0], mode: DragMode::Horizontal };
-    let near = Change::Nudge { steps: [1.0, 0.0], mode: DragMode::Horizontal };
+    let far = SceneEdit::Nudge { steps: [20.0, 0.0], mode: DragMode::Horizontal };
+    let near = SceneEdit::Nudge { steps: [1.0, 0.0], mode: DragMode::Horizontal };
     let outline = |f: &Frame| f.selection.as_ref().map(|s| s.outline.clone());
     edit(&rig, near);
     let once = whole(&rig, &before);
-    edit(&rig, Change::Undo);
+    edit(&rig, SceneEdit::Undo);
     edit(&rig, far);
-    edit(&rig, Change::Undo);
+    edit(&rig, SceneEdit::Undo);
     edit(&rig, near);
     // A step is so many pixels at the place of the grip: at another place it would be another way.
     let again = rig.until("the same step", |f| {
@@ -156,10 +156,10 @@ fn what_is_undone_is_held_where_it_is() {
 fn a_drag_that_is_called_off_leaves_no_step() {
     let (rig, before) = Rig::at_pass(2);
     rig.send(Command::Choose(Some(BALL)));
-    edit(&rig, Change::BeginDrag { film: BALL, mode: DragMode::Vertical });
-    edit(&rig, Change::DragTo([BALL[0], BALL[1] - 20.0]));
+    edit(&rig, SceneEdit::BeginDrag { film: BALL, mode: DragMode::Vertical });
+    edit(&rig, SceneEdit::DragTo([BALL[0], BALL[1] - 20.0]));
     moving(&rig, &before);
-    edit(&rig, Change::CancelDrag);
+    edit(&rig, SceneEdit::CancelDrag);
     let after = whole(&rig, &before);
     assert_eq!(image(&after), image(&before));
     assert_eq!((after.scene.undo.clone(), after.scene.is_edited), (None, false));
@@ -172,9 +172,9 @@ fn a_field_that_is_dragged_is_one_step_and_a_saved_scene_is_unedited() {
     rig.send(Command::Choose(Some(BALL)));
     let field = FieldId::Material(Side::Front, Property::Parameter("int_ior"));
     for (ior, done) in [(1.8, false), (2.0, false), (2.4, true)] {
-        edit(&rig, Change::SetField { field, value: Value::Number(ior), done });
+        edit(&rig, SceneEdit::SetField { field, value: Value::Number(ior), done });
     }
-    edit(&rig, Change::Nudge { steps: [1.0, 0.0], mode: DragMode::Horizontal });
+    edit(&rig, SceneEdit::Nudge { steps: [1.0, 0.0], mode: DragMode::Horizontal });
     let ior = |f: &Frame| {
         let fields = &f.selection.as_ref().expect("kept").inspection.fields;
         fields.iter().find(|f| f.id == field).map(|f| f.value).expect("glass has one")
@@ -190,8 +190,8 @@ fn a_field_that_is_dragged_is_one_step_and_a_saved_scene_is_unedited() {
     // Saved elsewhere or not: the hash in a picture is that of the scene that was opened.
     rig.send(Command::Snapshot(folder.0.clone()));
     assert_eq!(named(&rig.saved()[0]), "room.xml (edited)");
-    edit(&rig, Change::Undo);
-    edit(&rig, Change::Undo);
+    edit(&rig, SceneEdit::Undo);
+    edit(&rig, SceneEdit::Undo);
     let undone = rig.until("two steps back", |f| f.scene.undo.is_none() && f.activity == Activity::Done);
     assert!(is(ior(&undone), 1.5), "{:?}", ior(&undone));
     assert_eq!(image(&undone), image(&before));
@@ -218,15 +218,15 @@ fn what_was_asked_to_be_written_is_written_before_the_end() {
 }
 
 #[test]
-fn a_choice_beside_everything_chooses_nothing_and_starts_nothing_anew() {
+fn a_choice_beside_everything_chooses_nothing_and_restarts_nothing() {
     let (rig, before) = Rig::at_pass(1);
     rig.send(Command::Choose(Some(BALL)));
     rig.until("a choice", |f| f.selection.is_some());
     rig.send(Command::Choose(None));
     let frame = rig.until("no choice", |f| f.selection.is_none());
     assert_eq!(frame.render, before.render);
-    edit(&rig, Change::DragTo([0.0, 0.0]));
-    edit(&rig, Change::Undo);
+    edit(&rig, SceneEdit::DragTo([0.0, 0.0]));
+    edit(&rig, SceneEdit::Undo);
     rig.send(Command::StopAt(StopRule::passes(2)));
     assert_eq!(rig.done(2).render, before.render, "edits of nothing are none");
 }

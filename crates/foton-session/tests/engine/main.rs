@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use foton_integrator::PpmSettings;
-use foton_session::engine::{Activity, Command, Configuration, Event, Picture, ViewMode};
+use foton_session::engine::{Activity, Command, Configuration, Event, Picture, SurfaceNames, ViewMode};
 use foton_session::snapshot::{self, Format};
 use foton_session::{Alpha, DirectLight, RenderSettings, SettingChange, StopRule};
 use rig::{Folder, Rig, SIZE, headless, identity, image, settings};
@@ -30,7 +30,7 @@ fn a_scene_opens_and_frames_come_until_the_stop_rule() {
     assert_eq!(opened, ("room.xml".to_owned(), 1));
     let frame = rig.done(3);
     assert_eq!((frame.size, frame.scene.shapes), (SIZE, 2));
-    assert_eq!(frame.numbers.photons, 4096 + 2 * 8192, "passes grow to what was asked for");
+    assert_eq!(frame.stats.photons, 4096 + 2 * 8192, "passes grow to what was asked for");
     assert_eq!(*image(&frame), headless(3, settings(), |_, _| ()).render().image());
     // More may be asked for, and time is a rule, too; there is always one pass.
     rig.send(Command::StopAt(StopRule::passes(5)));
@@ -67,7 +67,7 @@ fn alpha_and_photons_change_at_the_next_pass_of_the_same_render() {
 }
 
 #[test]
-fn a_configuration_starts_anew() {
+fn a_configuration_restarts_the_render() {
     let (rig, before) = Rig::at_pass(2);
     let configuration = Configuration {
         seed: 5,
@@ -91,21 +91,21 @@ fn a_configuration_starts_anew() {
 fn a_render_pauses_steps_and_goes_on() {
     let rig = Rig::new(settings(), None);
     rig.open("room");
-    rig.until("a pass", |f| f.activity == Activity::Rendering && f.numbers.passes > 1);
+    rig.until("a pass", |f| f.activity == Activity::Rendering && f.stats.passes > 1);
     rig.send(Command::Pause);
     let paused = rig.until("the pause", |f| f.activity == Activity::Paused);
-    let passes = paused.numbers.passes;
+    let passes = paused.stats.passes;
     // Whatever makes it draw again, no pass comes.
     rig.send(Command::Probe(Some([3, 4])));
     let probed = rig.until("the probe", |f| f.probe.is_some());
-    assert_eq!((probed.activity, probed.numbers.passes), (Activity::Paused, passes));
+    assert_eq!((probed.activity, probed.stats.passes), (Activity::Paused, passes));
     for step in 1..=2 {
         rig.send(Command::Step);
-        let stepped = rig.until("a step", |f| f.activity == Activity::Paused && f.numbers.passes > passes);
-        assert_eq!(stepped.numbers.passes, passes + step);
+        let stepped = rig.until("a step", |f| f.activity == Activity::Paused && f.stats.passes > passes);
+        assert_eq!(stepped.stats.passes, passes + step);
     }
     rig.send(Command::Resume);
-    let on = rig.until("it going on", |f| f.activity == Activity::Rendering && f.numbers.passes > passes + 3);
+    let on = rig.until("it going on", |f| f.activity == Activity::Rendering && f.stats.passes > passes + 3);
     assert_eq!(on.render, paused.render);
 }
 
@@ -150,8 +150,7 @@ fn a_scene_that_fails_leaves_the_last_one_running() {
     let before = rig.until("a pass", |f| f.activity == Activity::Rendering);
     rig.open("ruin");
     assert_eq!(rig.failure(), "ruin:3:7: there is no such scene");
-    let after =
-        rig.until("more passes", |f| f.numbers.passes > before.numbers.passes + 1 && f.opening.is_none());
+    let after = rig.until("more passes", |f| f.stats.passes > before.stats.passes + 1 && f.opening.is_none());
     assert_eq!((after.render, &after.scene.name), (before.render, &before.scene.name));
 }
 
@@ -162,11 +161,11 @@ fn a_fault_of_our_own_is_said_the_picture_stays_and_the_next_scene_opens() {
     let before = rig.until("a pass", |f| f.activity == Activity::Rendering && f.picture.is_some());
     rig.open("faulty");
     assert_eq!(rig.failure(), "faulty: foton has a fault: this loader has a fault");
-    rig.until("more passes", |f| f.numbers.passes > before.numbers.passes);
+    rig.until("more passes", |f| f.stats.passes > before.stats.passes);
     rig.open("sensorless");
     assert!(rig.failure().starts_with("foton has a fault and the render stops"));
     rig.open("room");
-    rig.until("passes again", |f| f.activity == Activity::Rendering && f.numbers.passes > 1);
+    rig.until("passes again", |f| f.activity == Activity::Rendering && f.stats.passes > 1);
 }
 
 #[test]
@@ -176,11 +175,11 @@ fn opening_can_be_called_off_and_passes_go_on_meanwhile() {
     rig.until("a pass", |f| f.activity == Activity::Rendering);
     rig.open("slow");
     let opening = rig.until("the opening", |f| f.opening.as_deref() == Some("slow"));
-    let later = rig.until("more passes", |f| f.numbers.passes > opening.numbers.passes);
+    let later = rig.until("more passes", |f| f.stats.passes > opening.stats.passes);
     rig.send(Command::CancelOpen);
     let off = rig.until("it called off", |f| f.opening.is_none());
     rig.go.send(()).expect("it waits");
-    let after = rig.until("more passes", |f| f.numbers.passes > off.numbers.passes + 1);
+    let after = rig.until("more passes", |f| f.stats.passes > off.stats.passes + 1);
     assert_eq!((after.render, after.opening), (later.render, None));
 }
 
@@ -230,7 +229,7 @@ fn measures_and_kinds_of_light_are_shown_instead_of_radiance() {
     let (rig, before) = Rig::at_pass(2);
     for shown in [ViewMode::Radius, ViewMode::PhotonCount, ViewMode::Luminance, ViewMode::Unknown] {
         rig.send(Command::Show(shown));
-        let frame = rig.until("a measure", |f| f.shown == shown);
+        let frame = rig.until("a measure", |f| f.view == shown);
         let Some(Picture::Measure { plane, .. }) = &frame.picture else { panic!("{shown:?} in colours") };
         assert!(plane.values.iter().any(|v| *v > 0.0), "{shown:?}");
         assert_eq!(frame.render, before.render);
@@ -241,7 +240,7 @@ fn measures_and_kinds_of_light_are_shown_instead_of_radiance() {
     let mut sum = vec![0.0; image(&before).pixels.len()];
     for i in 0..3 {
         rig.send(Command::Show(one(i)));
-        let frame = rig.until("a kind of light", |f| f.shown == one(i) && f.activity == Activity::Done);
+        let frame = rig.until("a kind of light", |f| f.view == one(i) && f.activity == Activity::Done);
         let kind = image(&frame);
         assert!(i == 2 || kind.pixels.iter().any(|c| c.luminance() > 0.0), "kind {i}");
         sum.iter_mut().zip(&kind.pixels).for_each(|(s, c)| *s += f64::from(c.luminance()));
@@ -262,7 +261,7 @@ fn the_probe_says_what_the_picture_shows() {
     let probe = frame.probe.as_ref().expect("asked for");
     let index = floor[1] as usize * SIZE[0] as usize + floor[0] as usize;
     assert_eq!(probe.radiance, image(&frame).pixels[index]);
-    assert_eq!(probe.surface, Some(("floor".to_owned(), "grey".to_owned())));
+    assert_eq!(probe.surface, Some(SurfaceNames { shape: "floor".into(), material: "grey".into() }));
     assert!(probe.hit_points == 1 && probe.disc.len() > 8 && probe.radius.is_some_and(|r| r > 0.0));
     rig.send(Command::Probe(Some([9999, 0])));
     rig.until("nothing outside", |f| f.probe.is_none());

@@ -248,7 +248,7 @@ impl Rig {
         while let Some(left) = PATIENCE.checked_sub(begin.elapsed()) {
             match self.engine.frames().recv_timeout(left) {
                 Ok(frame) if is_it(&frame) => return frame,
-                Ok(frame) => last = Some((frame.number, frame.render, frame.activity, frame.numbers.passes)),
+                Ok(frame) => last = Some((frame.number, frame.render, frame.activity, frame.stats.passes)),
                 Err(_) => break,
             }
         }
@@ -258,7 +258,7 @@ impl Rig {
     /// The frame at which the stop rule of so many passes is reached.
     #[track_caller]
     pub(crate) fn done(&self, passes: u64) -> Frame {
-        self.until("the end", |f| f.activity == Activity::Done && f.numbers.passes == passes)
+        self.until("the end", |f| f.activity == Activity::Done && f.stats.passes == passes)
     }
 
     /// The first event that is as it should be.

@@ -76,7 +76,7 @@ pub(crate) enum Rule {
     Local,
     /// All by one factor, by the photons emitted
     Global,
-    /// Each by the photons that it finds, as far as blur outweighs noise there
+    /// Each by the photons that it finds, as far as bias outweighs noise there
     Adaptive,
 }
 

@@ -1,6 +1,6 @@
 //! The inspector over a selection that was made up.
 
-use foton_session::engine::Change;
+use foton_session::engine::SceneEdit;
 
 use super::*;
 
@@ -9,7 +9,7 @@ fn chosen() -> Harness<'static, State> {
 }
 
 fn set(id: FieldId, value: Value) -> Command {
-    Command::Edit(Change::SetField { field: id, value, done: true })
+    Command::Edit(SceneEdit::SetField { field: id, value, done: true })
 }
 
 const fn material(property: Property) -> FieldId {
@@ -23,9 +23,9 @@ fn it_says_what_is_chosen_and_who_shares_its_material() {
         assert!(harness.query_all_by_label_contains(text).next().is_some(), "{text}");
     }
     click(&mut harness, Role::Button, "Make its own");
-    assert_asked(&mut harness, &Command::Edit(Change::OwnMaterial));
+    assert_asked(&mut harness, &Command::Edit(SceneEdit::OwnMaterial));
     click(&mut harness, Role::Button, "Undo");
-    assert_asked(&mut harness, &Command::Edit(Change::Undo));
+    assert_asked(&mut harness, &Command::Edit(SceneEdit::Undo));
     assert!(find(&harness, Role::Button, "Redo").accesskit_node().is_disabled());
     click(&mut harness, Role::Button, "Close");
     assert_asked(&mut harness, &Command::Choose(None));

@@ -2,7 +2,7 @@
 
 use egui::{Key, Modifiers};
 use foton_edit::DragMode;
-use foton_session::engine::{Change, Gesture};
+use foton_session::engine::{Gesture, SceneEdit};
 
 use super::*;
 
@@ -12,7 +12,7 @@ fn keys_do_what_the_overlay_says() {
         state.preferences.snapshot_folder = "/pictures".into();
         state.frame.as_mut().expect("there").selection = Some(selection());
     });
-    let nudge = |x, y, mode| Command::Edit(Change::Nudge { steps: [x, y], mode });
+    let nudge = |x, y, mode| Command::Edit(SceneEdit::Nudge { steps: [x, y], mode });
     let plain = Modifiers::NONE;
     for (modifiers, key, command) in [
         (plain, Key::Space, Command::Pause),
@@ -30,9 +30,9 @@ fn keys_do_what_the_overlay_says() {
         (plain, Key::ArrowDown, nudge(0.0, 1.0, DragMode::Horizontal)),
         (plain, Key::PageUp, nudge(0.0, -1.0, DragMode::Vertical)),
         (Modifiers::COMMAND, Key::R, Command::Restart),
-        (Modifiers::COMMAND, Key::Z, Command::Edit(Change::Undo)),
-        (Modifiers::COMMAND | Modifiers::SHIFT, Key::Z, Command::Edit(Change::Redo)),
-        (Modifiers::COMMAND, Key::Y, Command::Edit(Change::Redo)),
+        (Modifiers::COMMAND, Key::Z, Command::Edit(SceneEdit::Undo)),
+        (Modifiers::COMMAND | Modifiers::SHIFT, Key::Z, Command::Edit(SceneEdit::Redo)),
+        (Modifiers::COMMAND, Key::Y, Command::Edit(SceneEdit::Redo)),
     ] {
         harness.key_press_modifiers(modifiers, key);
         let asked = asked(&mut harness);

@@ -1,5 +1,7 @@
 //! The panels driven as a person drives them, by accessible labels, pointer and keys; what they ask for is in the outbox.
 
+mod bar;
+mod controls;
 mod inspector;
 mod keys;
 mod picture;
@@ -17,8 +19,8 @@ use foton_edit::{Control, Field, FieldId, Inspection, MaterialUse, Property, Sid
 use foton_film::{Image, ToneMap};
 use foton_math::Rgb;
 use foton_session::engine::{
-    Activity, BuildStep, Command, Configuration, Event, Frame, Numbers, Picture, SceneFacts, Selection,
-    SensorFacts, Source, ViewMode,
+    Activity, BuildProgress, BuildStep, Command, Configuration, Event, Frame, Picture, RenderStats,
+    SceneFacts, Selection, SensorFacts, Source, ViewMode,
 };
 use foton_session::{
     Alpha, DirectLight, Ledger, RadiusFloor, RadiusRule, RenderSettings, SettingChange, StopRule,
@@ -49,8 +51,8 @@ fn frame() -> Frame {
         building: None,
         size: SIZE,
         picture: Some(Picture::Colour(Arc::new(image))),
-        shown: ViewMode::Radiance,
-        numbers: Numbers {
+        view: ViewMode::Radiance,
+        stats: RenderStats {
             passes: 12,
             photons: 3_000_000,
             photons_in_pass: 262_144,
@@ -58,7 +60,7 @@ fn frame() -> Frame {
             photons_per_s: 1.5e6,
             hit_points: 2400,
             ledger: Ledger { emitted: 8.0, absorbed: 6.0, escaped: 1.9, truncated: 0.1, ..Ledger::default() },
-            ..Numbers::default()
+            ..RenderStats::default()
         },
         settings: RenderSettings::default(),
         threads: None,
@@ -191,7 +193,8 @@ fn every_control_has_an_accessible_name() {
             if with_everything {
                 state.frame.as_mut().expect("there").selection = Some(selection());
                 state.frame.as_mut().expect("there").opening = Some("slow.xml".into());
-                state.frame.as_mut().expect("there").building = Some((BuildStep::Tree, 0.25));
+                state.frame.as_mut().expect("there").building =
+                    Some(BuildProgress { step: BuildStep::Tree, share: 0.25 });
                 state.frame.as_mut().expect("there").stop = StopRule::passes(9);
                 state.error("room.xml:1:1: wrong");
                 state.changed_on_disk = true;
@@ -233,31 +236,6 @@ fn nothing_is_asked_for_until_someone_asks() {
 }
 
 #[test]
-fn sliders_steer_the_next_pass() {
-    let mut harness = window(|_| ());
-    find(&harness, Role::Slider, "α").set_value_accesskit(0.3);
-    assert_asked(&mut harness, &alpha(0.3));
-    find(&harness, Role::Slider, "photons a pass").set_value_accesskit(65_536.0);
-    let photons = NonZeroU32::new(65_536).expect("not zero");
-    assert_asked(&mut harness, &Command::Steer(SettingChange::PhotonsPerPass(photons)));
-}
-
-#[test]
-fn values_are_typed_and_what_is_out_of_range_goes_to_its_end() {
-    let half = Alpha::new(0.5).expect("an alpha");
-    let mut harness = window(|state| state.frame.as_mut().expect("there").settings.ppm.alpha = half);
-    type_number(&mut harness, "α", "0.45");
-    assert!(asked(&mut harness).contains(&format!("{:?}", alpha(0.45))));
-    type_number(&mut harness, "α", "7");
-    let typed = asked(&mut harness);
-    assert!(typed.contains(&format!("{:?}", alpha(1.0))), "{typed:?}");
-    type_number(&mut harness, "α", "nonsense");
-    assert_eq!(asked(&mut harness), [""; 0]);
-    type_number(&mut harness, "photons a pass", "1000000");
-    assert!(asked(&mut harness).pop().is_some_and(|a| a.contains("1000000")));
-}
-
-#[test]
 fn controls_say_what_they_do_to_speed_and_accuracy() {
     let mut harness = window(|_| ());
     for (role, label, help) in [
@@ -269,7 +247,7 @@ fn controls_say_what_they_do_to_speed_and_accuracy() {
         (Role::SpinButton, "Seed", "the same light"),
         (Role::Button, "Snapshot", "EXR and PNG"),
         (Role::Button, "Pin", "to compare with"),
-        (Role::Slider, "Exposure", "nothing is rendered anew"),
+        (Role::Slider, "Exposure", "nothing is rendered again"),
     ] {
         let at = find(&harness, role, label).rect().center();
         harness.hover_at(at);
@@ -278,185 +256,6 @@ fn controls_say_what_they_do_to_speed_and_accuracy() {
         harness.hover_at(egui::pos2(1279.0, 799.0));
         harness.run_steps(20);
     }
-}
-
-#[test]
-fn stop_rules_are_switched_and_typed() {
-    let mut harness = window(|_| ());
-    click(&mut harness, Role::CheckBox, "after passes");
-    assert_asked(&mut harness, &Command::StopAt(StopRule::passes(64)));
-    click(&mut harness, Role::CheckBox, "after time");
-    assert_asked(&mut harness, &Command::StopAt(StopRule::time(Duration::from_secs(60))));
-    harness.state_mut().frame.as_mut().expect("there").stop = StopRule::passes(64);
-    settle(&mut harness);
-    type_number(&mut harness, "after passes", "200");
-    let last = asked(&mut harness).pop();
-    assert_eq!(last, Some(format!("{:?}", Command::StopAt(StopRule::passes(200)))));
-    click(&mut harness, Role::CheckBox, "after passes");
-    assert_asked(&mut harness, &Command::StopAt(StopRule::default()));
-}
-
-#[test]
-fn what_starts_anew_says_so_and_is_sent_once_it_is_let_go() {
-    let now = Configuration::of(&RenderSettings::default(), None);
-    let mut harness = window(|_| ());
-    click(&mut harness, Role::Button, "shadow rays");
-    let shadow_rays = Configuration { direct_light: DirectLight::ShadowRays, ..now };
-    assert_asked(&mut harness, &Command::Configure(shadow_rays));
-    assert!(harness.state().messages.iter().any(|m| m.text.contains("Started anew")));
-    click(&mut harness, Role::Button, "together");
-    let together = Configuration { radius_rule: RadiusRule::Global, ..now };
-    assert_asked(&mut harness, &Command::Configure(together));
-
-    // While a number is typed nothing starts; then once.
-    type_into(&mut harness, "Seed", "12");
-    assert_eq!(asked(&mut harness), [""; 0]);
-    harness.key_press(egui::Key::Enter);
-    assert_asked(&mut harness, &Command::Configure(Configuration { seed: 12, ..now }));
-    type_into(&mut harness, "Smallest radius", "0.5");
-    assert_eq!(asked(&mut harness), [""; 0]);
-    harness.key_press(egui::Key::Enter);
-    let radius_floor = RadiusFloor::new(0.5).expect("not below 0");
-    assert_asked(&mut harness, &Command::Configure(Configuration { radius_floor, ..now }));
-
-    click(&mut harness, Role::CheckBox, "first radius");
-    assert!(asked(&mut harness)[0].contains("radius: Some("));
-    find(&harness, Role::Slider, "hit points a pixel").set_value_accesskit(16.0);
-    let sixteen = NonZeroU32::new(16).expect("not zero");
-    assert_asked(&mut harness, &Command::Configure(Configuration { samples_per_pixel: sixteen, ..now }));
-    choose(&mut harness, "Camera of the scene", "top");
-    assert_asked(&mut harness, &Command::Configure(Configuration { sensor: 1, ..now }));
-}
-
-#[test]
-fn lists_choose_what_is_shown_and_how() {
-    let mut harness = window(|_| ());
-    choose(&mut harness, "Tone", ToneMap::AgX.name());
-    assert_eq!(asked(&mut harness), [""; 0], "nothing is rendered anew");
-    assert_eq!(harness.state().tone_map, ToneMap::AgX);
-    choose(&mut harness, "Show", "Radius");
-    assert_asked(&mut harness, &Command::Show(ViewMode::Radius));
-    assert!(harness.query_by_role_and_label(Role::Slider, "Exposure").is_none(), "measures are not exposed");
-}
-
-#[test]
-fn kinds_of_light_are_switched_and_kept_apart_from_then_on() {
-    let mut harness = window(|_| ());
-    click(&mut harness, Role::Button, "Light");
-    click(&mut harness, Role::CheckBox, "Caustic");
-    let shown = ViewMode::Classes { reflected: [true, false, true], emission: true };
-    let layers = Configuration { layers: true, ..Configuration::of(&RenderSettings::default(), None) };
-    let expected = [Command::Show(shown), Command::Configure(layers)].map(|c| format!("{c:?}"));
-    assert_eq!(asked(&mut harness), expected);
-    click(&mut harness, Role::CheckBox, "Caustic");
-    assert_asked(&mut harness, &Command::Show(ViewMode::Radiance));
-}
-
-#[test]
-fn the_bar_pauses_steps_restarts_saves_and_opens() {
-    let mut harness = window(|state| state.preferences.snapshot_folder = "/pictures".into());
-    for (label, command) in [
-        ("Pause", Command::Pause),
-        ("Restart", Command::Restart),
-        ("Snapshot", Command::Snapshot("/pictures".into())),
-        ("Photons", Command::ShowPhotons(true)),
-    ] {
-        click(&mut harness, Role::Button, label);
-        assert_asked(&mut harness, &command);
-    }
-    assert!(find(&harness, Role::Button, "Step").accesskit_node().is_disabled());
-    harness.state_mut().frame.as_mut().expect("there").activity = Activity::Paused;
-    settle(&mut harness);
-    for (label, command) in [("Resume", Command::Resume), ("Step", Command::Step)] {
-        click(&mut harness, Role::Button, label);
-        assert_asked(&mut harness, &command);
-    }
-    click(&mut harness, Role::Button, "Scene");
-    click(&mut harness, Role::Button, "Built in");
-    click(&mut harness, Role::Button, "ring");
-    assert_asked(&mut harness, &Command::Open(Source::BuiltIn("ring".into())));
-    click(&mut harness, Role::Button, "Pin");
-    assert!(harness.state().pinned.as_ref().is_some_and(|p| p.label == "pass 12"));
-    click(&mut harness, Role::Button, "Unpin");
-    assert!(harness.state().pinned.is_none());
-    click(&mut harness, Role::Button, "Reset camera");
-    assert_asked(&mut harness, &Command::ResetCamera);
-    click(&mut harness, Role::CheckBox, "at passes 1, 2, 4, 8, …");
-    assert_asked(&mut harness, &Command::AutoSnapshots(Some("/pictures".into())));
-}
-
-#[test]
-fn where_the_light_went_stands_among_the_numbers() {
-    let harness = window(|_| ());
-    for text in ["absorbed, escaped", "75.00 %, 23.75 %", "cut off, dropped", "1.25 %, 0"] {
-        assert!(harness.query_by_label(text).is_some(), "{text}");
-    }
-    let dark = window(|state| state.frame.as_mut().expect("there").numbers.ledger = Ledger::default());
-    assert!(dark.query_by_label("absorbed, escaped").is_none(), "nothing was emitted");
-}
-
-#[test]
-fn checkpoints_are_kept_and_taken_up_by_the_file_dialog() {
-    let folder = std::env::temp_dir().join(format!("foton-panels-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    // The dialog begins beside the scene's file.
-    let beside = |state: &mut State| {
-        let facts = Arc::make_mut(&mut state.frame.as_mut().expect("there").scene);
-        facts.file = Some(folder.join("box.xml"));
-    };
-    let mut harness = window(beside);
-    let stem = harness.state().frame.as_ref().expect("there").scene.name.replace(".xml", "");
-    let path = folder.join(format!("{stem}.checkpoint"));
-    click(&mut harness, Role::Button, "Scene");
-    click(&mut harness, Role::Button, "Keep a checkpoint…");
-    click(&mut harness, Role::Button, "Save");
-    assert_asked(&mut harness, &Command::KeepCheckpoint(path.clone()));
-    std::fs::write(&path, "").expect("written");
-    let mut harness = window(beside);
-    click(&mut harness, Role::Button, "Scene");
-    click(&mut harness, Role::Button, "Go on from a checkpoint…");
-    find(&harness, Role::TextInput, "Name").focus();
-    settle(&mut harness);
-    harness.event(egui::Event::Text(path.display().to_string()));
-    settle(&mut harness);
-    click(&mut harness, Role::Button, "Open");
-    assert_asked(&mut harness, &Command::ResumeCheckpoint(path));
-    std::fs::remove_dir_all(folder).expect("removed");
-}
-
-#[test]
-fn a_scene_that_opens_can_be_called_off_and_one_that_changed_reloaded() {
-    let mut harness = window(|state| {
-        let frame = state.frame.as_mut().expect("there");
-        frame.opening = Some("slow.xml".into());
-        frame.building = Some((BuildStep::Tree, 0.25));
-        state.changed_on_disk = true;
-    });
-    harness.get_by_role_and_label(Role::ProgressIndicator, BuildStep::Tree.text());
-    click(&mut harness, Role::Button, "Cancel");
-    assert_asked(&mut harness, &Command::CancelOpen);
-    click(&mut harness, Role::Button, "Reload");
-    assert_asked(&mut harness, &Command::Open(Source::File("/scenes/room.xml".into())));
-    assert!(harness.query_by_label("Reload").is_none());
-}
-
-#[test]
-fn notices_go_and_errors_stay_until_they_are_closed() {
-    let mut harness = window(|state| {
-        state.hear(Event::Opened { name: "room.xml".into(), warnings: vec!["room.xml:2:2: odd".into()] });
-        state.hear(Event::Failed("ruin.xml:3:7: unknown bsdf \"dielectrc\"".into()));
-    });
-    for text in ["Opened room.xml", "room.xml:2:2: odd", "ruin.xml:3:7"] {
-        assert!(harness.query_by_label_contains(text).is_some(), "{text}");
-    }
-    for _ in 0..60 {
-        let time = harness.input().time.unwrap_or_default();
-        harness.input_mut().time = Some(time + 0.25);
-        harness.step();
-    }
-    assert_eq!(harness.state().messages.len(), 1);
-    click(&mut harness, Role::Button, "Dismiss");
-    assert!(harness.state().messages.is_empty());
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The pointer over the picture: it points, chooses, turns, moves, zooms.
 
 use egui::{Modifiers, MouseWheelUnit, Pos2, vec2};
-use foton_session::engine::{Change, Gesture};
+use foton_session::engine::{Gesture, SceneEdit};
 
 use super::*;
 use crate::state::Placement;
@@ -100,7 +100,7 @@ fn escape_in_the_middle_of_a_drag_puts_it_back() {
     harness.run_steps(3);
     harness.state_mut().outbox.clear();
     harness.key_press(egui::Key::Escape);
-    let put_back = format!("{:?}", Command::Edit(Change::CancelDrag));
+    let put_back = format!("{:?}", Command::Edit(SceneEdit::CancelDrag));
     assert_eq!(asked(&mut harness)[0], put_back);
     harness.hover_at(from);
     harness.drop_at(from);

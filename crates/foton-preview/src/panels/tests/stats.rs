@@ -12,7 +12,7 @@ fn findings_in_the_render_are_displayed() {
             found(FindingKind::StarvedEmitter, "\"cellar lamp\" takes 65 % of the photons"),
             found(FindingKind::PowerCutOff, "1.2 % of the emitted power was cut off"),
         ];
-        state.frame.as_mut().expect("there").numbers.findings = Arc::new(findings);
+        state.frame.as_mut().expect("there").stats.findings = Arc::new(findings);
     });
     for text in ["\"cellar lamp\" takes", "1.2 % of the emitted power"] {
         assert!(harness.query_by_label_contains(text).is_some(), "{text}");

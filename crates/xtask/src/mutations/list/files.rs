@@ -130,7 +130,7 @@ pub(super) const LIST: &[Mutation] = &[
         from: "files.find(|file| is_same_file(file, path))?",
         to: "files.find(|file| file.is_dir() && is_same_file(file, path))?",
         target: ENGINE,
-        test: "nothing_is_written_over_what_the_scene_is_read_from_or_what_is_kept",
+        test: "nothing_is_written_over_what_the_scene_is_read_from_or_its_checkpoint",
     },
     Mutation {
         what: "the window's last checkpoint is rescued",
@@ -138,7 +138,7 @@ pub(super) const LIST: &[Mutation] = &[
         from: "Unwritten { cause, spare: write_spare(&self.path, state) }",
         to: "Unwritten { cause, spare: write_spare(&self.path, state).filter(|_| false) }",
         target: ENGINE,
-        test: "a_folder_that_vanishes_costs_what_is_kept_there_and_the_render_goes_on",
+        test: "a_folder_that_vanishes_costs_its_checkpoint_and_the_render_goes_on",
     },
     Mutation {
         what: "a checkpoint that could not be written is written at the end",

@@ -103,8 +103,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "what must be the same in a checkpoint is",
         file: "crates/foton-session/src/checkpoint/fixed.rs",
-        from: "if kept == here {",
-        to: "if kept == here || kept.len() > 1 {",
+        from: "if stored == here {",
+        to: "if stored == here || stored.len() > 1 {",
         target: CLI,
         test: "what_cannot_change_on_the_way_is_refused_by_name",
     },
@@ -142,7 +142,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "an edit that is given up is built later",
-        file: "crates/foton-session/src/engine/stage.rs",
+        file: "crates/foton-session/src/engine/editable_scene/build.rs",
         from: "self.is_stale = built.is_none();",
         to: "self.is_stale = false;",
         target: SESSION,

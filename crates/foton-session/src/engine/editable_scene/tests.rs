@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use foton_edit::DragMode;
-use foton_integrator::{Cancel, RenderSettings};
+use foton_integrator::RenderSettings;
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::Scene;
@@ -12,9 +12,10 @@ use foton_scene::description::{
     SceneDescription, SensorDescription, ShapeDescription,
 };
 
-use super::super::command::Source;
-use super::super::loader::{Loaded, Ready};
-use super::{Effect, Stage};
+use super::{EditableScene, Effect};
+use crate::engine::cancels::Cancels;
+use crate::engine::command::Source;
+use crate::engine::loader::{Loaded, Ready};
 use crate::metadata::SceneIdentity;
 
 /// A wall of many triangles before the camera, and a lamp.
@@ -63,8 +64,8 @@ fn wall() -> SceneDescription {
     }
 }
 
-/// A stage on which the wall is chosen, and what gives up its builds.
-fn stage() -> (Stage, [Cancel; 2]) {
+/// A scene in which the wall is chosen, and what gives up its builds.
+fn wall_scene() -> (EditableScene, Cancels) {
     let description = wall();
     let scene = Arc::new(Scene::build(&description).expect("sound"));
     let loaded = Loaded {
@@ -75,72 +76,72 @@ fn stage() -> (Stage, [Cancel; 2]) {
         warnings: Vec::new(),
         origin: Arc::new(()),
     };
-    let cancels = [Cancel::default(), Cancel::default()];
+    let cancels = Cancels::default();
     let ready = Ready { source: Source::BuiltIn("wall".into()), loaded, scene, findings: Vec::new() };
-    let mut stage = Stage::new(ready, cancels.clone());
-    stage.choose(0, Some([32.0, 32.0]));
-    assert!(stage.selection(0).is_some(), "the wall is in the middle");
-    (stage, cancels)
+    let mut scene = EditableScene::new(ready, cancels.clone());
+    scene.choose(0, Some([32.0, 32.0]));
+    assert!(scene.selection(0).is_some(), "the wall is in the middle");
+    (scene, cancels)
 }
 
 /// How high the wall stands.
-fn height(stage: &Stage) -> f64 {
-    let scene = stage.scene();
-    scene.normalisation().world_point(scene.bounds().centre()).y
+fn height(scene: &EditableScene) -> f64 {
+    let built = scene.scene();
+    built.normalisation().world_point(built.bounds().centre()).y
 }
 
 #[test]
 fn an_edit_whose_build_is_given_up_is_built_later() {
-    let (mut stage, [cancel, _]) = stage();
-    let before = height(&stage);
-    cancel.request();
-    let effect = stage.nudge(0, [0.0, 20.0], DragMode::Vertical);
-    assert_eq!(effect, Ok(Effect::Anew));
-    assert!(stage.is_stale() && stage.facts().undo.is_some(), "the edit is there, its scene is not");
-    assert_eq!(stage.freshen(), Ok(false), "given up again");
-    cancel.rearm();
-    assert_eq!(stage.freshen(), Ok(true));
-    assert!(!stage.is_stale() && (height(&stage) - before).abs() > 0.01, "{before} {}", height(&stage));
+    let (mut scene, cancels) = wall_scene();
+    let before = height(&scene);
+    cancels.work.request();
+    let effect = scene.nudge(0, [0.0, 20.0], DragMode::Vertical);
+    assert_eq!(effect, Ok(Effect::Restart));
+    assert!(scene.is_stale() && scene.facts().undo.is_some(), "the edit is there, its scene is not");
+    assert_eq!(scene.freshen(), Ok(false), "given up again");
+    cancels.work.rearm();
+    assert_eq!(scene.freshen(), Ok(true));
+    assert!(!scene.is_stale() && (height(&scene) - before).abs() > 0.01, "{before} {}", height(&scene));
     // A step back is built as the step was.
-    cancel.request();
-    assert_eq!(stage.undo(), Ok(Effect::Anew));
-    assert!(stage.is_stale());
-    cancel.rearm();
-    assert_eq!(stage.freshen(), Ok(true));
-    assert!((height(&stage) - before).abs() < 1e-6);
+    cancels.work.request();
+    assert_eq!(scene.undo(), Ok(Effect::Restart));
+    assert!(scene.is_stale());
+    cancels.work.rearm();
+    assert_eq!(scene.freshen(), Ok(true));
+    assert!((height(&scene) - before).abs() < 1e-6);
 }
 
 #[test]
 fn an_edit_of_which_no_scene_can_be_made_is_taken_back_when_it_is_built_later() {
-    let (mut stage, [cancel, _]) = stage();
-    let before = height(&stage);
-    cancel.request();
-    assert_eq!(stage.nudge(0, [0.0, 20.0], DragMode::Vertical), Ok(Effect::Anew));
+    let (mut scene, cancels) = wall_scene();
+    let before = height(&scene);
+    cancels.work.request();
+    assert_eq!(scene.nudge(0, [0.0, 20.0], DragMode::Vertical), Ok(Effect::Restart));
     // Fields refuse this; the builder does, too.
-    let mut wrong = SceneDescription::clone(stage.history.current());
+    let mut wrong = SceneDescription::clone(scene.history.current());
     wrong.shapes[0].material = 7;
-    stage.history.record("a material that is not there", wrong);
-    stage.refresh();
-    cancel.rearm();
-    assert!(stage.freshen().is_err_and(|message| message.contains("material")));
-    assert_eq!(stage.freshen(), Ok(true));
-    assert!(!stage.is_stale() && (height(&stage) - before).abs() < 1e-6);
-    assert!(stage.is_as_opened());
+    scene.history.record("a material that is not there", wrong);
+    scene.refresh();
+    cancels.work.rearm();
+    assert!(scene.freshen().is_err_and(|message| message.contains("material")));
+    assert_eq!(scene.freshen(), Ok(true));
+    assert!(!scene.is_stale() && (height(&scene) - before).abs() < 1e-6);
+    assert!(scene.is_as_opened());
 }
 
 #[test]
 fn a_click_is_for_the_scene_as_it_is_edited() {
-    let (mut stage, [cancel, quit]) = stage();
-    cancel.request();
+    let (mut scene, cancels) = wall_scene();
+    cancels.work.request();
     // By more than its height: nothing is in the middle any more.
-    assert_eq!(stage.nudge(0, [0.0, 64.0], DragMode::Vertical), Ok(Effect::Anew));
-    assert!(stage.is_stale());
-    stage.choose(0, Some([32.0, 32.0]));
-    assert!(!stage.is_stale() && stage.selection(0).is_none(), "built for the click");
+    assert_eq!(scene.nudge(0, [0.0, 64.0], DragMode::Vertical), Ok(Effect::Restart));
+    assert!(scene.is_stale());
+    scene.choose(0, Some([32.0, 32.0]));
+    assert!(!scene.is_stale() && scene.selection(0).is_none(), "built for the click");
     // Unless the window is closed.
-    cancel.request();
-    assert_eq!(stage.undo(), Ok(Effect::Anew));
-    quit.request();
-    stage.choose(0, Some([32.0, 32.0]));
-    assert!(stage.is_stale());
+    cancels.work.request();
+    assert_eq!(scene.undo(), Ok(Effect::Restart));
+    cancels.quit.request();
+    scene.choose(0, Some([32.0, 32.0]));
+    assert!(scene.is_stale());
 }

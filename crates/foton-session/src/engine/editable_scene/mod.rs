@@ -1,0 +1,212 @@
+//! The scene of the view: its description with edits, the camera, what is chosen, and the scene built from them.
+
+mod build;
+mod chosen;
+mod selection;
+#[cfg(test)]
+mod tests;
+
+use std::any::Any;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use foton_edit::{Camera, History, camera_xml, focus_distance};
+use foton_scene::Scene;
+use foton_scene::description::{SceneDescription, SensorDescription};
+
+use self::chosen::Chosen;
+use super::cancels::Cancels;
+use super::command::{Gesture, Source};
+use super::frame::{SceneFacts, SensorFacts};
+use super::loader::Ready;
+use crate::metadata::SceneIdentity;
+
+/// What a change asks of the render.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Effect {
+    /// Nothing.
+    None,
+    /// Another scene is there: restart.
+    Restart,
+}
+
+/// The camera of a sensor that was moved.
+struct MovedCamera {
+    /// Index of the sensor.
+    sensor: usize,
+    camera: Camera,
+}
+
+/// Whether any camera stands, or spans, otherwise.
+fn are_elsewhere(sensors: &[SensorDescription], others: &[SensorDescription]) -> bool {
+    let place = |s: &SensorDescription| (s.to_world, s.fov_degrees);
+    sensors.iter().map(place).ne(others.iter().map(place))
+}
+
+/// A scene under edit.
+pub(super) struct EditableScene {
+    source: Source,
+    /// What the scene was read from.
+    pub(super) files: Vec<PathBuf>,
+    /// What the loader wants back when the scene is saved.
+    pub(super) origin: Arc<dyn Any + Send + Sync>,
+    identity: SceneIdentity,
+    history: History,
+    /// Cameras are no steps of the history: undoing a move does not turn the head.
+    sensors: Vec<SensorDescription>,
+    /// The description as it was opened: what the identity's hash is of, and where cameras are reset to.
+    opened: Arc<SceneDescription>,
+    /// The sensors of the file that was opened or saved last.
+    saved_sensors: Vec<SensorDescription>,
+    /// The camera of a sensor, once it was moved.
+    moved: Option<MovedCamera>,
+    chosen: Option<Chosen>,
+    /// The history's description with the sensors as they are.
+    description: Arc<SceneDescription>,
+    scene: Arc<Scene>,
+    /// The history's description that the scene was built of, unless building a newer one was given up.
+    built: Arc<SceneDescription>,
+    /// Whether the scene is older than the description.
+    is_stale: bool,
+    cancels: Cancels,
+    facts: Arc<SceneFacts>,
+}
+
+impl EditableScene {
+    pub(super) fn new(ready: Ready, cancels: Cancels) -> Self {
+        let Ready { source, loaded, scene, .. } = ready;
+        let description = Arc::new(loaded.description);
+        let sensors = description.sensors.clone();
+        let mut new = Self {
+            source,
+            identity: loaded.identity,
+            files: loaded.files,
+            origin: loaded.origin,
+            history: History::new(Arc::clone(&description)),
+            opened: Arc::clone(&description),
+            saved_sensors: sensors.clone(),
+            sensors,
+            moved: None,
+            chosen: None,
+            description: Arc::clone(&description),
+            scene,
+            built: Arc::clone(&description),
+            is_stale: false,
+            cancels,
+            facts: Arc::default(),
+        };
+        new.refresh_facts();
+        new
+    }
+
+    pub(super) const fn scene(&self) -> &Arc<Scene> {
+        &self.scene
+    }
+
+    pub(super) const fn facts(&self) -> &Arc<SceneFacts> {
+        &self.facts
+    }
+
+    pub(super) fn sensors(&self) -> &[SensorDescription] {
+        &self.sensors
+    }
+
+    pub(super) const fn description(&self) -> &Arc<SceneDescription> {
+        &self.description
+    }
+
+    /// The scene's name and hash; the name says if it is not as in the file that was opened, saved elsewhere or not.
+    pub(super) fn identity(&self) -> SceneIdentity {
+        let mut identity = self.identity.clone();
+        if !self.is_as_opened() {
+            identity.name.push_str(" (edited)");
+        }
+        identity
+    }
+
+    /// Whether what is seen is what the file that was opened says.
+    pub(super) fn is_as_opened(&self) -> bool {
+        let is_same = Arc::ptr_eq(self.history.current(), &self.opened);
+        is_same && !are_elsewhere(&self.sensors, &self.opened.sensors)
+    }
+
+    /// Whether there is something that no file holds.
+    fn is_edited(&self) -> bool {
+        self.history.is_changed() || are_elsewhere(&self.sensors, &self.saved_sensors)
+    }
+
+    /// What was saved counts as unedited from here on.
+    pub(super) fn saved(&mut self) {
+        self.history.mark_saved();
+        self.saved_sensors.clone_from(&self.sensors);
+        self.refresh_facts();
+    }
+
+    /// Moves the camera of a sensor.
+    pub(super) fn gesture(&mut self, sensor: usize, gesture: Gesture) -> Result<Effect, String> {
+        let camera = match self.moved.take() {
+            Some(moved) if moved.sensor == sensor => moved.camera,
+            _ => Camera::new(&self.sensors[sensor], focus_distance(&self.scene, sensor)),
+        };
+        let mut moved = camera.clone();
+        match gesture {
+            Gesture::Orbit { yaw, pitch } => moved.orbit(yaw, pitch),
+            Gesture::Turn { yaw, pitch } => moved.look(yaw, pitch),
+            Gesture::Pan { right, down } => moved.pan(&self.sensors[sensor], right, down),
+            Gesture::Zoom(factor) => moved.zoom(factor),
+            Gesture::Fly { forward, right, up } => {
+                let step = moved.distance;
+                moved.fly(forward * step, right * step, up * step);
+            }
+            Gesture::FieldOfView(degrees) => moved.set_fov(degrees),
+        }
+        let before = self.sensors[sensor].clone();
+        self.sensors[sensor] = moved.applied_to(&before);
+        let result = self.renew_sensors();
+        if result.is_err() {
+            self.sensors[sensor] = before;
+        }
+        let camera = if result.is_err() { camera } else { moved };
+        self.moved = Some(MovedCamera { sensor, camera });
+        result
+    }
+
+    /// Puts the camera back where the file has it.
+    pub(super) fn reset_camera(&mut self, sensor: usize) -> Result<Effect, String> {
+        self.moved = None;
+        self.sensors[sensor].clone_from(&self.opened.sensors[sensor]);
+        self.renew_sensors()
+    }
+
+    /// The same scene with the sensors as they are now.
+    fn renew_sensors(&mut self) -> Result<Effect, String> {
+        let scene = self.scene.with_sensors(&self.sensors).map_err(|cause| cause.to_string())?;
+        self.scene = Arc::new(scene);
+        self.refresh();
+        Ok(Effect::Restart)
+    }
+
+    fn refresh(&mut self) {
+        let current = SceneDescription::clone(self.history.current());
+        self.description = Arc::new(SceneDescription { sensors: self.sensors.clone(), ..current });
+        self.refresh_facts();
+    }
+
+    fn refresh_facts(&mut self) {
+        let sensor = |s: &SensorDescription| SensorFacts {
+            name: s.name.clone(),
+            fov_degrees: s.fov_degrees,
+            size: [s.width, s.height],
+            xml: camera_xml(s),
+        };
+        self.facts = Arc::new(SceneFacts {
+            name: self.identity.name.clone(),
+            file: self.source.file().cloned(),
+            sensors: self.sensors.iter().map(sensor).collect(),
+            shapes: self.description.shapes.len(),
+            is_edited: self.is_edited(),
+            undo: self.history.undo_name().map(str::to_owned),
+            redo: self.history.redo_name().map(str::to_owned),
+        });
+    }
+}

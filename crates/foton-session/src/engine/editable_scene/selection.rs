@@ -1,0 +1,182 @@
+//! What is chosen in a scene, and what a person does to it: drags, steps of keys, fields, undo.
+
+use foton_edit::{
+    DragMode, DragPlane, Edit, FieldId, Outline, Segment, Target, UpAxis, Value, anchor, inspect, markers,
+    pick_any,
+};
+use foton_math::glam::{DVec2, DVec3};
+use foton_scene::description::SceneDescription;
+
+use super::chosen::{Chosen, Drag};
+use super::{EditableScene, Effect};
+use crate::engine::frame::Selection;
+
+/// A step of an arrow key, in pixels at the distance of what is chosen.
+const NUDGE: f64 = 4.0;
+
+/// Scenes of more triangles take too long to be built for every move of a hand: the outline goes with it, and the picture
+/// follows when it lets go.
+const MAX_LIVE_TRIANGLES: u64 = 100_000;
+
+impl EditableScene {
+    /// Chooses what is seen at a film position; nothing where nothing is.
+    pub(in crate::engine) fn choose(&mut self, sensor: usize, film: Option<[f64; 2]>) {
+        // A click is for what is seen now, however long that takes.
+        if self.is_stale && self.build(&self.cancels.quit.clone()).is_err() {
+            return;
+        }
+        let picked = film.and_then(|film| pick_any(&self.scene, &self.description, sensor, film));
+        self.chosen = picked.map(|picked| Chosen {
+            target: picked.target,
+            outline: Outline::new(&self.description, picked.target),
+            grip: DVec3::from(picked.position) - anchor(&self.description, picked.target).unwrap_or_default(),
+            drag: None,
+        });
+    }
+
+    /// Takes hold of what is chosen, at a film position.
+    pub(in crate::engine) fn begin_drag(&mut self, sensor: usize, film: [f64; 2], mode: DragMode) {
+        let up = UpAxis::guess(&self.sensors[sensor]);
+        let Some(chosen) = &mut self.chosen else { return };
+        let picked = chosen.picked(&self.description).to_array();
+        let plane = DragPlane::new(&self.sensors[sensor], up, picked, mode);
+        chosen.drag = Some(Drag { plane, from: film });
+        let name = Edit::Move { target: chosen.target, by: [0.0; 3] }.name(&self.description);
+        self.history.begin(name);
+    }
+
+    /// Moves what is held to a film position, or the outline alone where the scene is large.
+    pub(in crate::engine) fn drag_to(&mut self, film: [f64; 2]) -> Result<Effect, String> {
+        let Some(next) = self.dragged(film)? else { return Ok(Effect::None) };
+        if self.scene.census().triangles <= MAX_LIVE_TRIANGLES {
+            return self.take(next);
+        }
+        self.history.proceed(next);
+        self.refresh();
+        Ok(Effect::None)
+    }
+
+    /// Lets go at a film position; where no scene can be made of that, all is as it was.
+    pub(in crate::engine) fn end_drag(&mut self, film: [f64; 2]) -> Result<Effect, String> {
+        let Some(next) = self.dragged(film)? else { return Ok(Effect::None) };
+        let effect = self.take(next);
+        if effect.is_err() {
+            self.history.cancel();
+            self.refresh();
+        }
+        self.history.commit();
+        if let Some(chosen) = &mut self.chosen {
+            chosen.drag = None;
+        }
+        self.refresh_facts();
+        effect
+    }
+
+    /// The description with what is held at a film position.
+    fn dragged(&self, film: [f64; 2]) -> Result<Option<SceneDescription>, String> {
+        let Some(chosen) = &self.chosen else { return Ok(None) };
+        let Some(Drag { plane, from }) = &chosen.drag else { return Ok(None) };
+        let edit = Edit::Move { target: chosen.target, by: plane.translation(*from, film) };
+        edit.apply(self.history.base()).map(Some).map_err(|cause| cause.to_string())
+    }
+
+    /// Puts what is held back.
+    pub(in crate::engine) fn cancel_drag(&mut self) -> Result<Effect, String> {
+        if let Some(chosen) = &mut self.chosen {
+            chosen.drag = None;
+        }
+        self.history.cancel();
+        self.rebuild()
+    }
+
+    /// Moves what is chosen by steps of a few pixels, in the plane that `mode` says.
+    pub(in crate::engine) fn nudge(
+        &mut self,
+        sensor: usize,
+        steps: [f64; 2],
+        mode: DragMode,
+    ) -> Result<Effect, String> {
+        let Some(chosen) = &self.chosen else { return Ok(Effect::None) };
+        let picked = chosen.picked(&self.description);
+        let s = &self.sensors[sensor];
+        let centre = DVec2::new(f64::from(s.width), f64::from(s.height)) * 0.5;
+        let film = self.scene.sensors()[sensor]
+            .project(self.scene.normalisation().point(picked))
+            .map_or(centre, |(film, _)| film.as_dvec2());
+        let plane = DragPlane::new(s, UpAxis::guess(s), picked.to_array(), mode);
+        let by = plane.translation(film.to_array(), (film + DVec2::from(steps) * NUDGE).to_array());
+        let edit = Edit::Move { target: chosen.target, by };
+        self.edit(&edit)
+    }
+
+    /// Sets a field of what is chosen. A control that is still being dragged is not `done`: all of it is one step.
+    pub(in crate::engine) fn set_field(
+        &mut self,
+        field: FieldId,
+        value: Value,
+        done: bool,
+    ) -> Result<Effect, String> {
+        let Some(chosen) = &self.chosen else { return Ok(Effect::None) };
+        let edit = Edit::SetField { target: chosen.target, field, value };
+        let name = edit.name(self.history.base());
+        if self.history.undo_name() != Some(&name) || !self.history.is_open() {
+            self.history.begin(name);
+        }
+        let next = edit.apply(self.history.base()).map_err(|cause| cause.to_string());
+        let effect = next.and_then(|next| self.take(next));
+        if done || effect.is_err() {
+            self.history.commit();
+        }
+        effect
+    }
+
+    /// Gives what is chosen a material of its own.
+    pub(in crate::engine) fn own_material(&mut self) -> Result<Effect, String> {
+        match &self.chosen {
+            Some(Chosen { target: Target::Shape(shape), .. }) => {
+                self.edit(&Edit::OwnMaterial { shape: *shape })
+            }
+            _ => Ok(Effect::None),
+        }
+    }
+
+    fn edit(&mut self, edit: &Edit) -> Result<Effect, String> {
+        let next = edit.apply(self.history.current()).map_err(|cause| cause.to_string())?;
+        self.history.begin(edit.name(&self.description));
+        let effect = self.take(next);
+        self.history.commit();
+        self.refresh_facts();
+        effect
+    }
+
+    /// Takes the last step back.
+    pub(in crate::engine) fn undo(&mut self) -> Result<Effect, String> {
+        if self.history.undo().is_none() {
+            return Ok(Effect::None);
+        }
+        self.rebuild()
+    }
+
+    /// Makes the step again that was taken back last.
+    pub(in crate::engine) fn redo(&mut self) -> Result<Effect, String> {
+        if self.history.redo().is_none() {
+            return Ok(Effect::None);
+        }
+        self.rebuild()
+    }
+
+    /// What is chosen, as the window shows it.
+    pub(in crate::engine) fn selection(&self, sensor: usize) -> Option<Selection> {
+        let chosen = self.chosen.as_ref()?;
+        Some(Selection {
+            target: chosen.target,
+            inspection: inspect(&self.description, chosen.target)?,
+            outline: chosen.outline.segments(&self.description, sensor),
+        })
+    }
+
+    /// Where lights without a surface are.
+    pub(in crate::engine) fn light_markers(&self, sensor: usize) -> Vec<Segment> {
+        markers(&self.description, sensor).into_iter().flat_map(|(_, marker)| marker).collect()
+    }
+}

@@ -1,0 +1,86 @@
+//! What the engine's thread knows, by purpose.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicUsize;
+use std::time::{Duration, Instant};
+
+use foton_integrator::RenderSettings;
+use rayon::ThreadPool;
+
+use crate::checkpoint::Keeper;
+use crate::engine::command::ViewMode;
+use crate::engine::frame::Picture;
+use crate::engine::render::LevelRender;
+use crate::stop::StopRule;
+
+/// Whether passes are rendered.
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
+pub(super) enum Flow {
+    /// Passes, until the stop rule.
+    #[default]
+    Run,
+    /// So many passes, then wait.
+    Steps(u64),
+}
+
+/// What a person has asked of the render.
+#[derive(Default)]
+pub(in crate::engine) struct Plan {
+    pub(in crate::engine) settings: RenderSettings,
+    pub(super) threads: Option<usize>,
+    pub(super) stop: StopRule,
+    pub(super) flow: Flow,
+    /// Whether more moves of the camera or of an object are to follow.
+    pub(super) moving: bool,
+}
+
+/// The render under way.
+#[derive(Default)]
+pub(in crate::engine) struct Current {
+    pub(in crate::engine) render: Option<LevelRender>,
+    /// Changes with each start.
+    pub(super) number: u64,
+    /// A render that cannot start is not tried again until something changes.
+    pub(super) refused: bool,
+    pub(super) last_pass: Duration,
+    /// One for all renders: threads that come and go leave memory behind that the system's allocator does not give back.
+    pub(super) pool: Option<Arc<ThreadPool>>,
+}
+
+/// Files that are written on the way, and the one to go on from.
+pub(in crate::engine) struct Files {
+    /// Files that were asked for and are not written yet.
+    pub(in crate::engine) unwritten: Arc<AtomicUsize>,
+    pub(super) auto_snapshots: Option<PathBuf>,
+    /// The checkpoint that follows the render.
+    pub(in crate::engine) keeper: Option<Keeper>,
+    /// The checkpoint that the next whole render goes on from.
+    pub(in crate::engine) resuming: Option<PathBuf>,
+}
+
+/// What frames are to carry.
+pub(super) struct View {
+    pub(super) mode: ViewMode,
+    /// Whether they carry the photons of the last pass.
+    pub(super) photons: bool,
+    pub(super) probed: Option<[u32; 2]>,
+}
+
+/// What frames have carried.
+pub(super) struct Published {
+    pub(super) frames: u64,
+    /// The whole picture as it last was: retained while the next render has none.
+    pub(super) picture: Option<Picture>,
+    /// The render that it is of.
+    pub(super) pictured: u64,
+    pub(super) last_frame: Instant,
+    /// Whether there is something that no frame has carried.
+    pub(super) unseen: bool,
+}
+
+impl Default for Published {
+    fn default() -> Self {
+        Self { frames: 0, picture: None, pictured: 0, last_frame: Instant::now(), unseen: true }
+    }
+}
