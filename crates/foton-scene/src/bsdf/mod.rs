@@ -57,20 +57,24 @@ pub enum Bsdf<C = Colour> {
     Null(Null),
 }
 
-/// Evaluates an expression of whichever model a BSDF is.
+/// Evaluates an expression of whichever model a BSDF is, or for plastic, whose coat counts at a point, another one.
 macro_rules! each {
     ($bsdf:expr, $model:ident => $result:expr) => {
+        each!($bsdf, $model => $result, $model => $result)
+    };
+    ($bsdf:expr, $model:ident => $result:expr, $plastic:ident => $of_plastic:expr) => {
         match $bsdf {
             Bsdf::Diffuse($model) => $result,
             Bsdf::Dielectric($model) => $result,
             Bsdf::ThinDielectric($model) => $result,
             Bsdf::Mirror($model) => $result,
             Bsdf::Conductor($model) => $result,
-            Bsdf::Plastic($model) => $result,
+            Bsdf::Plastic($plastic) => $of_plastic,
             Bsdf::Null($model) => $result,
         }
     };
 }
+use each;
 
 impl Bsdf {
     /// Every model as a file means it that gives no parameters; smooth, or where it can be, rough. In the order of the window.

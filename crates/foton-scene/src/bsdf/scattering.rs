@@ -3,11 +3,11 @@
 use foton_math::Rgb;
 use foton_math::glam::{Vec2, Vec3};
 
-use super::Bsdf;
 use super::coat::Coat;
 use super::flags::LobeFlags;
 use super::lobe_sample::{BsdfSample, LobeSample, LobeSamples, Transport};
 use super::model::{Model, choose};
+use super::{Bsdf, each};
 
 /// A BSDF at a point of a surface: colours looked up, and how much of the surface is there.
 ///
@@ -22,21 +22,13 @@ pub struct Scattering {
     pub coat: Option<Coat>,
 }
 
-/// Evaluates an expression of the model that a [`Scattering`] has.
-macro_rules! each {
+/// Evaluates an expression of the model that a [`Scattering`] has, with what gets through its coat.
+macro_rules! model {
     ($scattering:expr, $model:ident => $result:expr) => {
-        match &$scattering.bsdf {
-            Bsdf::Diffuse($model) => $result,
-            Bsdf::Dielectric($model) => $result,
-            Bsdf::ThinDielectric($model) => $result,
-            Bsdf::Mirror($model) => $result,
-            Bsdf::Conductor($model) => $result,
-            Bsdf::Plastic(plastic) => {
-                let $model = &plastic.under($scattering.coat.as_ref());
-                $result
-            }
-            Bsdf::Null($model) => $result,
-        }
+        each!(&$scattering.bsdf, $model => $result, plastic => {
+            let $model = &plastic.under($scattering.coat.as_ref());
+            $result
+        })
     };
 }
 
@@ -53,7 +45,7 @@ impl Scattering {
         if wo.z == 0.0 || wi.z == 0.0 {
             return Rgb::BLACK;
         }
-        each!(self, model => model.eval(wo, wi, lobes)) * self.opacity
+        model!(self, model => model.eval(wo, wi, lobes)) * self.opacity
     }
 
     /// The pdf (sr⁻¹) of all lobes but delta ones in [`Scattering::sample`], the probability of lobes included.
@@ -62,20 +54,20 @@ impl Scattering {
         if wo.z == 0.0 || wi.z == 0.0 {
             return 0.0;
         }
-        each!(self, model => model.pdf(wo, wi)) * self.opacity
+        model!(self, model => model.pdf(wo, wi)) * self.opacity
     }
 
     /// The pdf (sr⁻¹) of `wi` in [`Scattering::lobes`] for a glossy reflection; 0 for delta lobes, and for rough glass.
     #[must_use]
     pub fn glossy_pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        each!(self, model => model.glossy_pdf(wo, wi))
+        model!(self, model => model.glossy_pdf(wo, wi))
     }
 
     /// One direction of each delta or glossy lobe among `lobes`, chosen by `u` for glossy ones, and straight on through holes.
     /// Absent ones are `None`.
     #[must_use]
     pub fn lobes(&self, wo: Vec3, transport: Transport, u: Vec2, lobes: LobeFlags) -> LobeSamples {
-        let mut found = each!(self, model => model.lobes(wo, transport, u, lobes));
+        let mut found = model!(self, model => model.lobes(wo, transport, u, lobes));
         if self.opacity < 1.0 {
             for lobe in found.iter_mut().flatten() {
                 lobe.weight *= self.opacity;
@@ -111,7 +103,7 @@ impl Scattering {
     /// The share of light from `wo` that passes straight on, as if there were no surface.
     #[must_use]
     pub fn straight(&self, wo: Vec3) -> Rgb {
-        let mut straight = each!(self, model => model.straight(wo));
+        let mut straight = model!(self, model => model.straight(wo));
         if self.opacity < 1.0 {
             if let Some(lobe) = &mut straight {
                 lobe.weight *= self.opacity;
@@ -134,10 +126,10 @@ impl Scattering {
         apart: LobeFlags,
     ) -> Option<BsdfSample> {
         if self.opacity >= 1.0 {
-            return each!(self, model => model.sample(wo, transport, u_lobe, u, apart));
+            return model!(self, model => model.sample(wo, transport, u_lobe, u, apart));
         }
         if u_lobe < self.opacity {
-            return each!(self, model => model.sample(wo, transport, u_lobe / self.opacity, u, apart));
+            return model!(self, model => model.sample(wo, transport, u_lobe / self.opacity, u, apart));
         }
         let lobe = LobeFlags::DELTA | LobeFlags::TRANSMISSION | LobeFlags::STRAIGHT;
         Some(BsdfSample { wi: -wo, weight: Rgb::WHITE, lobe })

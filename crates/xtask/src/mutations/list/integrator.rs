@@ -39,8 +39,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "light that passes straight is direct light",
         file: "crates/foton-transport/src/photon_map/photon.rs",
-        from: "(_, Lobe::Straight) => self,",
-        to: "(Self::Direct | Self::Caustic, Lobe::Straight) => Self::Caustic,",
+        from: "(_, Bounce::Straight) => self,",
+        to: "(Self::Direct | Self::Caustic, Bounce::Straight) => Self::Caustic,",
         target: SURFACES,
         test: "shadow_rays_see_through_what_photons_pass_straight",
     },
