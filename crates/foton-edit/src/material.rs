@@ -64,7 +64,7 @@ fn side_fields(bsdf: &Bsdf, side: Side, out: &mut Fields) -> bool {
                 out.colour(own, parameter.label, c.to_array(), parameter.help);
             }
             Slot::Share(Colour::Texture(_)) => textured = true,
-            Slot::Refraction(ior) => out.parameter(own, parameter, f64::from(*ior)),
+            Slot::Number(x) | Slot::Refraction(x) => out.parameter(own, parameter, f64::from(*x)),
             Slot::Boolean(on) => out.toggle(own, parameter.label, *on, parameter.help),
             Slot::Metal { eta, k } => metal_fields(side, parameters, [*eta, *k], out),
             Slot::Roughness(roughness) => roughness_fields(side, parameters, *roughness, out),
@@ -164,7 +164,7 @@ fn set_side(bsdf: &mut Bsdf, property: Property, value: Value) {
         let is_it = property == Property::Parameter(parameters[0].name);
         match (slot, value) {
             (Slot::Share(share), Value::Colour(c)) if is_it => *share = Rgb::from_array(c).into(),
-            (Slot::Refraction(ior), Value::Number(x)) if is_it => *ior = x as f32,
+            (Slot::Number(place) | Slot::Refraction(place), Value::Number(x)) if is_it => *place = x as f32,
             (Slot::Boolean(flag), Value::Toggle(on)) if is_it => *flag = on,
             (Slot::Metal { eta, k }, _) => set_metal([eta, k], property, value),
             (Slot::Roughness(roughness), _) => set_roughness(roughness, property, value),

@@ -20,6 +20,8 @@ pub struct Bound<'a> {
 pub enum Slot<'a> {
     /// A share of light.
     Share(&'a mut Colour),
+    /// A number.
+    Number(&'a mut f32),
     /// An index of refraction.
     Refraction(&'a mut f32),
     /// True or false.
@@ -52,6 +54,7 @@ impl<'a> Bound<'a> {
         match &self.slot {
             Slot::Share(Colour::Constant(c)) => is_within(c),
             Slot::Share(Colour::Texture(_)) | Slot::Boolean(_) => true,
+            Slot::Number(x) => range.holds(f64::from(**x)),
             Slot::Refraction(x) => positive(**x),
             Slot::Metal { eta, k } => is_within(eta) && is_within(k),
             Slot::Roughness(r) => r.is_none_or(|r| positive(r.alpha_u) && positive(r.alpha_v)),

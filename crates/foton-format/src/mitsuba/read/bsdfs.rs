@@ -42,6 +42,7 @@ impl Reader<'_> {
         p.leave_out(parameters, &mut self.report);
         match slot {
             Slot::Share(share) => *share = self.share(p, &parameters[0]),
+            Slot::Number(number) => *number = self.number(p, &parameters[0])?,
             Slot::Refraction(ior) => *ior = self.refraction(p, &parameters[0])?,
             Slot::Boolean(flag) => {
                 *flag = p.boolean(parameters[0].name, &mut self.report).is_some_and(|found| found.value);
@@ -51,6 +52,18 @@ impl Reader<'_> {
             Slot::Roughness(None) => {}
         }
         Some(())
+    }
+
+    /// A number within its range.
+    #[allow(clippy::cast_possible_truncation, reason = "optics is single precision")]
+    fn number(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Option<f32> {
+        let Parameter { name, range: (min, max), .. } = *parameter;
+        let Some(found) = p.number(name, &mut self.report) else { return Some(parameter.default_number()) };
+        if parameter.holds(found.value) {
+            return Some(found.value as f32);
+        }
+        self.report.error(found.place, format!("\"{name}\" must lie between {min} and {max}"));
+        None
     }
 
     /// The complex index of refraction of a metal: by name, or by its parts, relative to what is outside.

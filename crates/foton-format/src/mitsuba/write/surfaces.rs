@@ -130,6 +130,7 @@ pub(crate) fn stated(bound: &Bound<'_>) -> Vec<Stated> {
     match &bound.slot {
         Slot::Share(Colour::Constant(c)) => vec![of("rgb", name, colour(*c))],
         Slot::Share(Colour::Texture(_)) | Slot::Roughness(None) => Vec::new(),
+        Slot::Number(number) => vec![of("float", name, single(**number))],
         Slot::Refraction(ior) => vec![of("float", name, single(**ior))],
         Slot::Boolean(flag) => vec![of("boolean", name, flag.to_string())],
         Slot::Metal { eta, k } => vec![of("rgb", "eta", colour(**eta)), of("rgb", "k", colour(**k))],
