@@ -96,7 +96,7 @@ impl Scene {
         let emitter = &self.emitters[index];
         // Of all directions of a photon, the share of those within a cone of that half-angle is the square of its half's sine.
         let (position, share_of_all) = match &emitter.kind {
-            Kind::Point { position, .. } => (*position, 1.0),
+            Kind::Point(point) => (point.position, 1.0),
             Kind::Spot(spot) => (spot.position, f64::from(spot.cutoff * 0.5).sin().powi(2)),
             _ => return None,
         };
@@ -105,7 +105,7 @@ impl Scene {
         let near = times <= TOO_FAR && chance >= MIN_CHANCE;
         let towards = (self.bounds.centre().as_dvec3() - position.as_dvec3()).normalize_or_zero().as_vec3();
         let intensity = match &emitter.kind {
-            Kind::Point { intensity, .. } => *intensity,
+            Kind::Point(point) => point.intensity,
             Kind::Spot(spot) => spot.intensity * spot.falloff(towards),
             _ => return None,
         };

@@ -11,7 +11,6 @@ mod coincident;
 pub mod description;
 mod discrete;
 mod emitter;
-mod environment;
 mod far;
 mod filter;
 pub mod metals;

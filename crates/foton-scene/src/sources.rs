@@ -10,7 +10,7 @@ use std::sync::Arc;
 use foton_math::glam::{Vec2, Vec3};
 
 use crate::discrete::Discrete;
-use crate::emitter::{Aim, Ball, Emission, Emitter, Kind, Target};
+use crate::emitter::{Aim, Ball, Constant, Directional, Emission, Emitter, Environment, Kind, Target};
 use crate::scene::Scene;
 
 /// A scene is wide if its radius is this many times that of the ball with most of what is seen.
@@ -161,11 +161,11 @@ fn arrives(emitter: &Emitter, ball: &Ball) -> f32 {
     let from = |position: Vec3| (ball.radius / position.distance(ball.centre)).powi(2).min(1.0);
     match &emitter.kind {
         Kind::Area(area) => from(area.middle()),
-        Kind::Point { position, .. } => from(*position),
+        Kind::Point(point) => from(point.position),
         Kind::Spot(spot) => (from(spot.position) / spot.cutoff.sin().powi(2).max(f32::MIN_POSITIVE)).min(1.0),
-        Kind::Constant { scene, .. } | Kind::Directional { scene, .. } | Kind::Environment { scene, .. } => {
-            (ball.radius / scene.radius).powi(2)
-        }
+        Kind::Constant(Constant { scene, .. })
+        | Kind::Directional(Directional { scene, .. })
+        | Kind::Environment(Environment { scene, .. }) => (ball.radius / scene.radius).powi(2),
     }
 }
 

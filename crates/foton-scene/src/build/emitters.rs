@@ -6,8 +6,9 @@ use foton_math::{Aabb, Frame, Rgb};
 use super::orientation::orientation;
 use crate::description::{EmitterDescription, EmitterKind};
 use crate::discrete::Discrete;
-use crate::emitter::{Aim, Ball, Emitter, Kind, Spot, Target};
-use crate::environment::Environment;
+use crate::emitter::{
+    Aim, Ball, Constant, Directional, Emitter, Environment, EnvironmentMap, Kind, Point, Spot, Target,
+};
 use crate::normalise::Normalisation;
 
 /// Share of photons spread evenly over emitters, whatever their power (δ of theory's many lights).
@@ -34,7 +35,7 @@ pub(super) fn unattached_emitter(
     let scaled = |intensity: Rgb| intensity.map(|c| (f64::from(c) * scale2) as f32);
     let kind = match &description.kind {
         EmitterKind::Point { position, intensity } => {
-            Kind::Point { position: to_scene.point(*position), intensity: scaled(*intensity) }
+            Kind::Point(Point { position: to_scene.point(*position), intensity: scaled(*intensity) })
         }
         EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees } => {
             let axis = to_world.matrix3.z_axis.normalize().as_vec3();
@@ -46,15 +47,16 @@ pub(super) fn unattached_emitter(
                 beam: beam_degrees.min(*cutoff_degrees).to_radians() as f32,
             })
         }
-        EmitterKind::Constant { radiance } => Kind::Constant { radiance: *radiance, scene },
-        EmitterKind::Directional { direction, irradiance } => Kind::Directional {
+        EmitterKind::Constant { radiance } => Kind::Constant(Constant { radiance: *radiance, scene }),
+        EmitterKind::Directional { direction, irradiance } => Kind::Directional(Directional {
             direction: direction.normalize_or(DVec3::NEG_Z).as_vec3(),
             irradiance: *irradiance,
             scene,
-        },
+        }),
         EmitterKind::Environment { to_world, bitmap, scale } => {
             let to_world = orientation(to_world).transpose();
-            Kind::Environment { map: Box::new(Environment::new(bitmap.clone(), *scale, to_world)), scene }
+            let map = Box::new(EnvironmentMap::new(bitmap.clone(), *scale, to_world));
+            Kind::Environment(Environment { map, scene })
         }
     };
     let emitter = Emitter { name: description.name.clone(), kind, aim: Aim::default() };

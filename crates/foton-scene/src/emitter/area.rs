@@ -5,7 +5,8 @@ use std::f32::consts::PI;
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Aabb, Frame, Rgb, warp};
 
-use super::Illumination;
+use super::aim::Aim;
+use super::emission::{Emission, Illumination};
 use crate::discrete::Discrete;
 use crate::plane::Plane;
 use crate::primitive::Primitive;
@@ -80,6 +81,27 @@ impl Area {
         self.primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds())).centre()
     }
 
+    pub(super) fn power_factor(&self) -> f32 {
+        PI * self.area
+    }
+
+    pub(super) fn emit(&self, aim: &Aim, u_part: f32, u_position: Vec2, u_direction: Vec2) -> Emission {
+        let surface = self.sample(u_part, u_position);
+        let frame = Frame::from_normal(surface.normal);
+        let own = |u| frame.to_outer(warp::square_to_cosine_hemisphere(u));
+        let origin = surface.ray_origin(surface.normal);
+        if aim.is_empty() {
+            return Emission {
+                origin,
+                direction: own(u_direction),
+                power: self.radiance * self.power_factor(),
+            };
+        }
+        let cosine = |direction: Vec3| direction.dot(surface.normal).max(0.0);
+        let (direction, pdf) = aim.divergent(origin, u_direction, own, |direction| cosine(direction) / PI);
+        Emission { origin, direction, power: self.radiance * (self.area * cosine(direction) / pdf) }
+    }
+
     pub(super) fn illuminate(&self, position: Vec3, u_part: f32, u: Vec2) -> Option<Illumination> {
         if let [Primitive::Sphere { centre, radius, inward: false }] = self.primitives[..]
             && let Some(seen) = self.illuminate_from_sphere(centre, radius, position, u)
@@ -95,7 +117,7 @@ impl Area {
             direction,
             distance: distance2.sqrt(),
             radiance_over_pdf: self.radiance * (cosine * self.area / distance2),
-            density: distance2 / (cosine * self.area),
+            pdf: distance2 / (cosine * self.area),
         })
     }
 
@@ -117,13 +139,13 @@ impl Area {
             direction: Frame::from_normal(d / distance).to_outer(local),
             distance: distance * local.z - discriminant.max(0.0).sqrt(),
             radiance_over_pdf: self.radiance / warp::square_to_cone_pdf(one_minus_cos),
-            density: warp::square_to_cone_pdf(one_minus_cos),
+            pdf: warp::square_to_cone_pdf(one_minus_cos),
         })
     }
 
-    /// The density (sr⁻¹) with which [`Area::illuminate`] chooses the direction from `position` to a point of this surface;
+    /// The pdf (sr⁻¹) with which [`Area::illuminate`] chooses the direction from `position` to a point of this surface;
     /// 0 where that is seen from behind.
-    pub(crate) fn density(&self, point: &Surface, position: Vec3) -> f32 {
+    pub(crate) fn pdf(&self, point: &Surface, position: Vec3) -> f32 {
         if let [Primitive::Sphere { centre, radius, inward: false }] = self.primitives[..]
             && let Some(one_minus_cos) = one_minus_cos_of_cone(radius, centre.distance(position))
         {

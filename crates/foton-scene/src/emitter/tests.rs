@@ -4,7 +4,8 @@ use super::*;
 use crate::description::Bitmap;
 use crate::primitive::Primitive;
 use foton_math::glam::Mat3;
-use foton_math::{Purpose, Stream};
+use foton_math::{Frame, Purpose, Stream, warp};
+use std::f32::consts::PI;
 
 fn emitter(kind: Kind) -> Emitter {
     Emitter { name: "test".into(), kind, aim: Aim::default() }
@@ -32,7 +33,7 @@ fn as_they_shine() -> Vec<Emitter> {
     let scene = Ball { centre: Vec3::ZERO, radius: 10.0 };
     let pixels = (0..32).map(|i| Rgb::splat(0.2 + 0.3 * (i % 5) as f32)).collect();
     let bitmap = Bitmap { width: 8, height: 4, pixels };
-    let map = Environment::new(bitmap.into(), 1.5, Mat3::from_rotation_x(0.4));
+    let map = EnvironmentMap::new(bitmap.into(), 1.5, Mat3::from_rotation_x(0.4));
     let square = |x: f32| Vec3::new(x, 0.0, 3.0);
     vec![
         area(vec![Primitive::Sphere { centre: Vec3::new(0.0, 0.0, 5.0), radius: 1.5, inward: false }]),
@@ -41,7 +42,7 @@ fn as_they_shine() -> Vec<Emitter> {
             Primitive::Triangle([square(0.0), square(1.0) + Vec3::Y, square(1.0)]),
             Primitive::Triangle([square(0.0), square(-3.0), square(0.0) - Vec3::Y]),
         ]),
-        emitter(Kind::Point { position: Vec3::new(1.0, 0.0, 2.0), intensity: Rgb::splat(3.0) }),
+        emitter(Kind::Point(Point { position: Vec3::new(1.0, 0.0, 2.0), intensity: Rgb::splat(3.0) })),
         emitter(Kind::Spot(Spot {
             position: Vec3::new(0.0, 0.5, 3.0),
             frame: Frame::from_normal(Vec3::new(0.1, -0.1, -1.0).normalize()),
@@ -49,13 +50,13 @@ fn as_they_shine() -> Vec<Emitter> {
             cutoff: 0.5,
             beam: 0.3,
         })),
-        emitter(Kind::Constant { radiance: Rgb::splat(0.7), scene }),
-        emitter(Kind::Directional {
+        emitter(Kind::Constant(Constant { radiance: Rgb::splat(0.7), scene })),
+        emitter(Kind::Directional(Directional {
             direction: Vec3::new(0.3, 0.2, -0.9).normalize(),
             irradiance: Rgb::splat(2.0),
             scene,
-        }),
-        emitter(Kind::Environment { map: Box::new(map), scene }),
+        })),
+        emitter(Kind::Environment(Environment { map: Box::new(map), scene })),
         area(vec![Primitive::Cylinder { from: Vec3::new(-1.0, 0.0, 3.0), axis: Vec3::X * 2.0, radius: 0.4 }]),
     ]
 }

@@ -24,7 +24,7 @@ impl Scene {
     pub fn area_emitter_pdf(&self, surface: &Surface, position: Vec3) -> f32 {
         let Some(emitter) = self.shapes[surface.shape as usize].emitter else { return 0.0 };
         match &self.emitters[emitter as usize].kind {
-            Kind::Area(area) => area.density(surface, position) * self.emitter_share(emitter as usize) as f32,
+            Kind::Area(area) => area.pdf(surface, position) * self.emitter_share(emitter as usize) as f32,
             _ => 0.0,
         }
     }

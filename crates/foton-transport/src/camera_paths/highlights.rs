@@ -136,6 +136,6 @@ impl Glossy<'_> {
         } else {
             straight::transmittance(self.scene, ray, self.edges, rays)
         };
-        value * light.radiance_over_pdf * transmittance * weight([light.density, bsdf_pdf])
+        value * light.radiance_over_pdf * transmittance * weight([light.pdf, bsdf_pdf])
     }
 }

@@ -103,7 +103,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "rows of maps go from pole to pole",
-        file: "crates/foton-scene/src/environment.rs",
+        file: "crates/foton-scene/src/emitter/environment_map.rs",
         from: "bitmap.height.max(3) as usize - 1",
         to: "bitmap.height as usize",
         target: SCENE,

@@ -16,7 +16,7 @@ use crate::discrete::Discrete;
 
 /// An environment map ready to be asked and sampled.
 #[derive(Clone, Debug)]
-pub(crate) struct Environment {
+pub(crate) struct EnvironmentMap {
     bitmap: Arc<Bitmap>,
     scale: f32,
     to_world: Mat3,
@@ -39,7 +39,7 @@ pub(crate) struct EnvironmentSample {
     pub(crate) pdf: f32,
 }
 
-impl Environment {
+impl EnvironmentMap {
     pub(crate) fn new(bitmap: Arc<Bitmap>, scale: f32, to_world: Mat3) -> Self {
         let (width, bands) = (bitmap.width as usize, bands(&bitmap));
         let mut environment = Self {
@@ -127,7 +127,7 @@ impl Environment {
         self.to_world * Vec3::new(phi.sin() * theta.sin(), theta.cos(), -phi.cos() * theta.sin())
     }
 
-    /// Density of [`Environment::sample`] per unit solid angle.
+    /// Density of [`EnvironmentMap::sample`] per unit solid angle.
     pub(crate) fn pdf(&self, direction: Vec3) -> f32 {
         if self.rows.is_empty() {
             return 0.0;
@@ -169,14 +169,14 @@ mod tests {
     use super::*;
     use foton_math::{Purpose, Stream, warp};
 
-    fn map() -> Environment {
+    fn map() -> EnvironmentMap {
         let (width, height) = (16u32, 8u32);
         let mut pixels: Vec<Rgb> =
             (0..width * height).map(|i| Rgb::splat(0.1 + (i % 7) as f32 * 0.05)).collect();
         // A sun.
         pixels[2 * 16 + 5] = Rgb::new(100.0, 80.0, 60.0);
         let turn = Mat3::from_rotation_y(0.7) * Mat3::from_rotation_x(0.3);
-        Environment::new(Arc::new(Bitmap { width, height, pixels }), 2.0, turn)
+        EnvironmentMap::new(Arc::new(Bitmap { width, height, pixels }), 2.0, turn)
     }
 
     #[test]
@@ -218,10 +218,10 @@ mod tests {
     }
 
     /// A map whose pixels are all different, as it was given to Mitsuba.
-    fn small(width: u32, height: u32) -> Environment {
+    fn small(width: u32, height: u32) -> EnvironmentMap {
         let shade = |x: u32, y: u32| Rgb::splat(((x * 7 + y * 11 + 3) % 13 + 1) as f32);
         let pixels = (0..height).flat_map(|y| (0..width).map(move |x| shade(x, y))).collect();
-        Environment::new(Arc::new(Bitmap { width, height, pixels }), 1.0, Mat3::IDENTITY)
+        EnvironmentMap::new(Arc::new(Bitmap { width, height, pixels }), 1.0, Mat3::IDENTITY)
     }
 
     #[test]
