@@ -9,7 +9,7 @@ fn lists_choose_the_view_and_the_tone_map() {
     assert_eq!(asked(&mut harness), [""; 0], "nothing is rendered again");
     assert_eq!(harness.state().tone_map, ToneMap::AgX);
     choose(&mut harness, "Show", "Radius");
-    assert_asked(&mut harness, &Command::Show(ViewMode::Radius));
+    assert_asked(&mut harness, &Command::SetView(ViewMode::Radius));
     assert!(harness.query_by_role_and_label(Role::Slider, "Exposure").is_none(), "measures are not exposed");
 }
 
@@ -20,10 +20,10 @@ fn kinds_of_light_are_switched_and_kept_apart_from_then_on() {
     click(&mut harness, Role::CheckBox, "Caustic");
     let view = ViewMode::Classes { reflected: [true, false, true], emission: true };
     let layers = Configuration { layers: true, ..Configuration::of(&RenderSettings::default(), None) };
-    let expected = [Command::Show(view), Command::Configure(layers)].map(|c| format!("{c:?}"));
+    let expected = [Command::SetView(view), Command::Configure(layers)].map(|c| format!("{c:?}"));
     assert_eq!(asked(&mut harness), expected);
     click(&mut harness, Role::CheckBox, "Caustic");
-    assert_asked(&mut harness, &Command::Show(ViewMode::Radiance));
+    assert_asked(&mut harness, &Command::SetView(ViewMode::Radiance));
 }
 
 #[test]
