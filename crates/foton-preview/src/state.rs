@@ -11,7 +11,7 @@ use foton_session::engine::{Command, Configuration, Event, Frame, Picture, Sourc
 use crate::files::FileDialog;
 use crate::preferences::Preferences;
 
-/// Points that a plot keeps; older ones are thinned.
+/// Points of a plot at most; older ones are thinned.
 const PLOT_POINTS: usize = 512;
 
 /// How long a message stays, in seconds; errors stay until they are closed.
@@ -261,7 +261,7 @@ impl State {
     pub(crate) fn choose_view(&mut self, view: ViewMode) {
         if self.view != view {
             self.view = view;
-            self.ask(Command::Show(view));
+            self.ask(Command::SetView(view));
         }
     }
 

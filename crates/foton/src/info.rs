@@ -19,7 +19,7 @@ const PROBE_PHOTONS: NonZeroU32 = NonZeroU32::new(1 << 14).expect("above 0");
 
 /// Runs `foton info`.
 pub(crate) fn print(args: &Info, console: &Console) -> Result<(), Failure> {
-    // A signal ends the program at once: there is nothing to keep.
+    // A signal ends the program at once: there is nothing to save.
     let cancel = Cancel::default();
     let opened = open(&args.scene, &args.scene_options.defines, args.memory, &cancel)?;
     refuse_two_roles(args.roles(), &opened)?;

@@ -17,7 +17,7 @@ use crate::args::Every;
 enum Use {
     Read,
     Written,
-    /// A checkpoint to go on from; the same file may keep the state from there on.
+    /// A checkpoint to go on from; the same file may have later states, too.
     StateRead,
     StateWritten,
 }

@@ -107,7 +107,7 @@ impl Loader for Files {
         match save_edited(opened, edited, path).map_err(|cause| cause.to_string())? {
             Saved::Changed => Ok(String::new()),
             Saved::Anew { why } => {
-                Ok(format!("The whole scene was written anew, with its meshes beside it: {why}"))
+                Ok(format!("The whole scene was rewritten, with its meshes beside it: {why}"))
             }
         }
     }

@@ -5,14 +5,12 @@ use std::time::Duration;
 use egui_plot::{Line, Plot, PlotPoints};
 use foton_session::Ledger;
 use foton_session::engine::{Activity, Frame, RenderStats, SurfaceNames};
+use foton_session::findings::MIN_CUT_OFF;
 
 use super::error::{self, Row};
 use super::text::{grouped, short};
 use super::widgets::heading;
 use crate::state::{State, Trace};
-
-/// A share of the light cut off at the longest path that is worth a warning, as in `foton render`.
-const MUCH_CUT_OFF: f64 = 1e-3;
 
 /// The line at the bottom.
 pub(super) fn status(ui: &mut egui::Ui, state: &State) {
@@ -147,7 +145,7 @@ fn light_rows(ui: &mut egui::Ui, ledger: &Ledger) {
         "Light still under way at the longest path, and photons whose power was no number; max_depth in the scene file moves the \
          end",
     );
-    let is_much = ledger.truncated > MUCH_CUT_OFF * ledger.emitted || ledger.dropped > 0;
+    let is_much = ledger.truncated > MIN_CUT_OFF * ledger.emitted || ledger.dropped > 0;
     add(ui, &missing, is_much.then_some(ui.visuals().warn_fg_color));
     if ledger.shading_gain > 0.0 {
         let gained = Row::new(

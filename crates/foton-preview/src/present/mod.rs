@@ -20,12 +20,12 @@ use foton_film::{Image, Plane, ToneMap};
 pub(crate) use pipeline::Presenter;
 pub(crate) use texture::reduction;
 
-/// Pixels to be shown, shared with whoever made them.
+/// Pixels to be drawn, shared with whoever made them.
 #[derive(Clone, Debug)]
 pub(crate) enum Picture {
     /// Linear radiance.
     Rgb(Arc<Image>),
-    /// A measure of each pixel, such as a radius; shown as grey where a view asks for radiance.
+    /// A measure of each pixel, such as a radius; drawn as grey where a view asks for radiance.
     Scalar(Arc<Plane<f32>>),
 }
 

@@ -1,7 +1,7 @@
 //! The presenter: the shader's pipelines, its buffer, the textures of the picture and the pinned picture, and what was last seen
 //! of them.
 
-use super::texture::{Shown, create_texture, write_rows};
+use super::texture::{Uploaded, create_texture, write_rows};
 use super::uniforms::{self, Kind};
 use super::{Area, Picture, View, colour_map};
 
@@ -11,7 +11,7 @@ const MAX_PIPELINES: usize = 4;
 /// Encoded bytes, as they go to the screen.
 const SHADED: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-/// Draws pictures with `shaders/present.wgsl`. Kept among egui's `CallbackResources`; a lost device needs a new one, which
+/// Draws pictures with `shaders/present.wgsl`. Stored among egui's `CallbackResources`; a lost device needs a new one, which
 /// uploads what it is next asked to show.
 pub(crate) struct Presenter {
     module: wgpu::ShaderModule,
@@ -22,8 +22,8 @@ pub(crate) struct Presenter {
     copy: wgpu::RenderPipeline,
     view: wgpu::Buffer,
     colour_map: wgpu::Texture,
-    picture: Option<Shown>,
-    pinned: Option<Shown>,
+    picture: Option<Uploaded>,
+    pinned: Option<Uploaded>,
     /// Replaced when a texture is.
     bindings: Option<wgpu::BindGroup>,
     shaded: Option<Shaded>,
@@ -74,7 +74,7 @@ impl Presenter {
         }
     }
 
-    /// Uploads what is not there yet. A picture without pixels leaves what was shown before.
+    /// Uploads what is not there yet. A picture without pixels leaves what was drawn before.
     pub(crate) fn upload(
         &mut self,
         device: &wgpu::Device,
@@ -82,16 +82,16 @@ impl Presenter {
         picture: &Picture,
         pinned: Option<&Picture>,
     ) {
-        let is_new = |shown: &Option<Shown>, picture: &Picture| {
-            !shown.as_ref().is_some_and(|shown| shown.is_of(picture)) && !picture.size().contains(&0)
+        let is_new = |uploaded: &Option<Uploaded>, picture: &Picture| {
+            !uploaded.as_ref().is_some_and(|uploaded| uploaded.is_of(picture)) && !picture.size().contains(&0)
         };
         if is_new(&self.picture, picture) {
-            self.picture = Some(Shown::new(device, queue, picture, self.picture.take()));
+            self.picture = Some(Uploaded::new(device, queue, picture, self.picture.take()));
             self.bindings = None;
         }
         match pinned {
             Some(picture) if is_new(&self.pinned, picture) => {
-                self.pinned = Some(Shown::new(device, queue, picture, self.pinned.take()));
+                self.pinned = Some(Uploaded::new(device, queue, picture, self.pinned.take()));
                 self.bindings = None;
             }
             None if self.pinned.is_some() => {
@@ -130,7 +130,7 @@ impl Presenter {
             return;
         }
         (shaded.view, shaded.area) = (Some(*view), area);
-        let extents = [&self.picture, &self.pinned].map(|shown| shown.as_ref().map(Shown::extent));
+        let extents = [&self.picture, &self.pinned].map(|uploaded| uploaded.as_ref().map(Uploaded::extent));
         queue.write_buffer(&self.view, 0, bytemuck::cast_slice(&uniforms::pack(view, area.origin, extents)));
         let kind = Kind::of(view, extents);
         match self.shade.iter().position(|(made_for, _)| *made_for == kind) {

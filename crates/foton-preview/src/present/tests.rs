@@ -75,8 +75,8 @@ fn at_scale_one_every_pixel_is_what_the_png_writer_makes() {
     let mut screen = Screen::new([SIDE, SIDE]);
     for tone_map in ToneMap::ALL {
         for exposure_stops in [-13.0, -3.3, 0.0, 1.7, 12.0] {
-            let shown = screen.draw(&View { exposure_stops, tone_map, ..plain(SIDE, SIDE) }, &picture, None);
-            for (&c, found) in pixels.iter().zip(shown) {
+            let drawn = screen.draw(&View { exposure_stops, tone_map, ..plain(SIDE, SIDE) }, &picture, None);
+            for (&c, found) in pixels.iter().zip(drawn) {
                 assert_shows(
                     found,
                     tone_map::display(c, tone_map, exposure_stops),
@@ -98,8 +98,8 @@ fn dark_and_middle_tones_agree_in_every_step() {
     for pixels in [grey, green] {
         let picture = rgb(SIDE, pixels.clone());
         for tone_map in ToneMap::ALL {
-            let shown = screen.draw(&View { tone_map, ..plain(SIDE, SIDE) }, &picture, None);
-            for (&c, found) in pixels.iter().zip(shown) {
+            let drawn = screen.draw(&View { tone_map, ..plain(SIDE, SIDE) }, &picture, None);
+            for (&c, found) in pixels.iter().zip(drawn) {
                 assert_shows(found, tone_map::display(c, tone_map, 0.0), (c, tone_map));
             }
         }
@@ -112,8 +112,8 @@ fn left_of_the_wipe_is_the_picture_and_right_of_it_the_pinned_one() {
     let green = rgb(2, vec![Rgb::new(0.0, 1.0, 0.0); 2]);
     let mut screen = Screen::new([40, 10]);
     let view = View { wipe: Some(0.5), image_rect: rect(0.0, 0.0, 40.0, 8.0), ..plain(4, 2) };
-    let shown = screen.draw(&view, &red, Some(&green));
-    for (i, found) in shown.iter().enumerate() {
+    let drawn = screen.draw(&view, &red, Some(&green));
+    for (i, found) in drawn.iter().enumerate() {
         let (x, y) = (i % 40, i / 40);
         let around = if y < 8 { None } else { Some([10, 20, 30]) };
         match x {
@@ -124,7 +124,7 @@ fn left_of_the_wipe_is_the_picture_and_right_of_it_the_pinned_one() {
         }
     }
     // Without one of the two there is no line.
-    let all_red = |shown: Vec<[u8; 3]>| shown[..320].iter().all(|found| *found == [255, 0, 0]);
+    let all_red = |drawn: Vec<[u8; 3]>| drawn[..320].iter().all(|found| *found == [255, 0, 0]);
     assert!(all_red(screen.draw(&view, &red, None)));
     assert!(all_red(screen.draw(&View { wipe: None, ..view }, &red, Some(&green))));
 }
@@ -147,8 +147,8 @@ fn a_measure_runs_over_the_colour_map_and_stops_at_its_ends() {
     assert_eq!(draw(true, values), [low, high, half, five, low, high, low, missing]);
     // A range that is none is a step.
     let mode = Mode::FalseColour { low: 3.0, high: 3.0, logarithmic: false };
-    let shown = screen.draw(&View { mode, ..plain(2, 1) }, &scalar(2, vec![2.9, 3.1]), None);
-    assert_eq!(shown[..2], [low, high]);
+    let drawn = screen.draw(&View { mode, ..plain(2, 1) }, &scalar(2, vec![2.9, 3.1]), None);
+    assert_eq!(drawn[..2], [low, high]);
 }
 
 #[test]
@@ -156,6 +156,6 @@ fn false_colour_of_light_is_that_of_its_luminance() {
     let c = Rgb::new(0.9, 0.3, 0.6);
     let mut screen = Screen::new([2, 2]);
     let mode = Mode::FalseColour { low: 0.0, high: 1.0, logarithmic: false };
-    let shown = screen.draw(&View { mode, ..plain(2, 2) }, &rgb(2, vec![c; 4]), None);
-    assert_eq!(shown, [colour_map::at(c.luminance()); 4]);
+    let drawn = screen.draw(&View { mode, ..plain(2, 2) }, &rgb(2, vec![c; 4]), None);
+    assert_eq!(drawn, [colour_map::at(c.luminance()); 4]);
 }

@@ -9,21 +9,21 @@ const BAND_BYTES: usize = 8 << 20;
 const TEXEL_BYTES: usize = 16;
 
 /// How many pixels along each axis become one texel on an adapter whose textures have at most `largest` texels a side; 1 means
-/// that the picture is shown as it is.
+/// that the picture is drawn as it is.
 #[must_use]
 pub(crate) fn reduction(size: [u32; 2], largest: u32) -> u32 {
     size[0].max(size[1]).div_ceil(largest.max(1)).max(1)
 }
 
 /// A picture and its texture.
-pub(super) struct Shown {
+pub(super) struct Uploaded {
     picture: Picture,
     texture: wgpu::Texture,
     /// The pixels along each axis that became one texel.
     reduction: u32,
 }
 
-impl Shown {
+impl Uploaded {
     /// Uploads a picture with at least one pixel, into the texture of `last` where it fits.
     pub(super) fn new(
         device: &wgpu::Device,
@@ -34,7 +34,7 @@ impl Shown {
         let size = picture.size();
         let reduction = reduction(size, device.limits().max_texture_dimension_2d);
         let [width, height] = size.map(|pixels| pixels.div_ceil(reduction));
-        let fits = |shown: &Self| (shown.texture.width(), shown.texture.height()) == (width, height);
+        let fits = |uploaded: &Self| (uploaded.texture.width(), uploaded.texture.height()) == (width, height);
         let texture = match last {
             Some(last) if fits(&last) => last.texture,
             _ => {

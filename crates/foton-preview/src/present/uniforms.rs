@@ -10,7 +10,7 @@ const WORDS: usize = 20;
 /// The size of it in bytes.
 pub(super) const BYTES: u64 = 4 * WORDS as u64;
 
-/// Texels that a pixel may hold along an axis before their mean is shown. A little more than one: at scale 1 rounding must not
+/// Texels that a pixel may hold along an axis before their mean is drawn. A little more than one: at scale 1 rounding must not
 /// start to blur.
 const MAX_TEXEL_COUNT: f32 = 1.001;
 

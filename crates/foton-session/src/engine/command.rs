@@ -157,7 +157,7 @@ pub enum SceneEdit {
 pub enum ViewMode {
     /// All radiance.
     Radiance,
-    /// Reflected light of some path classes, in their order, and emitters; the render must keep classes apart.
+    /// Reflected light of some path classes, in their order, and emitters; the render must separate classes.
     Classes {
         /// Direct, caustic, indirect.
         reflected: [bool; 3],
@@ -224,7 +224,7 @@ pub enum Command {
     /// Changes the scene.
     Edit(SceneEdit),
     /// What frames carry.
-    Show(ViewMode),
+    SetView(ViewMode),
     /// Whether frames carry the photons of the last pass.
     ShowPhotons(bool),
     /// The pixel that a person points at.

@@ -1,13 +1,14 @@
 //! The engine: a thread that renders over a pool, takes commands and offers the newest frame. A window steers it; it knows none.
 //!
-//! Threads meet here and nowhere else: commands come in over one bounded channel, frames leave over a slot that keeps the newest,
+//! Threads meet here and nowhere else: commands come in over one bounded channel, frames leave over a slot that holds the newest,
 //! events (which must not get lost) over a third. The engine calls `wake` when there is something to see.
 
 mod cancels;
+mod checkpointing;
 mod command;
 mod editable_scene;
 mod frame;
-mod keeping;
+
 mod loader;
 mod probe;
 mod rates;

@@ -1,4 +1,4 @@
-//! A channel that keeps the newest value only: a slow reader never holds a writer up, and never sees the past.
+//! A channel that holds the newest value only: a slow reader never holds a writer up, and never sees the past.
 
 use crossbeam_channel::{Receiver, Sender, TrySendError, bounded};
 

@@ -6,7 +6,7 @@ mod scene;
 #[cfg(test)]
 mod tests;
 
-pub use render::{above_goal, of_emitters, of_ledger, of_render, of_settings};
+pub use render::{MIN_CUT_OFF, above_goal, of_emitters, of_ledger, of_render, of_settings};
 pub use scene::of_scene;
 
 /// What a finding is about.

@@ -7,7 +7,7 @@ use foton_scene::Scene;
 use super::{Finding, FindingKind, SettingNames};
 
 /// Power that is cut off beyond this share of what is emitted is worth a warning.
-const MIN_CUT_OFF: f64 = 1e-3;
+pub const MIN_CUT_OFF: f64 = 1e-3;
 
 /// Names that a finding lists at most.
 const MAX_NAMES: usize = 20;

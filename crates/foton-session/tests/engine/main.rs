@@ -227,11 +227,11 @@ fn an_image_of_32768_by_32768_is_refused_with_the_numbers() {
 #[test]
 fn measures_and_kinds_of_light_are_shown_instead_of_radiance() {
     let (rig, before) = Rig::at_pass(2);
-    for shown in [ViewMode::Radius, ViewMode::PhotonCount, ViewMode::Luminance, ViewMode::Unknown] {
-        rig.send(Command::Show(shown));
-        let frame = rig.until("a measure", |f| f.view == shown);
-        let Some(Picture::Measure { plane, .. }) = &frame.picture else { panic!("{shown:?} in colours") };
-        assert!(plane.values.iter().any(|v| *v > 0.0), "{shown:?}");
+    for view in [ViewMode::Radius, ViewMode::PhotonCount, ViewMode::Luminance, ViewMode::Unknown] {
+        rig.send(Command::SetView(view));
+        let frame = rig.until("a measure", |f| f.view == view);
+        let Some(Picture::Measure { plane, .. }) = &frame.picture else { panic!("{view:?} in colours") };
+        assert!(plane.values.iter().any(|v| *v > 0.0), "{view:?}");
         assert_eq!(frame.render, before.render);
     }
     let layers = Configuration { layers: true, ..Configuration::of(&before.settings, before.threads) };
@@ -239,7 +239,7 @@ fn measures_and_kinds_of_light_are_shown_instead_of_radiance() {
     let one = |i: usize| ViewMode::Classes { reflected: std::array::from_fn(|k| k == i), emission: false };
     let mut sum = vec![0.0; image(&before).pixels.len()];
     for i in 0..3 {
-        rig.send(Command::Show(one(i)));
+        rig.send(Command::SetView(one(i)));
         let frame = rig.until("a kind of light", |f| f.view == one(i) && f.activity == Activity::Done);
         let kind = image(&frame);
         assert!(i == 2 || kind.pixels.iter().any(|c| c.luminance() > 0.0), "kind {i}");

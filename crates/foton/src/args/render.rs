@@ -47,7 +47,7 @@ pub(crate) struct RenderArgs {
     /// Also write OUT-000016.exr and so on, at powers of two or every N passes
     #[arg(long, value_name = "pow2|N")]
     pub(crate) every: Option<Every>,
-    /// Keep the state of the render in this file, every so often and when it ends or is interrupted
+    /// Write the state of the render to this file, every so often and when it ends or is interrupted
     #[arg(long, value_name = "FILE")]
     pub(crate) checkpoint: Option<PathBuf>,
     /// How often, e.g. 30s, 10m

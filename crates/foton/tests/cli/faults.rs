@@ -9,9 +9,12 @@ fn a_fault_in_a_pass_saves_the_image_of_the_passes_before() {
     let render = "render scene.xml --photons 500 --threads 3 -o";
     let two = folder.done(&format!("{render} two.exr --passes 2"));
     assert!(two.status.success());
+    let three = folder.done(&format!("{render} three.exr --passes 3"));
+    assert!(three.status.success());
     let fails = |fault: &str, output: &str| {
-        let arguments =
-            format!("{render} {output} --passes 9 --checkpoint {output}.ck --checkpoint-every 10ms --json");
+        let arguments = format!(
+            "{render} {output} --passes 9 --checkpoint {output}.ck --checkpoint-every 0.001ms --json"
+        );
         let failed = folder.command(&arguments).env("FOTON_FAULT", fault).output().expect("starts");
         assert_eq!(failed.status.code(), Some(1), "{fault}");
         let last = events(&failed.stdout).pop().expect("an event");
@@ -34,5 +37,11 @@ fn a_fault_in_a_pass_saves_the_image_of_the_passes_before() {
     for fault in ["0:radiance:3", "0:eye_pass:0", "0:trace:1"] {
         let said = fails(fault, "none.exr");
         assert!(said.contains("FOTON_FAULT asked") && !folder.file("none.exr").exists(), "{fault}: {said}");
+        if fault == "0:radiance:3" {
+            fs::rename(folder.file("none.exr.ck"), folder.file("radiance.ck")).expect("there");
+        }
     }
+    // The checkpoint is that of two passes, and not of hit points that have the third.
+    folder.done(&format!("{render} rest.exr --passes 3 --resume radiance.ck"));
+    assert!(folder.exr("rest.exr").0 == folder.exr("three.exr").0);
 }

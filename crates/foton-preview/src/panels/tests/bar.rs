@@ -9,21 +9,21 @@ fn lists_choose_the_view_and_the_tone_map() {
     assert_eq!(asked(&mut harness), [""; 0], "nothing is rendered again");
     assert_eq!(harness.state().tone_map, ToneMap::AgX);
     choose(&mut harness, "Show", "Radius");
-    assert_asked(&mut harness, &Command::Show(ViewMode::Radius));
+    assert_asked(&mut harness, &Command::SetView(ViewMode::Radius));
     assert!(harness.query_by_role_and_label(Role::Slider, "Exposure").is_none(), "measures are not exposed");
 }
 
 #[test]
-fn kinds_of_light_are_switched_and_kept_apart_from_then_on() {
+fn kinds_of_light_are_switched_and_separate_from_then_on() {
     let mut harness = window(|_| ());
     click(&mut harness, Role::Button, "Light");
     click(&mut harness, Role::CheckBox, "Caustic");
     let view = ViewMode::Classes { reflected: [true, false, true], emission: true };
     let layers = Configuration { layers: true, ..Configuration::of(&RenderSettings::default(), None) };
-    let expected = [Command::Show(view), Command::Configure(layers)].map(|c| format!("{c:?}"));
+    let expected = [Command::SetView(view), Command::Configure(layers)].map(|c| format!("{c:?}"));
     assert_eq!(asked(&mut harness), expected);
     click(&mut harness, Role::CheckBox, "Caustic");
-    assert_asked(&mut harness, &Command::Show(ViewMode::Radiance));
+    assert_asked(&mut harness, &Command::SetView(ViewMode::Radiance));
 }
 
 #[test]
@@ -60,7 +60,7 @@ fn the_bar_pauses_steps_restarts_saves_and_opens() {
 }
 
 #[test]
-fn where_the_light_went_stands_among_the_numbers() {
+fn where_the_light_went_stands_among_the_statistics() {
     let harness = window(|_| ());
     for text in ["absorbed, escaped", "75.00 %, 23.75 %", "cut off, dropped", "1.25 %, 0"] {
         assert!(harness.query_by_label(text).is_some(), "{text}");
@@ -70,7 +70,7 @@ fn where_the_light_went_stands_among_the_numbers() {
 }
 
 #[test]
-fn checkpoints_are_kept_and_taken_up_by_the_file_dialog() {
+fn checkpoints_are_written_and_resumed_by_the_file_dialog() {
     let folder = std::env::temp_dir().join(format!("foton-panels-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
     // The dialog begins beside the scene's file.

@@ -19,8 +19,8 @@ fn magnified_pixels_are_squares_of_their_own_colour() {
     let mut screen = Screen::new([64, 48]);
     for (zoom, left, top) in [(7.0, 3.0, 2.0), (5.0, -11.0, -4.0), (6.3, 1.25, 0.5), (31.0, -100.0, -60.0)] {
         let image_rect = rect(left, top, 8.0 * zoom, 6.0 * zoom);
-        let shown = screen.draw(&View { image_rect, ..plain(8, 6) }, &picture, None);
-        for (i, found) in shown.into_iter().enumerate() {
+        let drawn = screen.draw(&View { image_rect, ..plain(8, 6) }, &picture, None);
+        for (i, found) in drawn.into_iter().enumerate() {
             let texel = |at: usize, first: f32| ((at as f32 + 0.5 - first) / zoom).floor();
             let (x, y) = (texel(i % 64, left), texel(i / 64, top));
             let inside = (0.0..8.0).contains(&x) && (0.0..6.0).contains(&y);
@@ -42,8 +42,8 @@ fn minified_pixels_are_means_over_boxes() {
     // Boxes of 3 by 4 pixels, then of 2.5 by 2.5.
     for (across, down) in [(3.0, 4.0), (2.5, 2.5)] {
         let view = View { image_rect: rect(0.0, 0.0, 30.0 / across, 20.0 / down), ..plain(30, 20) };
-        let shown = screen.draw(&view, &picture, None);
-        for (i, found) in shown.into_iter().enumerate() {
+        let drawn = screen.draw(&view, &picture, None);
+        for (i, found) in drawn.into_iter().enumerate() {
             let (x, y) = ((i % 12) as f32, (i / 12) as f32);
             if (x + 1.0) * across <= 30.0 && (y + 1.0) * down <= 20.0 {
                 let area = [x * across, y * down, (x + 1.0) * across, (y + 1.0) * down];
@@ -65,11 +65,11 @@ fn each_side_of_the_wipe_shrinks_by_its_own_size() {
     let grey = tone_map::display(Rgb::splat(0.5), ToneMap::Linear, 0.0);
     for is_first_large in [false, true] {
         let [first, second] = if is_first_large { [&large, &fits] } else { [&fits, &large] };
-        let shown = screen.draw(&view, first, Some(second));
+        let drawn = screen.draw(&view, first, Some(second));
         for x in (0..18).chain(22..40) {
             let striped = [255 * (x % 2) as u8; 3];
             let expected = if (x < 20) == is_first_large { grey } else { striped };
-            assert_shows(shown[x], expected, (is_first_large, x));
+            assert_shows(drawn[x], expected, (is_first_large, x));
         }
     }
 }
@@ -82,9 +82,9 @@ fn a_box_with_a_pixel_that_is_not_finite_is_magenta_and_a_bright_one_stays_finit
     pixels[37] = Rgb::splat(f32::MAX);
     let mut screen = Screen::new([2, 2]);
     let view = View { image_rect: rect(0.0, 0.0, 2.0, 2.0), ..plain(8, 8) };
-    let shown = screen.draw(&view, &rgb(8, pixels), None);
-    assert_eq!([shown[0], shown[3]], [tone_map::NOT_FINITE, [255; 3]]);
-    assert_shows(shown[1], tone_map::display(Rgb::splat(0.25), ToneMap::Linear, 0.0), "plain");
+    let drawn = screen.draw(&view, &rgb(8, pixels), None);
+    assert_eq!([drawn[0], drawn[3]], [tone_map::NOT_FINITE, [255; 3]]);
+    assert_shows(drawn[1], tone_map::display(Rgb::splat(0.25), ToneMap::Linear, 0.0), "plain");
 }
 
 #[test]
@@ -94,8 +94,8 @@ fn a_tiny_picture_of_a_large_one_still_shows_its_mean() {
         (0..200 * 200).map(|i| Rgb::splat(if i / 200 < 100 { 0.2 } else { 0.6 })).collect();
     let mut screen = Screen::new([1, 1]);
     let view = View { image_rect: rect(0.0, 0.0, 1.0, 1.0), ..plain(1, 1) };
-    let shown = screen.draw(&view, &rgb(200, pixels), None);
-    assert!(shown[0][0].abs_diff(tone_map::display(Rgb::splat(0.4), ToneMap::Linear, 0.0)[0]) <= 4);
+    let drawn = screen.draw(&view, &rgb(200, pixels), None);
+    assert!(drawn[0][0].abs_diff(tone_map::display(Rgb::splat(0.4), ToneMap::Linear, 0.0)[0]) <= 4);
 }
 
 #[test]
@@ -103,15 +103,15 @@ fn pictures_of_other_sizes_and_kinds_replace_each_other() {
     let mut screen = Screen::new([16, 8]);
     for (width, count) in [(8, 64), (16, 64), (3, 6), (16, 64), (1, 1)] {
         let pixels: Vec<Rgb> = (0..count).map(|i| unlike_neighbours(i + width as usize)).collect();
-        let shown = screen.draw(&plain(width, count as u32 / width), &rgb(width, pixels.clone()), None);
+        let drawn = screen.draw(&plain(width, count as u32 / width), &rgb(width, pixels.clone()), None);
         for (i, &c) in pixels.iter().enumerate() {
-            let found = shown[i / width as usize * 16 + i % width as usize];
+            let found = drawn[i / width as usize * 16 + i % width as usize];
             assert_shows(found, tone_map::display(c, ToneMap::Linear, 0.0), (width, i));
         }
         let grey = screen.draw(&plain(2, 1), &scalar(2, vec![0.0, 1.0]), None);
         assert_eq!(grey[..2], [[0; 3], [255; 3]]);
     }
-    // Nothing to be shown leaves what was shown.
+    // Nothing to be drawn leaves what was shown.
     let nothing = Picture::Rgb(Arc::new(Image { width: 0, height: 0, pixels: Vec::new() }));
     assert_eq!(screen.draw(&plain(2, 1), &nothing, None)[..2], [[0; 3], [255; 3]]);
 }
@@ -125,9 +125,9 @@ fn a_picture_larger_than_textures_may_be_is_shown_reduced_and_in_place() {
     let picture = rgb(600, pixels.clone());
     let mut screen = Screen::with_largest_texture([200, 11], LARGEST);
     let view = View { image_rect: rect(0.0, 0.0, 200.0, 31.0 / 3.0), ..plain(1, 1) };
-    let shown = screen.draw(&view, &picture, None);
+    let drawn = screen.draw(&view, &picture, None);
     assert_eq!(reduction(picture.size(), LARGEST), 3);
-    for (i, found) in shown.into_iter().take(2000).enumerate() {
+    for (i, found) in drawn.into_iter().take(2000).enumerate() {
         let (x, y) = (3.0 * (i % 200) as f32, 3.0 * (i / 200) as f32);
         assert_shows(found, mean_over(&pixels, 600, [x, y, x + 3.0, y + 3.0]), (x, y));
     }
@@ -146,10 +146,10 @@ fn however_many_views_a_person_tries_few_pipelines_are_kept() {
             for (side, pinned) in [(8.0, None), (4.0, None), (8.0, Some(&picture)), (4.0, Some(&picture))] {
                 let wipe = pinned.map(|_| 0.5);
                 let view = View { tone_map, wipe, image_rect: rect(0.0, 0.0, side, side), ..plain(8, 8) };
-                let shown = screen.draw(&view, &picture, pinned);
+                let drawn = screen.draw(&view, &picture, pinned);
                 // The wipe draws a line.
                 if side == 8.0 && pinned.is_none() {
-                    for (&c, found) in pixels.iter().zip(shown) {
+                    for (&c, found) in pixels.iter().zip(drawn) {
                         assert_shows(found, tone_map::display(c, tone_map, 0.0), (c, view));
                     }
                 }

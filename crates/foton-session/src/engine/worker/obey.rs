@@ -47,13 +47,13 @@ impl Worker {
                 });
             }
             Command::Edit(edit) => self.edit(edit),
-            Command::Show(mode) => self.view.mode = mode,
+            Command::SetView(mode) => self.view.mode = mode,
             Command::ShowPhotons(on) => self.view.photons = on,
             Command::Probe(pixel) => self.view.probed = pixel,
             Command::Snapshot(folder) => self.snapshot(&folder),
             Command::AutoSnapshots(folder) => self.files.auto_snapshots = folder,
             Command::SaveScene(path) => self.save_scene(&path),
-            Command::KeepCheckpoint(path) => self.keep(&path),
+            Command::KeepCheckpoint(path) => self.begin_checkpoint(&path),
             Command::ResumeCheckpoint(path) => {
                 self.restart();
                 self.files.resuming = Some(path);

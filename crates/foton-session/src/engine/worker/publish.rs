@@ -32,7 +32,7 @@ impl Worker {
 
     /// Offers a frame if there is something new: at once if `now`, else not too soon after the last.
     pub(super) fn publish(&mut self, now: bool) {
-        // While something moves, a picture is there so soon that a frame before it would only keep the window busy.
+        // While something moves, a picture is there so soon that a frame before it would be drawn for nothing.
         let comes_soon =
             self.plan.moving && self.current.render.is_none() && self.published.picture.is_some();
         if !self.published.unseen || (!now && (comes_soon || self.published.last_frame.elapsed() < FRAME_GAP))

@@ -91,7 +91,7 @@ impl Worker {
 
     /// Starts a render at a level; `None` where that was cancelled.
     fn start(&mut self, level: Level) -> Result<Option<LevelRender>, String> {
-        // A small picture is there so soon that a frame without it would only keep the window busy.
+        // A small picture is there so soon that a frame without it would be drawn for nothing.
         if level != Level::Small || self.published.picture.is_none() {
             self.publish(true);
         }

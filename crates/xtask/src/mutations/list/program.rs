@@ -53,6 +53,14 @@ pub(super) const LIST: &[Mutation] = &[
         test: "a_full_disk_costs_a_checkpoint_but_not_the_render",
     },
     Mutation {
+        what: "a fault leaves the last whole checkpoint",
+        file: "crates/foton-session/src/checkpoint/keeper.rs",
+        from: "if has_failed || render.passes() == 0",
+        to: "if render.passes() == 0",
+        target: CLI,
+        test: "a_fault_in_a_pass_saves_the_image_of_the_passes_before",
+    },
+    Mutation {
         what: "dropped photons are warned of",
         file: "crates/foton-session/src/findings/render.rs",
         from: "if dropped == 0 {",

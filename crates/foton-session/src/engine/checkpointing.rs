@@ -15,7 +15,7 @@ const EVERY: Duration = Duration::from_secs(30);
 
 impl Worker {
     /// Writes the render to a file, and again every half minute and at the end.
-    pub(super) fn keep(&mut self, path: &Path) {
+    pub(super) fn begin_checkpoint(&mut self, path: &Path) {
         if let Some(message) = self.why_not_over_the_scene(path) {
             return self.event(Event::Failed(message));
         }
