@@ -14,6 +14,7 @@ use foton_integrator::MemoryEstimate;
 const SHARE: f64 = 0.8;
 
 /// Address space that the C library keeps for each thread, if there is any, whether the thread uses it or not.
+#[cfg(target_os = "linux")]
 const HEAP_OF_THREAD: f64 = (64 << 20) as f64;
 
 /// Bytes that a render may take: what was asked for, else 80 % of what is free, and no more than the limit on address space leaves;

@@ -153,7 +153,7 @@ impl PhotonPass<'_> {
     }
 
     /// Drops a photon whose power is no longer a number, before it reaches a sum: one NaN would be all that is left of the image.
-    #[cold]
+    #[inline(always)]
     fn drop_photon(&self, path: &Path, surface: &Surface, chunk: &mut Chunk) {
         chunk.ledger.dropped += 1;
         chunk.ledger.lost += energy(path.power);

@@ -14,6 +14,7 @@ mod scene_says;
 mod signals;
 #[cfg(target_os = "linux")]
 mod strangers;
+#[cfg(target_os = "linux")]
 mod streams;
 mod strict;
 #[cfg(target_os = "linux")]
