@@ -37,7 +37,7 @@ pub(crate) struct RenderArgs {
     #[command(flatten)]
     pub(crate) settings: SettingsOptions,
     /// Light transport method
-    #[arg(long, value_name = "NAME", value_enum, default_value_t = Integrator::Render)]
+    #[arg(long, value_name = "NAME", value_enum, default_value_t = Integrator::ProgressivePhotonMapping)]
     pub(crate) integrator: Integrator,
     #[command(flatten)]
     pub(crate) scene_options: SceneOptions,

@@ -104,7 +104,8 @@ impl From<RadiusRule> for Rule {
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum Integrator {
     /// Progressive photon mapping
-    Render,
+    #[value(name = "ppm")]
+    ProgressivePhotonMapping,
 }
 
 impl From<Direct> for DirectLight {
