@@ -39,9 +39,9 @@ fn bsdfs() -> Vec<Declared> {
     both.filter(|bsdf| bsdf.info().stated.is_none())
         .map(|mut bsdf| {
             let (info, name, is_rough) = (bsdf.info(), bsdf.plugin(), bsdf.roughness().is_some());
-            let bounds = bsdf.parameters();
+            let bindings = bsdf.parameters();
             let is_there = |p: &&Parameter| is_rough || !is_of_roughness(p);
-            let parameters = bounds.iter().flat_map(|b| b.parameters).filter(is_there).copied().collect();
+            let parameters = bindings.iter().flat_map(|b| b.parameters).filter(is_there).copied().collect();
             Declared { tag: "bsdf", name, help: info.help, parameters }
         })
         .collect()
@@ -60,9 +60,9 @@ pub fn document() -> String {
          What foton reads of a Mitsuba scene, and what its window edits: every plugin with the parameters that it declares in\n\
          `crates/foton-scene/src/bsdf/` and `crates/foton-scene/src/plugins/`. `cargo run -p foton-tests --example plugins` prints\n\
          this page, and a test compares.\n\n\
-         A parameter that is not listed is reported with its place, a texture where none is allowed is an error. Files of version 0\n\
+         An unlisted parameter is reported with its location; a texture where none is allowed is an error. Files of version 0\n\
          may name parameters in capitals (`intIOR`) and by the older names given here. \"Without effect\" means that the parameter is\n\
-         read and steers only other renderers.\n",
+         read and affects only other renderers.\n",
     );
     let mut tag = "";
     for plugin in declared() {

@@ -4,7 +4,7 @@ use foton_math::Rgb;
 use foton_scene::bsdf::{MicrofacetDistribution, Microfacets};
 use foton_scene::description::{Bsdf, Colour, Material};
 use foton_scene::metals::METALS;
-use foton_scene::parameter::{Bound, Parameter, Slot};
+use foton_scene::parameter::{Binding, Parameter, Slot};
 use foton_scene::plugins::wrappers::OPACITY;
 
 use super::field::{FieldId, Fields, Property, Side, Value};
@@ -56,7 +56,7 @@ fn side_fields(bsdf: &Bsdf, side: Side, out: &mut Fields) -> bool {
     out.choice(id(Property::Kind), label, kind_of(bsdf), kinds, "What the surface is made of.");
     let mut textured = false;
     let mut bsdf = *bsdf;
-    for Bound { parameters, slot } in bsdf.parameters() {
+    for Binding { parameters, slot } in bsdf.parameters() {
         let parameter = &parameters[0];
         let own = id(Property::Parameter(parameter.name));
         match slot {
@@ -160,7 +160,7 @@ fn set_side(bsdf: &mut Bsdf, property: Property, value: Value) {
         *bsdf = of_kind(kind, bsdf);
         return;
     }
-    for Bound { parameters, slot } in bsdf.parameters() {
+    for Binding { parameters, slot } in bsdf.parameters() {
         let is_it = property == Property::Parameter(parameters[0].name);
         match (slot, value) {
             (Slot::Share(share), Value::Colour(c)) if is_it => *share = Rgb::from_array(c).into(),
@@ -215,7 +215,7 @@ fn of_kind(kind: usize, old: &Bsdf) -> Bsdf {
     let Some(model) = Bsdf::defaults(false).get(kind).copied() else { return *old };
     let (mut old, mut new) = (*old, model.preset());
     let before = old.parameters();
-    for Bound { parameters, slot } in new.parameters() {
+    for Binding { parameters, slot } in new.parameters() {
         let Some(role) = parameters[0].role else { continue };
         let Some(from) = before.iter().find(|b| b.parameters[0].role == Some(role)) else { continue };
         match (slot, &from.slot) {

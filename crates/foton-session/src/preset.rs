@@ -1,4 +1,5 @@
-//! Settings for a purpose, as `foton measure` found them: docs/measure.md has the figures.
+//! Presets: settings for a quick preview, general use or a long render, as `foton measure` found them. docs/measure.md has the
+//! figures.
 
 use std::num::NonZeroU32;
 

@@ -27,7 +27,7 @@ cargo xtask ci                      formatting, lints, documentation, then the t
 cargo xtask conformance [--quick]   the whole comparison with Mitsuba 3 (20 minutes and more), or the small one
 cargo xtask versus [--seconds N]    foton, Mitsuba 3 and LuxCore on one scene for N (30) seconds each, as a table and pictures
 cargo xtask calibrate [WHAT]        whether the live error can be believed; stops: where --error does; slopes: how fast noise and bias fall;
-                                    rules: what radii that adapt are worth; floors: what the smallest radius costs; kernels: what others than the box would be (many minutes)
+                                    rules: what adaptive radii gain; floors: what the smallest radius costs; kernels: how other kernels compare with the box (many minutes)
 cargo xtask assets                  writes the generated meshes in assets/ again
 cargo xtask pictures [--window]     renders every scene in assets/ to docs/pictures, and the window (some minutes); or it alone
 cargo xtask bench [WHAT]            how fast, on a quiet machine: whole (the benchmark box, stage by stage), parts (by criterion), scaling,
@@ -37,7 +37,7 @@ cargo xtask soak [MINUTES]          one small render for MINUTES (20): no memory
 cargo xtask kills [N]               kills N (200) renders at random moments: all checkpoints open, no file is half of one
 cargo xtask limits                  renders in as little memory as --memory accepts, under a hard limit of the system
 cargo xtask loaded                  tests of threads and windows ten times, then all tests, beside eight busy loops (an hour and more)
-cargo xtask mutations [WORD,…]      takes protections out of a copy of the tree, one by one: does their test notice? (many minutes)
+cargo xtask mutations [WORD,…]      removes protections from a copy of the tree, one by one: does their test notice? (many minutes)
 cargo xtask miri                    readers of files and pure crates under Miri, where a nightly has it; says what does not run (some minutes)";
 
 fn main() -> ExitCode {

@@ -1,5 +1,8 @@
 //! What a render models, and why: each part is in the passes only if the scene or the settings ask for it.
 
+use std::borrow::Cow;
+use std::num::NonZeroU32;
+
 use foton_scene::{Census, Emitter, Scene};
 use foton_transport::LobeUse;
 use foton_transport::camera_paths::Gloss;
@@ -22,7 +25,7 @@ pub struct Feature {
     /// What was found, or not found.
     pub why: &'static str,
     /// What it costs while it is on.
-    pub cost: &'static str,
+    pub cost: Cow<'static, str>,
     /// Bytes a hit point while it is on.
     pub bytes_per_hit_point: usize,
     /// Bytes a pixel while it is on.
@@ -31,13 +34,13 @@ pub struct Feature {
 
 impl Feature {
     /// A part that costs no memory for each hit point or pixel. `why` has what was found, and what was not.
-    const fn new(name: &'static str, on: bool, why: [&'static str; 2], cost: &'static str) -> Self {
+    fn new(name: &'static str, on: bool, why: [&'static str; 2], cost: impl Into<Cow<'static, str>>) -> Self {
         let [found, absent] = why;
         let why = if on { found } else { absent };
-        Self { name, on, why, cost, bytes_per_hit_point: 0, bytes_per_pixel: 0 }
+        Self { name, on, why, cost: cost.into(), bytes_per_hit_point: 0, bytes_per_pixel: 0 }
     }
 
-    const fn with_bytes(self, bytes_per_hit_point: usize, bytes_per_pixel: usize) -> Self {
+    fn with_bytes(self, bytes_per_hit_point: usize, bytes_per_pixel: usize) -> Self {
         Self { bytes_per_hit_point, bytes_per_pixel, ..self }
     }
 }
@@ -48,11 +51,11 @@ pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
     let (census, lobes) = (scene.census(), lobe_use(scene));
     let aims = scene.emitters().iter().any(Emitter::aims_at_casters);
     let parts =
-        eye_paths(census, lobes).into_iter().chain(surfaces(census, lobes)).chain(emitters(census, aims));
+        eye_paths(census, lobes, settings.ppm.hit_points_per_sample).into_iter().chain(surfaces(census, lobes)).chain(emitters(census, aims));
     parts.chain(asked_for(settings)).collect()
 }
 
-fn eye_paths(census: &Census, lobes: LobeUse) -> [Feature; 5] {
+fn eye_paths(census: &Census, lobes: LobeUse, hit_points_per_sample: NonZeroU32) -> [Feature; 5] {
     [
         Feature::new(
             "followed paths",
@@ -64,7 +67,7 @@ fn eye_paths(census: &Census, lobes: LobeUse) -> [Feature; 5] {
             "splitting at glass",
             census.refraction,
             ["surfaces refract", "nothing refracts"],
-            "up to hit_points_per_sample hit points a sample",
+            format!("up to {hit_points_per_sample} hit points per eye sample"),
         ),
         Feature::new(
             "narrow gloss",
@@ -174,7 +177,7 @@ fn asked_for(settings: &RenderSettings) -> [Feature; 4] {
         Feature::new(
             "radii that adapt",
             settings.ppm.radius_rule == RadiusRule::Adaptive,
-            ["asked for by --radius-rule", "radii shrink as photons are found"],
+            ["the default radius rule", "another --radius-rule"],
             "five moments of each photon that counts",
         )
         .with_bytes(size_of::<RadiusStatistics>(), 0),

@@ -65,7 +65,7 @@ fn stop_rule(ui: &mut egui::Ui, state: &mut State, rule: StopRule) {
         let value = ui.add_enabled(on, egui::DragValue::new(&mut passes).range(1..=1_000_000_000u64));
         value
             .labelled_by(label.id)
-            .on_hover_text("Pauses after so many passes; Resume with a higher number goes on");
+            .on_hover_text("Pauses after this many passes; raise the number and press Resume to continue");
         new.passes = on.then_some(passes);
     });
     ui.horizontal(|ui| {
@@ -78,7 +78,7 @@ fn stop_rule(ui: &mut egui::Ui, state: &mut State, rule: StopRule) {
         );
         value
             .labelled_by(label.id)
-            .on_hover_text("Pauses after so much rendering; a pass that would end later is not begun");
+            .on_hover_text("Pauses after this much rendering; a pass that would end later is not begun");
         new.time = on.then(|| Duration::from_secs_f64(seconds));
     });
     let new = super::error::stop_at(ui, new);

@@ -13,7 +13,7 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
     ui.horizontal(|ui| {
         ui.label(egui::RichText::new(&inspection.title).strong().size(16.0));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if ui.button("Close").on_hover_text("Nothing chosen (Esc)").clicked() {
+            if ui.button("Close").on_hover_text("Nothing selected (Esc)").clicked() {
                 state.ask(Command::Choose(None));
             }
         });

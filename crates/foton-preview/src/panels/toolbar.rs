@@ -94,14 +94,14 @@ fn beside_the_scene(state: &State, ending: &str) -> PathBuf {
 fn checkpoints(ui: &mut egui::Ui, state: &mut State) {
     let keep = ui.button("Keep a checkpoint…").on_hover_text(
         "The state of this render in a file, brought up to date every 30 s and at the end, until it restarts; \
-         `foton render --resume` takes it up as well",
+         `foton render --resume` reads it too",
     );
     if keep.clicked() {
         let path = beside_the_scene(state, ".checkpoint");
         state.dialog = Some((DialogPurpose::KeepCheckpoint, FileDialog::save(&path, CHECKPOINTS)));
     }
-    let resume_in = ui.button("Go on from a checkpoint…").on_hover_text(
-        "Of this scene, with this radius, direct light, hit points a pixel and seed: with the bits that it would have had",
+    let resume_in = ui.button("Resume a checkpoint…").on_hover_text(
+        "The checkpoint must have this scene, radius, direct light, eye samples per pixel and seed; the result is bit-identical to an uninterrupted render",
     );
     if resume_in.clicked() {
         let dialog =

@@ -12,7 +12,7 @@ use super::model::Model;
 use super::reflect::{facet_pdf, mirrored, reflect_by_facet, same_side, upward};
 use crate::description::Colour;
 use crate::metals::METALS;
-use crate::parameter::{Bound, Kind, Parameter, Slot};
+use crate::parameter::{Binding, Kind, Parameter, Slot};
 
 /// A metal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,11 +76,11 @@ impl Described for Conductor {
         Self { eta: Rgb::from_array(eta), k: Rgb::from_array(k), ..Described::default(false) }
     }
 
-    fn parameters(&mut self) -> Vec<Bound<'_>> {
+    fn parameters(&mut self) -> Vec<Binding<'_>> {
         vec![
-            Bound::new(METAL, Slot::Metal { eta: &mut self.eta, k: &mut self.k }),
-            Bound::new(&[SPECULAR_REFLECTANCE], Slot::Share(&mut self.specular_reflectance)),
-            Bound::new(ROUGHNESS, Slot::Roughness(&mut self.roughness)),
+            Binding::new(METAL, Slot::Metal { eta: &mut self.eta, k: &mut self.k }),
+            Binding::new(&[SPECULAR_REFLECTANCE], Slot::Share(&mut self.specular_reflectance)),
+            Binding::new(ROUGHNESS, Slot::Roughness(&mut self.roughness)),
         ]
     }
 }

@@ -11,7 +11,7 @@ use super::microfacet::{Microfacets, ROUGHNESS};
 use super::model::Model;
 use super::reflect::mirrored;
 use crate::description::Colour;
-use crate::parameter::{Bound, Parameter, Role, Slot};
+use crate::parameter::{Binding, Parameter, Role, Slot};
 
 /// A boundary of two transparent media.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,13 +74,13 @@ impl Described for Dielectric {
         Self { int_ior: 1.5, ext_ior: 1.0, ..Described::default(false) }
     }
 
-    fn parameters(&mut self) -> Vec<Bound<'_>> {
+    fn parameters(&mut self) -> Vec<Binding<'_>> {
         vec![
-            Bound::new(&[INT_IOR], Slot::Refraction(&mut self.int_ior)),
-            Bound::new(&[EXT_IOR], Slot::Refraction(&mut self.ext_ior)),
-            Bound::new(&[SPECULAR_REFLECTANCE], Slot::Share(&mut self.specular_reflectance)),
-            Bound::new(&[SPECULAR_TRANSMITTANCE], Slot::Share(&mut self.specular_transmittance)),
-            Bound::new(ROUGHNESS, Slot::Roughness(&mut self.roughness)),
+            Binding::new(&[INT_IOR], Slot::Refraction(&mut self.int_ior)),
+            Binding::new(&[EXT_IOR], Slot::Refraction(&mut self.ext_ior)),
+            Binding::new(&[SPECULAR_REFLECTANCE], Slot::Share(&mut self.specular_reflectance)),
+            Binding::new(&[SPECULAR_TRANSMITTANCE], Slot::Share(&mut self.specular_transmittance)),
+            Binding::new(ROUGHNESS, Slot::Roughness(&mut self.roughness)),
         ]
     }
 }

@@ -11,7 +11,7 @@ use super::lobe_sample::{BsdfSample, Transport};
 use super::model::Model;
 use super::reflect::{cosine, same_side};
 use crate::description::Colour;
-use crate::parameter::{Bound, Parameter, Role, Slot};
+use crate::parameter::{Binding, Parameter, Role, Slot};
 
 /// Lambertian reflection: as bright from every direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,8 +43,8 @@ impl Described for Diffuse {
         Self { reflectance: Rgb::splat(0.8).into() }
     }
 
-    fn parameters(&mut self) -> Vec<Bound<'_>> {
-        vec![Bound::new(&[REFLECTANCE], Slot::Share(&mut self.reflectance))]
+    fn parameters(&mut self) -> Vec<Binding<'_>> {
+        vec![Binding::new(&[REFLECTANCE], Slot::Share(&mut self.reflectance))]
     }
 }
 

@@ -1,6 +1,6 @@
 //! What files, the window and the documentation say of a BSDF.
 
-use crate::parameter::Bound;
+use crate::parameter::Binding;
 
 /// What a model is called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,5 +29,5 @@ pub(super) trait Described: Sized {
     fn preset() -> Self;
 
     /// Its parameters, in the order of files and of the inspector, with the places of their values.
-    fn parameters(&mut self) -> Vec<Bound<'_>>;
+    fn parameters(&mut self) -> Vec<Binding<'_>>;
 }

@@ -56,11 +56,11 @@ pub const DISTRIBUTIONS: &[&str] = &["beckmann", "ggx"];
 
 const DISTRIBUTION: Parameter = Parameter::choice("distribution", DISTRIBUTIONS)
     .label("Distribution")
-    .help("GGX has longer tails of gloss.");
+    .help("GGX has longer highlight tails.");
 
 const ALPHA: Parameter = Parameter::number("alpha", 0.1, (0.0, 1e6))
     .label("Roughness")
-    .help("Spread of the surface's slopes. Up to 0.1 eye paths follow the gloss; above, photons show it.")
+    .help("Spread of the surface's slopes. Up to 0.1 eye paths follow the lobe; above that, gathered photons do.")
     .slider(0.001, 1.0, true)
     .role(Role::Roughness);
 

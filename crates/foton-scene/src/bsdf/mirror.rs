@@ -9,7 +9,7 @@ use super::lobe_sample::{LobeSample, LobeSamples, Transport};
 use super::model::Model;
 use super::reflect::mirrored;
 use crate::description::Colour;
-use crate::parameter::{Bound, Parameter, Role, Slot};
+use crate::parameter::{Binding, Parameter, Role, Slot};
 
 /// A smooth mirror that reflects the same share at every angle (Mitsuba's conductor of the material `none`).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,8 +40,8 @@ impl Described for Mirror {
         Self { reflectance: Rgb::splat(0.8).into() }
     }
 
-    fn parameters(&mut self) -> Vec<Bound<'_>> {
-        vec![Bound::new(&[REFLECTANCE], Slot::Share(&mut self.reflectance))]
+    fn parameters(&mut self) -> Vec<Binding<'_>> {
+        vec![Binding::new(&[REFLECTANCE], Slot::Share(&mut self.reflectance))]
     }
 }
 

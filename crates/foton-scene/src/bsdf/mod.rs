@@ -22,7 +22,7 @@ mod scattering;
 mod thin_dielectric;
 
 use crate::description::Colour;
-use crate::parameter::Bound;
+use crate::parameter::Binding;
 pub use coat::Coat;
 pub use conductor::Conductor;
 pub use dielectric::Dielectric;
@@ -136,7 +136,7 @@ impl Bsdf {
 
     /// Its parameters, in the order of files and of the inspector, with the places of their values.
     #[must_use]
-    pub fn parameters(&mut self) -> Vec<Bound<'_>> {
+    pub fn parameters(&mut self) -> Vec<Binding<'_>> {
         each!(self, model => model.parameters())
     }
 }

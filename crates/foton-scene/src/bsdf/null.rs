@@ -7,7 +7,7 @@ use super::flags::LobeFlags;
 use super::info::{BsdfInfo, Described};
 use super::lobe_sample::{LobeSample, LobeSamples, Transport};
 use super::model::Model;
-use crate::parameter::Bound;
+use crate::parameter::Binding;
 
 /// Nothing: light passes as if there were no surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +30,7 @@ impl Described for Null {
         Self
     }
 
-    fn parameters(&mut self) -> Vec<Bound<'_>> {
+    fn parameters(&mut self) -> Vec<Binding<'_>> {
         Vec::new()
     }
 }

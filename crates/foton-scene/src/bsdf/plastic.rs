@@ -15,7 +15,7 @@ use super::microfacet::{ISOTROPIC_ROUGHNESS, Microfacets};
 use super::model::Model;
 use super::reflect::{cosine, facet_pdf, mirrored, reflect_by_facet, same_side, upward};
 use crate::description::Colour;
-use crate::parameter::{Bound, Parameter, Role, Slot};
+use crate::parameter::{Binding, Parameter, Role, Slot};
 
 /// A clear coat over a diffuse base.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +35,8 @@ pub struct Plastic<C = Colour> {
 }
 
 /// The index of refraction of polypropylene.
-const COAT_IOR: Parameter = Parameter { default: 1.49, ..INT_IOR };
+const COAT_IOR: Parameter =
+    Parameter { default: 1.49, help: "Index of refraction of the coat: plastics are about 1.5.", ..INT_IOR };
 
 const DIFFUSE_REFLECTANCE: Parameter = Parameter::share("diffuse_reflectance", 0.5)
     .label("Base colour")
@@ -75,14 +76,14 @@ impl Described for Plastic {
         Self { int_ior: 1.5, ext_ior: 1.0, diffuse_reflectance, ..Described::default(false) }
     }
 
-    fn parameters(&mut self) -> Vec<Bound<'_>> {
+    fn parameters(&mut self) -> Vec<Binding<'_>> {
         vec![
-            Bound::new(&[COAT_IOR], Slot::Refraction(&mut self.int_ior)),
-            Bound::new(&[EXT_IOR], Slot::Refraction(&mut self.ext_ior)),
-            Bound::new(&[DIFFUSE_REFLECTANCE], Slot::Share(&mut self.diffuse_reflectance)),
-            Bound::new(&[SPECULAR_REFLECTANCE], Slot::Share(&mut self.specular_reflectance)),
-            Bound::new(&[NONLINEAR], Slot::Boolean(&mut self.nonlinear)),
-            Bound::new(ISOTROPIC_ROUGHNESS, Slot::Roughness(&mut self.roughness)),
+            Binding::new(&[COAT_IOR], Slot::Refraction(&mut self.int_ior)),
+            Binding::new(&[EXT_IOR], Slot::Refraction(&mut self.ext_ior)),
+            Binding::new(&[DIFFUSE_REFLECTANCE], Slot::Share(&mut self.diffuse_reflectance)),
+            Binding::new(&[SPECULAR_REFLECTANCE], Slot::Share(&mut self.specular_reflectance)),
+            Binding::new(&[NONLINEAR], Slot::Boolean(&mut self.nonlinear)),
+            Binding::new(ISOTROPIC_ROUGHNESS, Slot::Roughness(&mut self.roughness)),
         ]
     }
 }

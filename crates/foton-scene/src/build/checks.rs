@@ -11,7 +11,7 @@ use crate::description::{
 };
 use crate::emitter::{Emitter, Kind};
 use crate::normalise::Normalisation;
-use crate::parameter::Bound;
+use crate::parameter::Binding;
 
 /// How unevenly a spot may be scaled: what nobody sees of its cone.
 const CONE_ROUNDNESS: f64 = 2e-3;
@@ -177,7 +177,7 @@ pub(super) fn check_material(material: &Material, description: &SceneDescription
             return Err(BuildError::NoTexture(material.name.clone()));
         }
     }
-    let is_sound = |bsdf: &Bsdf| { *bsdf }.parameters().iter().all(Bound::is_valid);
+    let is_sound = |bsdf: &Bsdf| { *bsdf }.parameters().iter().all(Binding::is_valid);
     if material.bsdfs().all(is_sound) { Ok(()) } else { Err(BuildError::BadMaterial(material.name.clone())) }
 }
 

@@ -29,7 +29,7 @@ pub const POSITION: Parameter = Parameter::other("position", Kind::Vector, "0, 0
 
 /// The way parallel light goes.
 pub const DIRECTION: Parameter = Parameter::other("direction", Kind::Vector, "0, 0, 1")
-    .help("The way the light goes; need not be of unit length.")
+    .help("The direction in which the light travels; need not be normalised.")
     .excludes(&["to_world"]);
 
 /// Where an emitter stands, and which way it is turned.

@@ -1,10 +1,10 @@
 //! Checkpoints: a render's state in a file, from which it goes on with the same bits as if it had never stopped.
 //!
 //! Layout, little-endian: 8 bytes of magic, version (u32), length of the text (u64), nanoseconds of rendering (u64), rays (u64),
-//! length of the state (u64), the text (what must be the same: see `fixed`), the state as zstd, and a hash of all bytes before (u64).
+//! length of the state (u64), the text (what must be the same: see `identity.rs`), the state as zstd, and a hash of all bytes before (u64).
 //! What the start of a render makes is not in it: hit points are collected again.
 
-mod fixed;
+mod identity;
 mod keeper;
 #[cfg(test)]
 mod tests;
@@ -98,7 +98,7 @@ pub fn write(
     let nanoseconds = u64::try_from(elapsed.as_nanos()).unwrap_or(u64::MAX);
     atomic_write(path, |file| {
         let packed = zstd::bulk::compress(&state, COMPRESSION)?;
-        let text = fixed::of(render, scene);
+        let text = identity::of(render, scene);
         let mut bytes = Vec::with_capacity(HEADER + text.len() + packed.len() + TRAILER);
         bytes.extend_from_slice(&MAGIC);
         bytes.extend_from_slice(&VERSION.to_le_bytes());
@@ -147,7 +147,7 @@ pub fn resume(path: &Path, session: &mut Session, scene: &SceneIdentity) -> Resu
     let (text, packed) =
         usize::try_from(number(12)).ok().and_then(|at| body.split_at_checked(at)).ok_or_else(damaged)?;
     if let Some(difference) =
-        fixed::difference(&String::from_utf8_lossy(text), &fixed::of(session.render(), scene))
+        identity::difference(&String::from_utf8_lossy(text), &identity::of(session.render(), scene))
     {
         return Err(ResumeError::OtherRender { path: owned(), difference });
     }

@@ -8,7 +8,7 @@ use std::time::Duration;
 use foton_integrator::{Cancel, PpmSettings, RenderSettings};
 use foton_math::Rgb;
 
-use super::fixed::difference;
+use super::identity::difference;
 use super::*;
 use crate::test_scene::discs;
 

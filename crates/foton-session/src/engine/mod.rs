@@ -1,20 +1,19 @@
 //! The engine: a thread that renders over a pool, takes commands and offers the newest frame. A window steers it; it knows none.
 //!
-//! Threads meet here and nowhere else: commands come in over one bounded channel, frames leave over a slot that holds the newest,
-//! events (which must not get lost) over a third. The engine calls `wake` when there is something to see.
+//! Threads meet here and nowhere else: commands come in over one bounded channel, frames leave over another that holds only the
+//! newest, events (which must not get lost) over a third. The engine calls `wake` when there is something to see.
 
 mod cancels;
 mod checkpointing;
 mod command;
 mod editable_scene;
 mod frame;
-
 mod loader;
+mod newest;
 mod probe;
 mod rates;
 mod render;
 mod setup;
-mod slot;
 mod worker;
 mod writing;
 
@@ -64,7 +63,7 @@ impl Engine {
     /// When the system gives no thread.
     pub fn spawn(setup: Setup) -> std::io::Result<Self> {
         let (commands, command_receiver) = bounded(COMMANDS);
-        let (frame_sender, frames) = slot::newest();
+        let (frame_sender, frames) = newest::channel();
         let (event_sender, events) = bounded(EVENTS);
         let cancels = Cancels::default();
         let channels =

@@ -21,7 +21,7 @@ use parse::{bytes, define, image, name, xml};
 pub(crate) use render::RenderArgs;
 pub(crate) use values::{ErrorWish, Every, Radius, Size};
 
-/// Progressive photon mapping that a person can watch, steer and trust.
+/// Progressive photon mapping renderer with a live window.
 #[derive(Debug, Parser)]
 #[command(version, args_conflicts_with_subcommands = true)]
 pub(crate) struct Args {
@@ -42,9 +42,9 @@ pub(crate) enum Command {
     Render(Box<RenderArgs>),
     /// Write any readable scene as Mitsuba 3 XML with PLY meshes
     Convert(Convert),
-    /// Say what a scene contains, what that switches on, and what a render of it would take
+    /// Show what a scene contains, which features it enables, and what a render needs
     Info(Info),
-    /// Say how far an image is from a reference: RMSE, relMSE, means, FLIP
+    /// Compare an image with a reference: RMSE, relMSE, means, FLIP
     Compare(Compare),
     /// Measure what accuracy costs in a scene: sweeps over α, photons, radii and direct light, as tables and a page
     Measure(Box<Measure>),
@@ -83,7 +83,7 @@ pub(crate) struct Convert {
 /// `foton info`.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Info {
-    /// Scene file (Mitsuba 3 XML)
+    /// Scene file: Mitsuba XML, OBJ, PLY or STL
     pub(crate) scene: PathBuf,
     #[command(flatten)]
     pub(crate) scene_options: SceneOptions,

@@ -13,7 +13,7 @@ use super::values::{Direct, Radius, Rule, Size};
 // What a scene file is read with, and the sensor.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct SceneOptions {
-    /// The sensor to look through, by its id [the first]
+    /// The sensor to look through, by its id [default: the first]
     #[arg(long, value_name = "NAME")]
     pub(crate) sensor: Option<String>,
     /// Set a parameter of the scene file
@@ -25,38 +25,38 @@ pub(crate) struct SceneOptions {
 #[derive(Debug, ClapArgs)]
 pub(crate) struct SettingsOptions {
     #[arg(long, value_name = "N", help = with_default(
-        "Photons emitted in a pass: fewer answer sooner, more cost less a photon [as the scene says, else ",
+        "Photons per pass: fewer show a result sooner, more cost less per photon [default: from the scene, else ",
         RenderSettings::default().ppm.photons_per_pass,
     ))]
     pub(crate) photons: Option<NonZeroU32>,
     #[arg(long, value_name = "A", value_parser = alpha, help = with_default(
-        "Share of new photons kept, in (0, 1]: small shrinks radii fast (less bias, more noise) [as the scene says, else ",
+        "Fraction of new photons retained, in (0, 1]: smaller values shrink radii faster (less bias, more noise) [default: from the \
+         scene, else ",
         RenderSettings::default().ppm.alpha,
     ))]
     pub(crate) alpha: Option<Alpha>,
-    /// First radius: in world units, or x0.5 for half of what each pixel's footprint gives (x1)
+    /// First radius: in world units, or x0.5 for half the default, which follows the pixel footprint
     #[arg(long, value_name = "R|xF", value_parser = radius)]
     pub(crate) radius: Option<Radius>,
     /// How radii shrink
     #[arg(long, value_name = "RULE", value_enum, default_value_t = RenderSettings::default().ppm.radius_rule.into())]
     pub(crate) radius_rule: Rule,
-    /// Smallest radius in spacings of the eye samples, which stand still: light narrower than what discs cover is lost between
-    /// them. 0 for none
+    /// Smallest radius, in spacings of the eye samples; narrower light may fall between them. 0: no limit
     #[arg(long, value_name = "N", value_parser = radius_floor, default_value_t = RenderSettings::default().ppm.radius_floor)]
     pub(crate) radius_floor: RadiusFloor,
     /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = RenderSettings::default().seed)]
     pub(crate) seed: u64,
-    /// Threads [as many as the machine has]
+    /// Threads [default: as many as the machine has]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
-    /// Size of the whole image; a crop of it shrinks or grows along [as the scene says]
+    /// Size of the whole image; a crop window is scaled with it [default: from the scene]
     #[arg(long, value_name = "WxH")]
     pub(crate) size: Option<Size>,
-    /// Eye samples a pixel
+    /// Eye samples per pixel
     #[arg(long, value_name = "N", default_value_t = RenderSettings::default().samples_per_pixel)]
     pub(crate) spp: NonZeroU32,
-    /// Longest path in edges, as Mitsuba counts them: 1 emitters seen directly, 2 one bounce [as the scene says]
+    /// Longest path in edges, as Mitsuba counts them. 1: directly visible emitters only; 2: one bounce [default: from the scene]
     #[arg(long, value_name = "N")]
     pub(crate) max_depth: Option<u32>,
     /// How light straight from emitters is estimated

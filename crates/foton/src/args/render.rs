@@ -14,10 +14,10 @@ use super::values::{ErrorWish, Every, Integrator, PresetName};
 /// `foton render`.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct RenderArgs {
-    /// Scene file (Mitsuba 3 XML)
+    /// Scene file: Mitsuba XML, OBJ, PLY or STL
     pub(crate) scene: PathBuf,
-    /// Image to write, .exr (linear radiance) or .png (tone-mapped). Here and elsewhere links are followed, also one to a file that
-    /// is not there yet, and a file that anything is read from is not written to
+    /// Image to write, .exr (linear radiance) or .png (tone-mapped). Symbolic links are followed, even to files that do not exist
+    /// yet; input files are never overwritten
     #[arg(short, value_name = "OUT.{exr,png}", value_parser = name(image))]
     pub(crate) output: (PathBuf, Format),
     /// Stop after this many passes
@@ -26,12 +26,12 @@ pub(crate) struct RenderArgs {
     /// Stop after this much rendering, e.g. 90s, 10m, 1.5h [without any stop rule: 60s]
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) time: Option<Duration>,
-    /// Stop when the error is certainly below this, e.g. 2% or 0.02: root mean square over the mean reflected light, eye
-    /// samples as they are. `off` leaves the estimate out, which saves a little time
+    /// Stop when the upper bound of the estimated error falls below this, e.g. 2% or 0.02 (relative RMSE for the current eye
+    /// samples). `off` disables the estimate, which saves a little time
     #[arg(long, value_name = "SHARE|off", value_parser = error_wish)]
     pub(crate) error: Option<ErrorWish>,
-    /// Settings for a purpose: something to look at soon, the defaults, or minutes of rendering. What is set by itself comes
-    /// before it, and it comes before what the scene says
+    /// Preset for a quick preview, general use or a long render. Explicit options override it; it overrides the scene's
+    /// suggestions
     #[arg(long, value_name = "NAME", value_enum)]
     pub(crate) preset: Option<PresetName>,
     #[command(flatten)]
@@ -50,11 +50,11 @@ pub(crate) struct RenderArgs {
     /// Write the state of the render to this file, every so often and when it ends or is interrupted
     #[arg(long, value_name = "FILE")]
     pub(crate) checkpoint: Option<PathBuf>,
-    /// How often, e.g. 30s, 10m
+    /// Interval between checkpoint writes, e.g. 30s, 10m
     #[arg(long, value_name = "TIME", default_value = "30s", value_parser = duration, requires = "checkpoint")]
     pub(crate) checkpoint_every: Duration,
-    /// Go on from a checkpoint of the same scene and settings, with the same bits as without a break; --passes and --time count
-    /// from its beginning, --alpha, --photons and --preset change it from the next pass on
+    /// Resume a checkpoint of the same scene and settings; the result is bit-identical to an uninterrupted render. --passes and
+    /// --time count from its beginning; --alpha, --photons and --preset take effect from the next pass on
     #[arg(long, value_name = "FILE")]
     pub(crate) resume: Option<PathBuf>,
     /// Layers to put into an EXR, each once: direct, caustic, indirect, emission, radius, photon_count, shape_id,

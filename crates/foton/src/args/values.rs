@@ -72,11 +72,11 @@ impl From<PresetName> for Preset {
 /// `--radius-rule`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum Rule {
-    /// Each by the photons that it finds
+    /// Each radius shrinks with the photons found there
     Local,
-    /// All by one factor, by the photons emitted
+    /// All radii shrink by a common factor, from the photons emitted
     Global,
-    /// Each by the photons that it finds, as far as bias outweighs noise there
+    /// Each radius shrinks with the photons found there, as far as bias outweighs noise
     Adaptive,
 }
 

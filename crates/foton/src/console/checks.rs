@@ -21,7 +21,7 @@ impl Console {
         }
         if let Some(place) = render.first_not_finite() {
             self.event(&not_finite(place));
-            self.line(&format!("the first of those: {place}; --strict stops there"));
+            self.line(&format!("first occurrence: {place}; use --strict to stop there"));
         }
     }
 }

@@ -74,7 +74,7 @@ fn without_strict_the_place_is_said_and_the_render_goes_on() {
     ));
     assert!(events(&output.stdout).contains(&place), "{}", text(&output.stdout));
     let said = text(&output.stderr);
-    assert!(said.contains(" at \"white\"\n") && said.contains("the first of those: in pass "), "{said}");
+    assert!(said.contains(" at \"white\"\n") && said.contains("first occurrence: in pass "), "{said}");
     assert!(folder.exr("x.exr").0.pixels.iter().all(|c| c.is_finite()));
     // Its places are not in the checkpoint.
     let said = folder.fails(1, &format!("{RENDER} --strict -o y.exr --resume x.ck"));

@@ -4,7 +4,7 @@ use foton_input::quoted;
 use foton_math::Rgb;
 use foton_scene::bsdf::{DISTRIBUTIONS, MicrofacetDistribution, Microfacets};
 use foton_scene::description::{Bsdf, Conductor, Mirror};
-use foton_scene::parameter::{Bound, Parameter, Slot};
+use foton_scene::parameter::{Binding, Parameter, Slot};
 
 use crate::mitsuba::names::REFRACTION;
 use crate::mitsuba::read::metals;
@@ -21,8 +21,8 @@ impl Reader<'_> {
         let mut bsdf = Bsdf::of_plugin(plugin)?;
         // All of them, so that every fault is found at once.
         let mut is_complete = true;
-        for bound in bsdf.parameters() {
-            is_complete &= self.bound(p, bound).is_some();
+        for binding in bsdf.parameters() {
+            is_complete &= self.read_binding(p, binding).is_some();
         }
         let has_indices = ["eta", "k"].iter().any(|name| p.has(name));
         match bsdf {
@@ -38,7 +38,7 @@ impl Reader<'_> {
     }
 
     /// Reads a value into its place; `None` where it is not valid.
-    fn bound(&mut self, p: &mut Properties<'_>, Bound { parameters, slot }: Bound<'_>) -> Option<()> {
+    fn read_binding(&mut self, p: &mut Properties<'_>, Binding { parameters, slot }: Binding<'_>) -> Option<()> {
         p.leave_out(parameters, &mut self.report);
         match slot {
             Slot::Share(share) => *share = self.share(p, &parameters[0]),

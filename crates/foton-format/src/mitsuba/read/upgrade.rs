@@ -30,7 +30,7 @@ pub(crate) fn element(element: &mut Element, parent: &str) {
 /// The name of a BSDF's parameter that once had another one.
 fn name_now(plugin: &str, once: &str) -> Option<&'static str> {
     let mut bsdf = Bsdf::of_plugin(plugin)?;
-    let mut parameters = bsdf.parameters().into_iter().flat_map(|bound| bound.parameters);
+    let mut parameters = bsdf.parameters().into_iter().flat_map(|binding| binding.parameters);
     parameters.find(|p| p.old_names.contains(&once)).map(|p| p.name)
 }
 

@@ -1,7 +1,7 @@
 //! Changed materials in a document: the values that changed, or where their structure did, the whole element anew.
 
 use foton_scene::description::{Bsdf, Colour, Material};
-use foton_scene::parameter::{Bound, Kind, Parameter, Slot};
+use foton_scene::parameter::{Binding, Kind, Parameter, Slot};
 use foton_scene::plugins::wrappers::OPACITY;
 
 use super::tree::Obstacle;
@@ -111,7 +111,7 @@ fn change_side(document: &mut Document, node: NodeId, old: &Bsdf, new: &Bsdf) ->
     Some(())
 }
 
-fn change_value(document: &mut Document, node: NodeId, old: &Bound<'_>, new: &Bound<'_>) -> Option<()> {
+fn change_value(document: &mut Document, node: NodeId, old: &Binding<'_>, new: &Binding<'_>) -> Option<()> {
     let (before, after) = (stated(old), stated(new));
     // A texture stays as it is.
     if before == after {
@@ -133,9 +133,9 @@ fn change_value(document: &mut Document, node: NodeId, old: &Bound<'_>, new: &Bo
 }
 
 /// Parameters that cannot stand beside each other: where one of them is written, the others go.
-fn alternatives(bound: &Bound<'_>) -> impl Iterator<Item = &'static Parameter> {
+fn alternatives(binding: &Binding<'_>) -> impl Iterator<Item = &'static Parameter> {
     let is_one =
         |p: &&Parameter| matches!(p.kind, Kind::Metal | Kind::Colour | Kind::Refraction | Kind::Number);
-    let parameters = if bound.parameters.len() > 1 { bound.parameters } else { &[] };
+    let parameters = if binding.parameters.len() > 1 { binding.parameters } else { &[] };
     parameters.iter().filter(is_one)
 }

@@ -5,7 +5,7 @@ use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DMat3};
 use foton_scene::bsdf::Microfacets;
 use foton_scene::description::{Bsdf, Colour, Material, Texture, TextureKind, Wrap};
-use foton_scene::parameter::{Bound, Slot};
+use foton_scene::parameter::{Binding, Slot};
 use foton_scene::plugins::{textures, wrappers};
 
 use super::Writer;
@@ -88,14 +88,14 @@ impl Writer<'_> {
             self.xml.value(tag, name, value);
         }
         let mut bsdf = *bsdf;
-        for bound in bsdf.parameters() {
-            let parameter = &bound.parameters[0];
-            match &bound.slot {
+        for binding in bsdf.parameters() {
+            let parameter = &binding.parameters[0];
+            match &binding.slot {
                 // A factor need not stand where it changes nothing.
                 Slot::Share(share) if parameter.default == 1.0 && **share == parameter.default_colour() => {}
                 Slot::Share(share) => self.colour(parameter.name, **share),
                 _ => {
-                    for Stated { tag, name, text } in stated(&bound) {
+                    for Stated { tag, name, text } in stated(&binding) {
                         self.xml.value(tag, name, &text);
                     }
                 }
@@ -124,10 +124,10 @@ pub(crate) struct Stated {
 }
 
 /// What stands in a file for parameters of a BSDF; nothing for a texture, which stands elsewhere.
-pub(crate) fn stated(bound: &Bound<'_>) -> Vec<Stated> {
-    let name = bound.parameters[0].name;
+pub(crate) fn stated(binding: &Binding<'_>) -> Vec<Stated> {
+    let name = binding.parameters[0].name;
     let of = |tag, name, text| Stated { tag, name, text };
-    match &bound.slot {
+    match &binding.slot {
         Slot::Share(Colour::Constant(c)) => vec![of("rgb", name, colour(*c))],
         Slot::Share(Colour::Texture(_)) | Slot::Roughness(None) => Vec::new(),
         Slot::Number(number) => vec![of("float", name, single(**number))],

@@ -88,7 +88,7 @@ fn checkpoints_are_written_and_resumed_by_the_file_dialog() {
     std::fs::write(&path, "").expect("written");
     let mut harness = window(beside);
     click(&mut harness, Role::Button, "Scene");
-    click(&mut harness, Role::Button, "Go on from a checkpoint…");
+    click(&mut harness, Role::Button, "Resume a checkpoint…");
     find(&harness, Role::TextInput, "Name").focus();
     settle(&mut harness);
     harness.event(egui::Event::Text(path.display().to_string()));

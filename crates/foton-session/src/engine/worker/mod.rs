@@ -18,7 +18,7 @@ use super::editable_scene::EditableScene;
 use super::frame::Frame;
 use super::loader::Opening;
 use super::setup::Setup;
-use super::slot::NewestSender;
+use super::newest::NewestSender;
 use crate::panic::{Panic, catch_panic};
 
 /// How long to wait for commands while a scene is opened, before the progress of that is published.

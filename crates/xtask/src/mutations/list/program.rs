@@ -110,7 +110,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "what must be the same in a checkpoint is",
-        file: "crates/foton-session/src/checkpoint/fixed.rs",
+        file: "crates/foton-session/src/checkpoint/identity.rs",
         from: "if stored == here {",
         to: "if stored == here || stored.len() > 1 {",
         target: CLI,

@@ -8,7 +8,7 @@ use crate::description::Colour;
 
 /// Parameters of a BSDF with the place of what they say.
 #[derive(Debug)]
-pub struct Bound<'a> {
+pub struct Binding<'a> {
     /// The parameters: several where they say one thing together.
     pub parameters: &'static [Parameter],
     /// Where their value is.
@@ -38,7 +38,7 @@ pub enum Slot<'a> {
     Roughness(&'a mut Option<Microfacets>),
 }
 
-impl<'a> Bound<'a> {
+impl<'a> Binding<'a> {
     /// Binds parameters to their value.
     #[must_use]
     pub const fn new(parameters: &'static [Parameter], slot: Slot<'a>) -> Self {

@@ -10,7 +10,7 @@ pub(super) struct NewestSender<T> {
 }
 
 /// The two ends.
-pub(super) fn newest<T>() -> (NewestSender<T>, Receiver<T>) {
+pub(super) fn channel<T>() -> (NewestSender<T>, Receiver<T>) {
     let (sender, receiver) = bounded(1);
     (NewestSender { sender, stale: receiver.clone() }, receiver)
 }
@@ -33,7 +33,7 @@ mod tests {
 
     #[test]
     fn the_reader_sees_the_newest_value_only() {
-        let (sender, receiver) = newest();
+        let (sender, receiver) = channel();
         for i in 0..5 {
             sender.send(i);
         }
