@@ -18,7 +18,7 @@ const SIDE: usize = 32;
 /// First radius.
 const RADIUS: f64 = 0.4;
 
-/// Smooth pixels are within this distance of the light's foot, where light falls off to all sides and blur has one sign.
+/// Smooth pixels are within this distance of the light's foot, where light falls off to all sides and bias has one sign.
 const SMOOTH: f64 = 0.3;
 
 /// World units that a pixel covers.

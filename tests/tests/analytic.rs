@@ -174,7 +174,7 @@ fn glass_of_index_one_changes_nothing() {
     assert!(worst < 0.35, "{worst}");
 }
 
-/// Direct light by photons and by shadow rays is the same light. Blur makes the first differ at shadow edges and creases, so
+/// Direct light by photons and by shadow rays is the same light. Bias makes the first differ at shadow edges and creases, so
 /// pixels near those are left out: those whose footprint's disc could touch one.
 #[test]
 fn photons_and_shadow_rays_agree_away_from_edges() {

@@ -201,7 +201,7 @@ fn classes_have_the_noise_of_their_photons() {
     assert!((squares.sqrt() / error.total - 1.0).abs() < 1e-9, "{error:?}");
 }
 
-/// Over two decades of passes noise, blur of smooth light, and both fall with n^(−1/3) at α = 2/3, blur across an edge with n^(−1/12)
+/// Over two decades of passes noise, bias of smooth light, and both fall with n^(−1/3) at α = 2/3, bias across an edge with n^(−1/12)
 /// alone `[KD13]`.
 #[test]
 fn noise_and_blur_fall_with_the_slopes_of_theory() {

@@ -75,7 +75,7 @@ fn glossy_hit_points_weigh_photons_as_they_weigh_shadow_rays() {
         let by_rays =
             RenderSettings { ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..base.ppm }, ..base };
         let (rays, b) = seeds(&sketch, &by_rays, 3, 4);
-        // Blur over r = 0.04 where the highlight curves: under a percent at these roughnesses.
+        // Bias over r = 0.04 where the highlight curves: under a percent at these roughnesses.
         let bound = 4.0 * a.hypot(b) + 0.01 * rays;
         assert!((photons - rays).abs() < bound, "{material:?}: {photons} ± {a}, {rays} ± {b}");
     }

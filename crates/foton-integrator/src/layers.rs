@@ -19,7 +19,7 @@ pub enum LayerKind {
     ShapeId,
     /// Standard deviation of the pixel's luminance. Needs [`RenderSettings::error`](crate::RenderSettings::error), as all errors do.
     ErrorNoise,
-    /// Blur of the pixel's luminance by the radius: a root mean square over 5 × 5 pixels.
+    /// Bias of the pixel's luminance, from the radius: a root mean square over 5 × 5 pixels.
     ErrorBias,
     /// √(noise² + bias²).
     ErrorTotal,

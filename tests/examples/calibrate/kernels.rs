@@ -1,7 +1,7 @@
 //! What kernels other than the box would be worth, as the moments of the live error tell.
 //!
-//! With s = d²/r², the box sums Φ/(π r²) and the estimated blur is B̂ = Σ 6(s − ½) Φ/(π r²). So L − B̂/3 = Σ 2(1 − s) Φ/(π r²) is what
-//! Epanechnikov's kernel makes of the same photons, and L − B̂ = Σ (4 − 6s) Φ/(π r²), which is below zero at the rim, has no blur of
+//! With s = d²/r², the box sums Φ/(π r²) and the estimated bias is B̂ = Σ 6(s − ½) Φ/(π r²). So L − B̂/3 = Σ 2(1 − s) Φ/(π r²) is what
+//! Epanechnikov's kernel makes of the same photons, and L − B̂ = Σ (4 − 6s) Φ/(π r²), which is below zero at the rim, has no bias of
 //! order r² at all. Each is judged at its own best first radius.
 
 use std::sync::Arc;
@@ -31,7 +31,7 @@ pub(crate) fn print(named: &[&str], seeds: u64, truth_passes: u64) {
 }
 
 fn rows(name: &str, scene: &Arc<Scene>, seeds: u64, truth_passes: u64) {
-    // Radii that adapt go by the box's noise and blur, whatever the kernel.
+    // Radii that adapt go by the box's noise and bias, whatever the kernel.
     let base = RenderSettings {
         error: true,
         ppm: PpmSettings { radius_rule: RadiusRule::Local, ..crate::settings(PHOTONS, 1).ppm },

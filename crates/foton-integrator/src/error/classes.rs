@@ -3,7 +3,7 @@
 //!
 //! **Noise.** Photons are independent, so those of a class add the sum of their squared contributions to the variance, up to
 //! what is common to all classes. A photon reaches all hit points of a pixel about alike, so their roots are added first.
-//! **Bias.** B = Σ B_c makes B² = Σ B B_c: a class's part is what its blur has in common with all of it. The mean over earlier
+//! **Bias.** B = Σ B_c makes B² = Σ B B_c: a class's part is what its bias has in common with all of it. The mean over earlier
 //! passes times what this pass says of the class has no noise in its expectation.
 //!
 //! Both give shares of the figures for the whole image, whose squares then add up to the whole.
@@ -18,12 +18,12 @@ const CLASSES: usize = PathClass::ALL.len();
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Question {
     pub(crate) class: usize,
-    /// Its noise, or else its blur.
+    /// Its noise, or else its bias.
     pub(crate) noise: bool,
 }
 
 impl Question {
-    /// That of the pass after `passes` others: noise of the three classes, then blur. The first pass has no blur to compare with.
+    /// That of the pass after `passes` others: noise of the three classes, then bias. The first pass has no bias to compare with.
     pub(crate) const fn after(passes: u64) -> Self {
         let turn = (passes % (2 * CLASSES as u64)) as usize;
         Self { class: turn % CLASSES, noise: turn < CLASSES }
@@ -35,7 +35,7 @@ impl Question {
 pub struct ClassError {
     /// Its part of the noise.
     pub noise: f64,
-    /// Its part of the blur.
+    /// Its part of the bias.
     pub bias: f64,
 }
 
@@ -54,7 +54,7 @@ pub(crate) struct Classes {
     rates: [f64; CLASSES],
     /// Σ over passes of photons times that rate: the variance of the image, times all photons squared.
     noise: [f64; CLASSES],
-    /// Σ over pixels and passes of the blur so far times the class's.
+    /// Σ over pixels and passes of the bias so far times the class's.
     bias: [f64; CLASSES],
     /// Photons of the passes that summed the bias.
     bias_photons: [f64; CLASSES],
@@ -99,7 +99,7 @@ impl Classes {
                 (variance * weights.photons * weights.photons - photons).max(0.0);
         }
         let rates = [0, 1, 2].map(|c| (self.bias[c] / self.bias_photons[c]).max(0.0));
-        // By chance no class's blur may be seen to have anything in common with all of it: then it is split as the noise is.
+        // By chance no class's bias may be seen to have anything in common with all of it: then it is split as the noise is.
         let noise = shares(noise);
         let trust = if rates == [0.0; CLASSES] { 0.0 } else { trust };
         let seen = shares(rates);

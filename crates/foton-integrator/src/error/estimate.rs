@@ -6,7 +6,7 @@ use super::moments::{Scatter, Weights};
 /// Half of the outer 10 % of a normal distribution lie beyond this many standard deviations.
 const Z_90: f64 = 1.645;
 
-/// At a straight edge of light, root mean square over the disc's width: the estimated blur over the true one. There blur is no
+/// At a straight edge of light, root mean square over the disc's width: the estimated bias over the true one. There bias is no
 /// Laplacian; right on the edge both sides cancel.
 const SEEN_AT_EDGES: f64 = 0.55;
 
@@ -14,7 +14,7 @@ const SEEN_AT_EDGES: f64 = 0.55;
 ///
 /// All shares are relative to the mean reflected luminance of those pixels that see anything reflect; the error is the root
 /// mean square over the same pixels. Left out, because passes cannot show it: what the eye samples miss (antialiasing and
-/// gloss are frozen with them), light on paths that no photon has found yet where others have, and most of the blur right at
+/// gloss are frozen with them), light on paths that no photon has found yet where others have, and most of the bias right at
 /// edges, which is no Laplacian.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorEstimate {
@@ -22,7 +22,7 @@ pub struct ErrorEstimate {
     pub total: f64,
     /// What more photons alone would take away; hit points that no photon has found count as if one were about to.
     pub noise: f64,
-    /// Blur by the radius.
+    /// Bias from the radius.
     pub bias: f64,
     /// The error is above this nineteen times in twenty, as far as the figure goes.
     pub low: f64,
@@ -53,7 +53,7 @@ pub struct TileError {
     pub mean: f64,
     /// Standard deviation of the mean.
     pub noise: f64,
-    /// What blur added to the mean, as estimated: to be subtracted.
+    /// What bias added to the mean, as estimated: to be subtracted.
     pub bias: f64,
     /// Standard deviation of `bias`; independent of the noise of the mean.
     pub bias_noise: f64,

@@ -49,7 +49,7 @@ struct Addend {
     focus: f64,
     /// The variance of that: whether a sample lies in a focus is chance.
     focus_variance: f64,
-    /// Of one class: its blur, or a sum of squares.
+    /// Of one class: its bias, or a sum of squares.
     answer: f64,
 }
 

@@ -1,13 +1,13 @@
-//! Radii that shrink where blur is what is wrong, and stay where it is noise: the adaptive rule, after `[KD13]`.
+//! Radii that shrink where bias dominates, and stay where noise does: the adaptive rule, after `[KD13]`.
 //!
-//! Noise of variance V/(n r²) and blur B r² add up to the minimum where blur² = noise²/2, so each hit point goes by the quotient
-//! R = blur²/(noise²/2) of what it has gathered so far. α stands for the odds that a photon is retained, α : 1 − α; here they are
-//! α : (1 − α) R, so that α has its usual meaning where the two are in balance, nothing shrinks where there is no blur, and radii go to zero
+//! Noise of variance V/(n r²) and bias B r² add up to the minimum where bias² = noise²/2, so each hit point goes by the quotient
+//! R = bias²/(noise²/2) of what it has gathered so far. α stands for the odds that a photon is retained, α : 1 − α; here they are
+//! α : (1 − α) R, so that α has its usual meaning where the two are in balance, nothing shrinks where there is no bias, and radii go to zero
 //! wherever there is some, since noise does.
 //!
-//! Blur is seen in two ways, each with its own noise taken off. The Laplacian's is that of the error estimate (`error/mod.rs`).
+//! Bias is seen in two ways, each with its own noise taken off. The Laplacian's is that of the error estimate (`error/mod.rs`).
 //! Right on an edge of light both sides cancel in it, but the middle of the light is off the middle of the disc: by g of its
-//! radius, blur is about 6 g² of the light there (0.54 for 0.5 at a straight edge through the middle), and has the order of the
+//! radius, bias is about 6 g² of the light there (0.54 for 0.5 at a straight edge through the middle), and has the order of the
 //! Laplacian's where light is smooth.
 
 use std::f64::consts::PI;
@@ -17,7 +17,7 @@ use foton_transport::photon_map::LANES;
 
 use super::settings::Alpha;
 
-/// Blur over light, per square of how far the light's middle is off.
+/// Bias over light, per square of how far the light's middle is off.
 const OF_OFFSET: f64 = 6.0;
 
 /// How many times its own variance is taken off a square.
@@ -92,7 +92,7 @@ impl RadiusStatistics {
         }
     }
 
-    /// R: blur² over half the noise², at most [`MAX_BALANCE`]; 1 while nothing is known.
+    /// R: bias² over half the noise², at most [`MAX_BALANCE`]; 1 while nothing is known.
     fn balance(&self) -> f64 {
         if self.light <= 0.0 || self.variance <= 0.0 {
             return 1.0;
@@ -101,9 +101,9 @@ impl RadiusStatistics {
         let laplacian2 = self.laplacian * self.laplacian - CAUTION * 3.0 * self.variance;
         let offset2 = self.offset.iter().map(|o| o * o).sum::<f64>() - CAUTION * 0.5 * self.variance;
         let at_edges = OF_OFFSET * offset2.max(0.0) / self.light;
-        let blur2 = laplacian2.max(0.0) + at_edges * at_edges;
+        let bias2 = laplacian2.max(0.0) + at_edges * at_edges;
         // NaN where both sums are infinite: `min` then takes the maximum.
-        (blur2 / (0.5 * self.variance)).min(MAX_BALANCE)
+        (bias2 / (0.5 * self.variance)).min(MAX_BALANCE)
     }
 
     /// How far light may be above what the disc sees, squared and relative to that: r²/ρ² − 1 where it lies within a circle of radius
@@ -129,7 +129,7 @@ impl RadiusStatistics {
         self.light
     }
 
-    /// The share of new photons to retain, which is `alpha` where blur and noise are in balance.
+    /// The share of new photons to retain, which is `alpha` where bias and noise are in balance.
     pub(crate) fn alpha(&self, alpha: Alpha) -> Alpha {
         let a = alpha.get();
         Alpha::new(a / (a + (1.0 - a) * self.balance())).unwrap_or(alpha)

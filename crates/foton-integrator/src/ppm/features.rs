@@ -50,8 +50,10 @@ impl Feature {
 pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
     let (census, lobes) = (scene.census(), lobe_use(scene));
     let aims = scene.emitters().iter().any(Emitter::aims_at_casters);
-    let parts =
-        eye_paths(census, lobes, settings.ppm.hit_points_per_sample).into_iter().chain(surfaces(census, lobes)).chain(emitters(census, aims));
+    let parts = eye_paths(census, lobes, settings.ppm.hit_points_per_sample)
+        .into_iter()
+        .chain(surfaces(census, lobes))
+        .chain(emitters(census, aims));
     parts.chain(asked_for(settings)).collect()
 }
 

@@ -91,7 +91,7 @@ impl Ppm {
         self.error.as_ref().map_or_else(Vec::new, ErrorSums::tiles)
     }
 
-    /// What blur by the radius has added to each pixel's luminance, as estimated (W/m²/sr): with its sign, and √3 times as noisy as the
+    /// What bias from the radius has added to each pixel's luminance, as estimated (W/m²/sr): with its sign, and √3 times as noisy as the
     /// pixel. `None` without [`RenderSettings::error`](crate::RenderSettings::error).
     #[must_use]
     pub(crate) fn bias(&self) -> Option<Vec<f64>> {

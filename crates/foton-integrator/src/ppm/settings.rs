@@ -116,7 +116,7 @@ pub enum RadiusRule {
     Local,
     /// All by one factor that the photons emitted alone decide: r² ∝ Γ(n+α)/(Γ(1+α) Γ(n+1)) after n equal passes `[KZ11]`.
     Global,
-    /// Each by the photons that its own hit point finds, and only as far as blur outweighs noise there; after `[KD13]`. Costs 64 bytes a
+    /// Each by the photons that its own hit point finds, and only as far as bias outweighs noise there; after `[KD13]`. Costs 64 bytes a
     /// hit point and some time.
     #[default]
     Adaptive,

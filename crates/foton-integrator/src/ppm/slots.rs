@@ -33,7 +33,7 @@ pub(crate) struct ClassTerm {
 }
 
 impl ClassTerm {
-    /// w² for the noise; w · 6(s − ½), s = d²/r², for the blur.
+    /// w² for the noise; w · 6(s − ½), s = d²/r², for the bias.
     #[inline(always)]
     pub(crate) fn new(question: Question, packet: &Packet) -> Self {
         let Question { class, noise } = question;

@@ -10,7 +10,7 @@ use crate::{CompareError, Pair};
 /// How far one image is off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Judged {
-    /// Root mean square error of luminance over the mean reflected luminance, the reference's noise and blur taken off: of all
+    /// Root mean square error of luminance over the mean reflected luminance, the reference's noise and bias taken off: of all
     /// that is seen, of its smooth part, of the rest.
     pub(crate) error: [f64; 3],
     /// In units of radiance, over all pixels and channels.
@@ -116,7 +116,7 @@ impl Judge {
             let off = |errors: &[f64]| reference.mean_square(mask, |pixel| errors[pixel] + y[pixel]);
             self.whole.squares(self.seeds, mask, &off, reference.mean)
         });
-        // A class's share of the reference's noise and blur is not known: it is left in.
+        // A class's share of the reference's noise and bias is not known: it is left in.
         let seen = &reference.masks.seen;
         let off = |errors: &[f64]| mean(seen, errors.iter().map(|e| e * e));
         let classes = self.classes.as_ref().map(|all| {

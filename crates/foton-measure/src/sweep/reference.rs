@@ -3,10 +3,10 @@
 //! A run of its own sees the same eye samples as what is judged: neither side then has the other's antialiasing error. Its
 //! radius is small and stays the same (α = 1), so that all its passes are independent and their scatter says how noisy it is, and
 //! takes direct light by shadow rays. Its radius falls with its time as n^(−1/6), as a run's at α = 2/3 does: its noise and what is
-//! left of its blur stay in proportion. An image that is given has no noise of its own known, and differs by what few eye
+//! left of its bias stay in proportion. An image that is given has no noise of its own known, and differs by what few eye
 //! samples miss.
 //!
-//! **What is left of its blur.** Across an edge of light even a small disc blurs, over a width that goes with its radius r, and the
+//! **What is left of its bias.** Across an edge of light even a small disc blurs, over a width that goes with its radius r, and the
 //! squared difference from what is judged falls short by as much: by half of it where r is a fifth of the judged one's. So the
 //! same photons are gathered in discs of twice the radius too, and squares are extrapolated to none: 2 E²(r) − E²(2r). What is
 //! judged may be as sharp as the reference itself, in the focus of a caustic; then E²(2r) is the larger one, and E²(r) is all
@@ -71,7 +71,7 @@ impl Reference {
         masks::mean(&self.masks.seen, self.fine.variance.iter().copied()).sqrt() / self.mean
     }
 
-    /// The mean squared error over `mask` of pixels of the luminance that `x` says: the reference's own noise taken off, its blur
+    /// The mean squared error over `mask` of pixels of the luminance that `x` says: the reference's own noise taken off, its bias
     /// extrapolated to none. By chance it may be below zero.
     #[must_use]
     pub fn mean_square(&self, mask: &[bool], x: impl Fn(usize) -> f64) -> f64 {
@@ -129,7 +129,7 @@ impl Reference {
     }
 }
 
-/// A mean square without what a reference's blur has taken from it, from those against it and against the one of twice its radius.
+/// A mean square without what a reference's bias has taken from it, from those against it and against the one of twice its radius.
 #[must_use]
 pub fn extrapolated(fine: f64, wide: f64) -> f64 {
     fine + (fine - wide).max(0.0)

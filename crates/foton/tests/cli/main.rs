@@ -4,6 +4,7 @@
 
 #[cfg(debug_assertions)]
 mod faults;
+mod interface;
 #[cfg(target_os = "linux")]
 mod places;
 mod refusals;

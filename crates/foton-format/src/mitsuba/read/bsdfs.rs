@@ -38,7 +38,11 @@ impl Reader<'_> {
     }
 
     /// Reads a value into its place; `None` where it is not valid.
-    fn read_binding(&mut self, p: &mut Properties<'_>, Binding { parameters, slot }: Binding<'_>) -> Option<()> {
+    fn read_binding(
+        &mut self,
+        p: &mut Properties<'_>,
+        Binding { parameters, slot }: Binding<'_>,
+    ) -> Option<()> {
         p.leave_out(parameters, &mut self.report);
         match slot {
             Slot::Share(share) => *share = self.share(p, &parameters[0]),

@@ -32,7 +32,7 @@ fn uniform_light_never_shrinks_its_radius_whatever_its_photons() {
 
 #[test]
 fn alpha_is_as_meant_where_blur_is_half_the_noise() {
-    // L = 1 + c(2s − 1) is 1 − c in the middle: blur c, of which its noise 3/(πn) is taken off twice.
+    // L = 1 + c(2s − 1) is 1 − c in the middle: bias c, of which its noise 3/(πn) is taken off twice.
     let c = 0.1;
     let radius_statistics = |n: f64| radius_statistics(n, |x, y| 1.0 + c * (2.0 * (x * x + y * y) - 1.0));
     let n = (CAUTION * 3.0 + 0.5) / (PI * c * c);

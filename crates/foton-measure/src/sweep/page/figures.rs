@@ -42,7 +42,7 @@ impl Report<'_> {
         });
         let title = format!("Error over time, by α ({} photons a pass)", count(centre.photons.get().into()));
         let plot = Plot { title: &title, x: TIME, y: ERROR, series: series.collect() };
-        figure(plot.svg(), "Small α shrinks radii fast: less blur, more noise. Means over seeds.")
+        figure(plot.svg(), "Small α shrinks radii fast: less bias, more noise. Means over seeds.")
     }
 
     pub(crate) fn error_per_radius(&self) -> Option<String> {
@@ -123,7 +123,7 @@ impl Report<'_> {
         let plot = Plot { title: "Noise and bias of the centre", x: "photons emitted", y: ERROR, series };
         figure(
             plot.svg(),
-            "Noise differs from seed to seed, bias does not. Away from edges both fall with n<sup>−1/3</sup> at α 2/3 where radii do not adapt; blur \
+            "Noise differs from seed to seed, bias does not. Away from edges both fall with n<sup>−1/3</sup> at α 2/3 where radii do not adapt; bias \
             across edges falls more slowly.",
         )
     }
@@ -156,7 +156,7 @@ impl Report<'_> {
         figure(
             plot.svg(),
             "Errors of each kind of light alone, of the centre, over the mean of all light. Where direct light is largest, shadow \
-            rays help; where caustics are, photons; where all is blur, a smaller first radius. The reference's own noise is part of these.",
+            rays help; where caustics are, photons; where bias dominates, a smaller first radius. The reference's own noise is part of these.",
         )
     }
 

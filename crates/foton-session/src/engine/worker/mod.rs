@@ -17,8 +17,8 @@ use super::command::{Command, Event, ViewMode};
 use super::editable_scene::EditableScene;
 use super::frame::Frame;
 use super::loader::Opening;
-use super::setup::Setup;
 use super::newest::NewestSender;
+use super::setup::Setup;
 use crate::panic::{Panic, catch_panic};
 
 /// How long to wait for commands while a scene is opened, before the progress of that is published.
