@@ -224,12 +224,12 @@ fn shapes(materials: usize) -> Vec<ShapeDescription> {
     ];
     let mirror = DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
     let shape = |i: usize| ShapeDescription {
-        name: if i % 2 == 0 { String::new() } else { "ä/b".to_owned() },
+        name: if i.is_multiple_of(2) { String::new() } else { "ä/b".to_owned() },
         geometry: geometries[i % geometries.len()].clone(),
         to_world: if i % 4 < 2 { odd_transform() } else { odd_transform() * mirror },
-        flip_normals: i % 3 == 0,
+        flip_normals: i.is_multiple_of(3),
         material: i % materials,
-        radiance: (i % 5 == 0).then(|| Rgb::new(0.1, 1e-12, 1e12)),
+        radiance: i.is_multiple_of(5).then(|| Rgb::new(0.1, 1e-12, 1e12)),
     };
     (0..24).map(shape).collect()
 }
