@@ -64,7 +64,7 @@ fn main() {
         ("rough coats", Census { rough_coats: true, ..none.clone() }, &plain),
         ("shadow rays", none.clone(), &shadow_rays),
         ("light by path class", none.clone(), &layers),
-        ("live error", none.clone(), &error),
+        ("live error", none, &error),
     ];
     let costs = costs(&description, &rows.clone().map(|(_, forced, settings)| (forced, settings)));
     println!("| forced on | eye pass, s | {PASSES} passes, s | passes | memory, MB |");

@@ -6,9 +6,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A file longer than this holds more than one idea.
-const MAX_LINES: usize = 500;
-
 /// What must not be left in code. Split, so that this file does not contain it.
 const LEFTOVERS: &[&str] = &[
     concat!("to", "do!"),
@@ -25,13 +22,6 @@ fn every_file_opens_by_saying_what_it_is() {
     let opening = |path: &Path| if has_extension(path, "wgsl") { "//" } else { "//!" };
     let faults = code_files().into_iter().filter(|path| !read(path).starts_with(opening(path)));
     none(faults.map(|path| format!("{}: does not open with {}", shown(&path), opening(&path))));
-}
-
-#[test]
-fn no_file_is_too_long() {
-    let lengths = code_files().into_iter().map(|path| (read(&path).lines().count(), path));
-    let faults = lengths.filter(|(lines, _)| *lines > MAX_LINES);
-    none(faults.map(|(lines, path)| format!("{}: {lines} lines, of {MAX_LINES} at most", shown(&path))));
 }
 
 #[test]

@@ -125,20 +125,13 @@ fn odd_transform() -> DAffine3 {
     DAffine3::from_translation(DVec3::new(odd(5), 1e-9 * odd(6), 1e17 * odd(7))) * turn
 }
 
-fn everything() -> SceneDescription {
+const fn colour(r: f32, g: f32, b: f32) -> Colour {
+    Colour::Constant(Rgb::new(r, g, b))
+}
+
+fn bsdfs() -> Vec<Bsdf> {
     let roughness = |distribution, alpha_u, alpha_v| Some(Microfacets { distribution, alpha_u, alpha_v });
-    let colour = |r, g, b| Colour::Constant(Rgb::new(r, g, b));
-    let white = colour(1.0, 1.0, 1.0);
-    let pixels = (0..6).map(|i| Rgb::new(i as f32 / 7.0, 0.1, 1.0 / 3.0)).collect();
-    let bitmap = Arc::new(Bitmap { width: 3, height: 2, pixels });
-    let to_uv = DAffine2::from_scale_angle_translation(DVec2::new(2.0, -4.0), 0.0, DVec2::new(0.5, 0.25));
-    let textures = [
-        TextureKind::Bitmap { bitmap: Arc::clone(&bitmap), wrap: Wrap::Mirror, bilinear: false },
-        TextureKind::Checkerboard { colours: [Rgb::new(0.1, 0.2, 0.3), Rgb::splat(0.7)] },
-        TextureKind::Bitmap { bitmap: Arc::clone(&bitmap), wrap: Wrap::Clamp, bilinear: true },
-    ];
-    let diffuse = Bsdf::Diffuse(Diffuse { reflectance: colour(0.1, 0.63, 1.0 / 3.0) });
-    let textured = Bsdf::Diffuse(Diffuse { reflectance: Colour::Texture(0) });
+    let (specular_reflectance, specular_transmittance) = (colour(1.0, 1.0, 1.0), colour(0.5, 0.6, 0.7));
     let plastic = |nonlinear, roughness| {
         Bsdf::Plastic(Plastic {
             int_ior: 1.49,
@@ -149,7 +142,6 @@ fn everything() -> SceneDescription {
             roughness,
         })
     };
-    let (specular_reflectance, specular_transmittance) = (white, colour(0.5, 0.6, 0.7));
     let glass = |roughness| {
         Bsdf::Dielectric(Dielectric {
             int_ior: 1.5046,
@@ -167,70 +159,83 @@ fn everything() -> SceneDescription {
             roughness,
         })
     };
-    let sides = [
+    let (int_ior, ext_ior) = (1.5, 1.0);
+    let pane = ThinDielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance };
+    vec![
+        plastic(false, None),
+        plastic(true, roughness(MicrofacetDistribution::Ggx, 0.3, 0.3)),
+        glass(None),
+        glass(roughness(MicrofacetDistribution::Beckmann, 0.1, 0.2)),
+        Bsdf::ThinDielectric(pane),
+        Bsdf::Mirror(Mirror { reflectance: colour(0.999, 0.999, 0.999) }),
+        metal(None),
+        metal(roughness(MicrofacetDistribution::Ggx, 0.02, 0.02)),
+        Bsdf::Null(Null),
+    ]
+}
+
+fn materials() -> Vec<Material> {
+    let diffuse = Bsdf::Diffuse(Diffuse { reflectance: colour(0.1, 0.63, 1.0 / 3.0) });
+    let textured = Bsdf::Diffuse(Diffuse { reflectance: Colour::Texture(0) });
+    let mut sides = vec![
         (diffuse, None, None),
         (diffuse, Some(diffuse), None),
         (diffuse, Some(textured), Some(colour(0.3, 0.3, 0.3))),
-        (plastic(false, None), None, Some(Colour::Texture(2))),
-        (plastic(true, roughness(MicrofacetDistribution::Ggx, 0.3, 0.3)), None, None),
-        (glass(None), None, None),
-        (glass(roughness(MicrofacetDistribution::Beckmann, 0.1, 0.2)), None, None),
-        (
-            Bsdf::ThinDielectric(ThinDielectric {
-                int_ior: 1.5,
-                ext_ior: 1.0,
-                specular_reflectance,
-                specular_transmittance,
-            }),
-            None,
-            None,
-        ),
-        (Bsdf::Mirror(Mirror { reflectance: colour(0.999, 0.999, 0.999) }), None, None),
-        (metal(None), None, None),
-        (metal(roughness(MicrofacetDistribution::Ggx, 0.02, 0.02)), Some(diffuse), None),
-        (Bsdf::Null(Null), None, None),
     ];
-    let materials = sides.map(|(front, back, opacity)| Material {
+    sides.extend(bsdfs().into_iter().enumerate().map(|(i, front)| {
+        let back = matches!(front, Bsdf::Conductor(Conductor { roughness: Some(_), .. })).then_some(diffuse);
+        (front, back, (i == 0).then_some(Colour::Texture(2)))
+    }));
+    let material = |(front, back, opacity)| Material {
         // One name for all: ids must become different ones.
         name: "a \"strange\" <name> & $more".to_owned(),
         front,
         back,
         opacity,
-    });
-    let mesh = |narrow: bool, normals: bool| {
-        let value = |i| if narrow { f64::from(odd(i) as f32) } else { odd(i) };
-        let positions = (0..4).map(|i| DVec3::new(value(i), value(i + 4), value(i + 8))).collect();
-        let normals = if normals { vec![DVec3::new(odd(1), odd(2), odd(3)); 4] } else { Vec::new() };
-        let texture_coordinates = vec![DVec2::new(odd(1), 0.5); if narrow { 0 } else { 4 }];
-        Geometry::Mesh(Arc::new(Mesh {
-            positions,
-            normals,
-            texture_coordinates,
-            triangles: vec![[0, 1, 2], [0, 2, 3]],
-        }))
     };
-    let shared = mesh(false, true);
+    sides.into_iter().map(material).collect()
+}
+
+fn odd_mesh(narrow: bool, normals: bool) -> Geometry {
+    let value = |i| if narrow { f64::from(odd(i) as f32) } else { odd(i) };
+    let positions = (0..4).map(|i| DVec3::new(value(i), value(i + 4), value(i + 8))).collect();
+    let normals = if normals { vec![DVec3::new(odd(1), odd(2), odd(3)); 4] } else { Vec::new() };
+    let texture_coordinates = vec![DVec2::new(odd(1), 0.5); if narrow { 0 } else { 4 }];
+    Geometry::Mesh(Arc::new(Mesh {
+        positions,
+        normals,
+        texture_coordinates,
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+    }))
+}
+
+fn shapes(materials: usize) -> Vec<ShapeDescription> {
+    let shared = odd_mesh(false, true);
     let geometries = [
         Geometry::Sphere { centre: DVec3::new(odd(1), odd(2), odd(3)), radius: 1.0 / 3.0 },
         Geometry::Disc,
         Geometry::Cylinder { from: DVec3::ZERO, to: DVec3::new(0.0, odd(2), 0.1), radius: 0.1 },
         Geometry::Mesh(Arc::new(Mesh::rectangle())),
         Geometry::Mesh(Arc::new(Mesh::cube())),
-        mesh(true, false),
-        mesh(false, false),
+        odd_mesh(true, false),
+        odd_mesh(false, false),
         shared.clone(),
         shared,
     ];
     let mirror = DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
-    let shapes = (0..24).map(|i| ShapeDescription {
-        name: if i % 2 == 0 { String::new() } else { "ä/b".to_owned() },
+    let shape = |i: usize| ShapeDescription {
+        name: if i.is_multiple_of(2) { String::new() } else { "ä/b".to_owned() },
         geometry: geometries[i % geometries.len()].clone(),
         to_world: if i % 4 < 2 { odd_transform() } else { odd_transform() * mirror },
-        flip_normals: i % 3 == 0,
-        material: i % materials.len(),
-        radiance: (i % 5 == 0).then(|| Rgb::new(0.1, 1e-12, 1e12)),
-    });
-    let sensor = |fov_axis, filter, near_clip| SensorDescription {
+        flip_normals: i.is_multiple_of(3),
+        material: i % materials,
+        radiance: i.is_multiple_of(5).then(|| Rgb::new(0.1, 1e-12, 1e12)),
+    };
+    (0..24).map(shape).collect()
+}
+
+fn sensors() -> Vec<SensorDescription> {
+    let sensor = |fov_axis, filter, near_clip: Option<f64>| SensorDescription {
         name: "sensor".to_owned(),
         to_world: DAffine3::from_axis_angle(DVec3::Y, odd(1)),
         fov_degrees: 40.0 + odd(2),
@@ -242,6 +247,26 @@ fn everything() -> SceneDescription {
         near_clip,
         far_clip: near_clip.map(|near| near + 100.0),
     };
+    vec![
+        sensor(FovAxis::Larger, Filter::Box { radius: 0.5 }, Some(odd(1))),
+        SensorDescription {
+            crop: Some(Crop { x: 10, y: 20, width: 100, height: 80 }),
+            ..sensor(FovAxis::X, Filter::Box { radius: 0.5 }, None)
+        },
+        sensor(FovAxis::Diagonal, Filter::Tent { radius: 1.1 }, None),
+        sensor(FovAxis::Y, Filter::Gaussian { stddev: 0.3 }, None),
+    ]
+}
+
+fn everything() -> SceneDescription {
+    let pixels = (0..6).map(|i| Rgb::new(i as f32 / 7.0, 0.1, 1.0 / 3.0)).collect();
+    let bitmap = Arc::new(Bitmap { width: 3, height: 2, pixels });
+    let to_uv = DAffine2::from_scale_angle_translation(DVec2::new(2.0, -4.0), 0.0, DVec2::new(0.5, 0.25));
+    let textures = [
+        TextureKind::Bitmap { bitmap: Arc::clone(&bitmap), wrap: Wrap::Mirror, bilinear: false },
+        TextureKind::Checkerboard { colours: [Rgb::new(0.1, 0.2, 0.3), Rgb::splat(0.7)] },
+        TextureKind::Bitmap { bitmap: Arc::clone(&bitmap), wrap: Wrap::Clamp, bilinear: true },
+    ];
     let kinds = [
         EmitterKind::Point { position: DVec3::new(odd(1), 2.0, 3.0), intensity: Rgb::new(0.1, 0.2, 0.3) },
         EmitterKind::Spot {
@@ -256,19 +281,12 @@ fn everything() -> SceneDescription {
         },
         EmitterKind::Environment { to_world: DAffine3::from_rotation_y(odd(1)), bitmap, scale: 0.7 },
     ];
+    let materials = materials();
     SceneDescription {
-        sensors: vec![
-            sensor(FovAxis::Larger, Filter::Box { radius: 0.5 }, Some(odd(1))),
-            SensorDescription {
-                crop: Some(Crop { x: 10, y: 20, width: 100, height: 80 }),
-                ..sensor(FovAxis::X, Filter::Box { radius: 0.5 }, None)
-            },
-            sensor(FovAxis::Diagonal, Filter::Tent { radius: 1.1 }, None),
-            sensor(FovAxis::Y, Filter::Gaussian { stddev: 0.3 }, None),
-        ],
-        materials: materials.to_vec(),
+        sensors: sensors(),
+        shapes: shapes(materials.len()),
+        materials,
         textures: textures.map(|kind| Texture { name: "t".to_owned(), to_uv, kind }).to_vec(),
-        shapes: shapes.collect(),
         emitters: kinds.map(|kind| EmitterDescription { name: "light".to_owned(), kind }).to_vec(),
         max_depth: Some(7),
     }

@@ -58,6 +58,7 @@ fn scene() -> SceneDescription {
     let material = |name: &str, front| Material { name: name.into(), front, back: None, opacity: None };
     let flat = DMat3::from_cols(DVec3::X * 20.0, DVec3::NEG_Z * 20.0, DVec3::Y);
     let floor = DAffine3::from_mat3(flat);
+    let ball = Geometry::Sphere { centre: DVec3::new(0.0, 1.0, 0.0), radius: 1.0 };
     let mut lamp = shape("lamp", Geometry::Disc, DAffine3::from_translation(DVec3::new(-2.0, 3.0, -2.0)), 0);
     lamp.radiance = Some(Rgb::new(2.0, 1.0, 0.5));
     let light = |name: &str, kind| EmitterDescription { name: name.into(), kind };
@@ -66,12 +67,7 @@ fn scene() -> SceneDescription {
         materials: vec![material("grey", grey), material("glass", glass)],
         shapes: vec![
             shape("floor", Geometry::Mesh(Arc::new(Mesh::rectangle())), floor, 0),
-            shape(
-                "ball",
-                Geometry::Sphere { centre: DVec3::new(0.0, 1.0, 0.0), radius: 1.0 },
-                DAffine3::IDENTITY,
-                1,
-            ),
+            shape("ball", ball, DAffine3::IDENTITY, 1),
             shape(
                 "cube",
                 Geometry::Mesh(Arc::new(Mesh::cube())),

@@ -2,6 +2,7 @@
 
 mod parts;
 mod strangers;
+mod textures;
 
 use std::io;
 use std::path::Path;
@@ -161,6 +162,12 @@ fn values_out_of_range_are_errors() {
             "<shape type='sphere'><float name='radius' value='2m'/></shape>",
             &["s.xml:2:50: \"2m\" is not a number"],
         ),
+    ]);
+}
+
+#[test]
+fn sensors_and_lights_out_of_range_are_errors() {
+    assert_all(&[
         (
             "<sensor type='perspective'><float name='fov' value='180'/></sensor>",
             &["s.xml:2:53: \"fov\" must lie between 0 and 180 degrees"],

@@ -64,42 +64,11 @@ impl Scene {
             gathered.census.textures |= material.colours().any(|c| matches!(c, Colour::Texture(_)));
             gathered.census.anisotropy |= material.is_anisotropic();
         }
-        let mut shapes = Vec::new();
-        let mut emitters = Vec::new();
-        let mut casters = Aabb::EMPTY;
+        let mut parts = Parts { gathered, shapes: Vec::new(), emitters: Vec::new(), casters: Aabb::EMPTY };
         for (i, shape) in description.shapes.iter().enumerate() {
-            let first = gathered.primitives.len();
-            gathered.add(i as u32, shape, &normalisation, &gauge)?;
-            gauge.add(gathered.primitives.len() - first)?;
-            if gathered.primitives.len() > i32::MAX as usize {
-                return Err(BuildError::TooLarge);
-            }
-            let material = description.materials.get(shape.material);
-            let material = material.ok_or_else(|| BuildError::NoMaterial(shape.name.clone()))?;
-            let smooth = gathered.vertex_normals[first..].iter().any(|n| n[0] != Vec3::ZERO);
-            gathered.census.count(material, smooth);
-            if material.casts() {
-                casters = gathered.primitives[first..].iter().fold(casters, |b, p| b.union(p.bounds()));
-            }
-            let emitter = shape.radiance.filter(|r| !r.is_black()).map(|radiance| {
-                let area = Area::new(i as u32, radiance, &gathered.primitives[first..]);
-                emitters.push(Emitter {
-                    name: shape.name.clone(),
-                    kind: Kind::Area(area),
-                    aim: Aim::default(),
-                });
-                emitters.len() as u32 - 1
-            });
-            let extent = gathered.primitives[first..].iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
-            shapes.push(Shape {
-                name: shape.name.clone(),
-                steps_across: steps_across(&extent),
-                extent: if extent.is_empty() { place_of(shape, &normalisation) } else { extent },
-                material: shape.material as u32,
-                emitter,
-                to_object: orientation(&shape.to_world),
-            });
+            parts.add(i as u32, shape, description, &normalisation, &gauge)?;
         }
+        let Parts { gathered, shapes, mut emitters, casters } = parts;
         let bounds = gathered.primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
         let bounds = if bounds.is_empty() { Aabb::around(Vec3::ZERO, 1.0) } else { bounds };
         let scene_ball = ball(&bounds);
@@ -112,39 +81,54 @@ impl Scene {
         scene.shapes = shapes;
         scene.textures = description.textures.iter().map(Sampler::new).collect();
         scene.materials.clone_from(&description.materials);
-        if scene.census.rough_coats {
-            scene.coats = scene.materials.iter().map(Material::coats).collect();
-        }
-        scene.lambertian =
-            scene.shapes.iter().map(|s| scene.materials[s.material as usize].lambertian()).collect();
-        let keeps: Vec<bool> = scene.shapes.iter().map(|s| scene.material_of(s).spreads()).collect();
-        let patches = patches::find(&scene.accel, |i| keeps[scene.shape_of(i) as usize], options)?;
-        let coincidences = Coincidences::find(&scene, options)?;
-        for (i, (part, patch)) in Arc::make_mut(&mut scene.parts).iter_mut().zip(patches).enumerate() {
-            *part = Part { patch, coincides: coincidences.share(i as u32).any, ..*part };
-        }
-        scene.coincidences = Arc::new(coincidences);
-        for emitter in &mut emitters {
-            if let Kind::Area(area) = &mut emitter.kind {
-                area.gap = scene.coincidences.gap(area.shape as usize);
-            }
-        }
         scene.max_depth = description.max_depth;
         scene.picture_bytes = description.picture_bytes();
         scene.sensors = description.sensors.iter().map(|s| Sensor::new(s, &normalisation)).collect();
+        scene.casters = casters;
+        scene.settle_surfaces(&mut emitters, options)?;
+        scene.enter_emitters(emitters);
+        Ok(scene)
+    }
+
+    /// What surfaces are by each other: their patches, and where they lie in one another.
+    fn settle_surfaces(
+        &mut self,
+        emitters: &mut [Emitter],
+        options: &BuildOptions<'_>,
+    ) -> Result<(), BuildError> {
+        if self.census.rough_coats {
+            self.coats = self.materials.iter().map(Material::coats).collect();
+        }
+        self.lambertian =
+            self.shapes.iter().map(|s| self.materials[s.material as usize].lambertian()).collect();
+        let spreads: Vec<bool> = self.shapes.iter().map(|s| self.material_of(s).spreads()).collect();
+        let patches = patches::find(&self.accel, |i| spreads[self.shape_of(i) as usize], options)?;
+        let coincidences = Coincidences::find(self, options)?;
+        for (i, (part, patch)) in Arc::make_mut(&mut self.parts).iter_mut().zip(patches).enumerate() {
+            *part = Part { patch, coincides: coincidences.share(i as u32).any, ..*part };
+        }
+        self.coincidences = Arc::new(coincidences);
+        for emitter in emitters {
+            if let Kind::Area(area) = &mut emitter.kind {
+                area.gap = self.coincidences.gap(area.shape as usize);
+            }
+        }
+        Ok(())
+    }
+
+    /// Enters all emitters, and how photons are shared among them.
+    fn enter_emitters(&mut self, emitters: Vec<Emitter>) {
         let which = |is_it: &dyn Fn(&Emitter) -> bool| {
             (0u32..).zip(&emitters).filter(|(_, e)| is_it(e)).map(|(i, _)| i).collect()
         };
-        scene.delta_emitters = which(&Emitter::is_delta);
-        scene.environments = which(&|e| e.is_environment() && !e.power().is_black());
-        scene.census.delta_emitters |= !scene.delta_emitters.is_empty();
-        scene.census.area_emitters |= emitters.iter().any(Emitter::is_area);
-        scene.census.environment |= !scene.environments.is_empty();
-        scene.emitter_choice = emitter_choice(&emitters);
-        scene.census.emitters = emitters.iter().filter(|e| !e.power().is_black()).count() as u64;
-        scene.casters = casters;
-        scene.emitters = emitters.into();
-        Ok(scene)
+        self.delta_emitters = which(&Emitter::is_delta);
+        self.environments = which(&|e| e.is_environment() && !e.power().is_black());
+        self.census.delta_emitters |= !self.delta_emitters.is_empty();
+        self.census.area_emitters |= emitters.iter().any(Emitter::is_area);
+        self.census.environment |= !self.environments.is_empty();
+        self.census.emitters = emitters.iter().filter(|e| !e.power().is_black()).count() as u64;
+        self.emitter_choice = emitter_choice(&emitters);
+        self.emitters = emitters.into();
     }
 
     /// The same scene seen by other sensors, as [`Scene::build`] would make it: surfaces and emitters are shared.
@@ -177,4 +161,55 @@ fn steps_across(extent: &Aabb) -> f32 {
     }
     let step = f32::EPSILON * farthest.log2().floor().exp2();
     extent.size().max_element() / step
+}
+
+/// What shapes bring to a scene.
+struct Parts {
+    gathered: Gathered,
+    shapes: Vec<Shape>,
+    emitters: Vec<Emitter>,
+    /// A box around what throws caustics.
+    casters: Aabb,
+}
+
+impl Parts {
+    fn add(
+        &mut self,
+        index: u32,
+        shape: &ShapeDescription,
+        description: &SceneDescription,
+        normalisation: &Normalisation,
+        gauge: &Gauge<'_>,
+    ) -> Result<(), BuildError> {
+        let Self { gathered, shapes, emitters, casters } = self;
+        let first = gathered.primitives.len();
+        gathered.add(index, shape, normalisation, gauge)?;
+        gauge.add(gathered.primitives.len() - first)?;
+        if gathered.primitives.len() > i32::MAX as usize {
+            return Err(BuildError::TooLarge);
+        }
+        let material = description.materials.get(shape.material);
+        let material = material.ok_or_else(|| BuildError::NoMaterial(shape.name.clone()))?;
+        let smooth = gathered.vertex_normals[first..].iter().any(|n| n[0] != Vec3::ZERO);
+        gathered.census.count(material, smooth);
+        let primitives = &gathered.primitives[first..];
+        if material.casts() {
+            *casters = primitives.iter().fold(*casters, |b, p| b.union(p.bounds()));
+        }
+        let emitter = shape.radiance.filter(|r| !r.is_black()).map(|radiance| {
+            let kind = Kind::Area(Area::new(index, radiance, primitives));
+            emitters.push(Emitter { name: shape.name.clone(), kind, aim: Aim::default() });
+            emitters.len() as u32 - 1
+        });
+        let extent = primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
+        shapes.push(Shape {
+            name: shape.name.clone(),
+            steps_across: steps_across(&extent),
+            extent: if extent.is_empty() { place_of(shape, normalisation) } else { extent },
+            material: shape.material as u32,
+            emitter,
+            to_object: orientation(&shape.to_world),
+        });
+        Ok(())
+    }
 }

@@ -7,8 +7,6 @@ use std::sync::Arc;
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Frame, warp};
 
-use super::area::one_minus_cos_of_cone;
-
 /// From a point, balls that are nearer than this many of their radii are not aimed at: most light goes there anyway.
 const NEAREST: f32 = 2.0;
 
@@ -117,4 +115,11 @@ impl Aim {
         });
         (direction, rest * own_density(direction) + aimed.sum::<f32>())
     }
+}
+
+/// 1 − cos of the cone under which a sphere is seen from a distance to its centre, by a form that does not cancel; `None` from
+/// inside.
+pub(super) fn one_minus_cos_of_cone(radius: f32, distance: f32) -> Option<f32> {
+    let sine = radius / distance;
+    (sine < 1.0).then(|| sine * sine / (1.0 + (1.0 - sine * sine).sqrt()))
 }

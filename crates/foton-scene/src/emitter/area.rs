@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Aabb, Frame, Rgb, warp};
 
-use super::aim::Aim;
+use super::aim::{Aim, one_minus_cos_of_cone};
 use super::emission::{Emission, Illumination};
 use crate::discrete::Discrete;
 use crate::plane::Plane;
@@ -156,11 +156,4 @@ impl Area {
         let cosine = -d.dot(point.normal) / distance2.sqrt();
         if cosine > 0.0 && distance2 > 0.0 { distance2 / (cosine * self.area) } else { 0.0 }
     }
-}
-
-/// 1 − cos of the cone under which a sphere is seen from a distance to its centre, by a form that does not cancel; `None` from
-/// inside.
-pub(super) fn one_minus_cos_of_cone(radius: f32, distance: f32) -> Option<f32> {
-    let sine = radius / distance;
-    (sine < 1.0).then(|| sine * sine / (1.0 + (1.0 - sine * sine).sqrt()))
 }

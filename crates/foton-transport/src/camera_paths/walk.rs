@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_1_PI;
 
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Ray, Rgb, Stream};
-use foton_scene::{LobeFlags, Scattering, Surface, Transport};
+use foton_scene::{LobeFlags, LobeSample, Scattering, Surface, Transport};
 
 use super::eye_pass::{EyePass, EyePaths};
 use super::highlights::{EmitterDraw, Glossy};
@@ -239,6 +239,22 @@ impl<'a, 'b> Walk<'a, 'b> {
         self.see(highlight, at.surface.position, Some(at.surface.shape));
     }
 
+    /// Stores hit points of glossy specular lobes, for light that the path cannot find by sampling them.
+    fn store_specular(
+        &mut self,
+        branch: &Branch,
+        surface: &Surface,
+        scattering: &Scattering,
+        split: LobeSplit,
+        distance: f32,
+    ) {
+        let part = Part { lobes: split.specular, specular: true, behind: false };
+        self.store(branch, surface, scattering, distance, part);
+        if scattering.bsdf.transmits() {
+            self.store(branch, surface, scattering, distance, Part { behind: true, ..part });
+        }
+    }
+
     /// Goes on by the specular lobes of a surface: all of them where the path may split, else one chosen by chance.
     fn follow_lobes(
         &mut self,
@@ -256,13 +272,8 @@ impl<'a, 'b> Walk<'a, 'b> {
             Some(_) => Some(self.facet.take().unwrap_or_else(|| self.stream.next_2d())),
             None => None,
         };
-        let weighted = Branch { weight, ..*branch };
         if self.pass.uses.highlights_by_photons && split.follows_gloss() {
-            let part = Part { lobes: split.specular, specular: true, behind: false };
-            self.store(&weighted, surface, scattering, distance, part);
-            if scattering.bsdf.transmits() {
-                self.store(&weighted, surface, scattering, distance, Part { behind: true, ..part });
-            }
+            self.store_specular(&Branch { weight, ..*branch }, surface, scattering, split, distance);
         }
         let samples_emitters = self.pass.uses.highlights && facet.is_some();
         if samples_emitters {
@@ -285,10 +296,7 @@ impl<'a, 'b> Walk<'a, 'b> {
         } else {
             let u = self.stream.next_1d();
             let lobe = scattering.choose_lobe(local, Transport::Radiance, u, facet, split.specular);
-            single = [lobe.map(|mut l| {
-                l.weight = l.weight / l.probability;
-                l
-            })];
+            single = [lobe.map(|l| LobeSample { weight: l.weight / l.probability, ..l })];
             &single
         };
         for lobe in chosen.iter().flatten() {

@@ -240,7 +240,7 @@ impl<'a> Writer<'a> {
                 xml.transform("to_world", to_world);
             }
             EmitterKind::Constant { radiance } => {
-                xml.value("rgb", emitters::RADIANCE.name, &colour(*radiance))
+                xml.value("rgb", emitters::RADIANCE.name, &colour(*radiance));
             }
             EmitterKind::Directional { direction, irradiance } => {
                 xml.value("vector", emitters::DIRECTION.name, &vector(*direction));

@@ -56,7 +56,7 @@ impl Writer<'_> {
             self.xml.open("bsdf", &[("type", wrappers::MASK.name), attributes.remove(0)]);
             match *opacity {
                 Colour::Constant(share) => {
-                    self.xml.value("float", wrappers::OPACITY.name, &single(mean(share)))
+                    self.xml.value("float", wrappers::OPACITY.name, &single(mean(share)));
                 }
                 texture @ Colour::Texture(_) => self.colour(wrappers::OPACITY.name, texture),
             }
