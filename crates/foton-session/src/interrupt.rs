@@ -12,6 +12,8 @@ pub struct Interrupt {
     finish: Arc<AtomicBool>,
     /// Whether the scene is still being read, built or looked at.
     loading: Arc<AtomicBool>,
+    /// Whether the program may end at once, since there is nothing to lose.
+    disposable: Arc<AtomicBool>,
     cancel: Cancel,
 }
 
@@ -19,12 +21,25 @@ impl Interrupt {
     /// For a scene that is still to be read: asked once, whatever goes on is given up, until [`Interrupt::begin_passes`].
     #[must_use]
     pub fn while_loading() -> Self {
-        Self { loading: Arc::new(AtomicBool::new(true)), ..Self::default() }
+        let yes = || Arc::new(AtomicBool::new(true));
+        Self { loading: yes(), disposable: yes(), ..Self::default() }
     }
 
     /// From here on a pass can be finished.
     pub fn begin_passes(&self) {
         self.loading.store(false, Ordering::SeqCst);
+        self.begin_work();
+    }
+
+    /// From here on there is something to lose: the program may not end before what it does has heard of the request.
+    pub fn begin_work(&self) {
+        self.disposable.store(false, Ordering::SeqCst);
+    }
+
+    /// Whether the program may end at once: someone asked, and there is nothing to lose.
+    #[must_use]
+    pub fn may_end_at_once(&self) -> bool {
+        self.is_requested() && self.disposable.load(Ordering::SeqCst)
     }
 
     /// Asks.
@@ -55,10 +70,15 @@ mod tests {
     fn one_request_gives_up_loading_and_finishes_a_pass_two_discard_it() {
         let interrupt = Interrupt::while_loading();
         interrupt.request();
-        assert!(interrupt.cancel().is_requested());
+        assert!(interrupt.cancel().is_requested() && interrupt.may_end_at_once());
+        let interrupt = Interrupt::while_loading();
+        interrupt.begin_work();
+        interrupt.request();
+        assert!(interrupt.cancel().is_requested() && !interrupt.may_end_at_once());
         let interrupt = Interrupt::while_loading();
         interrupt.begin_passes();
         interrupt.request();
+        assert!(!interrupt.may_end_at_once());
         assert!(interrupt.is_requested() && !interrupt.cancel().is_requested());
         interrupt.request();
         assert!(interrupt.cancel().is_requested());

@@ -47,6 +47,7 @@ pub(crate) fn run(args: &Measure, console: &mut Console) -> Result<(), Failure> 
         return Err(Failure::Memory(why));
     }
     console.stage("collecting hit points");
+    interrupt.begin_work();
     // What a part found is stored when it is done: one that is interrupted may as well end at once.
     let outcome = {
         let mut tell = |event: &Event| say(event, console);

@@ -12,6 +12,7 @@ use foton_session::{SceneIdentity, Session};
 
 use crate::args::Size;
 use crate::console::{Console, Failure};
+use crate::interrupts::begin_step;
 use crate::memory;
 use crate::roles::Roles;
 
@@ -22,6 +23,7 @@ pub(crate) fn open(
     memory: Option<u64>,
     cancel: &Cancel,
 ) -> Result<Opened, Failure> {
+    begin_step("reading the scene");
     let memory = memory::limit(memory).map(|b| b as u64);
     let options = Options { defines: defines.to_vec(), memory, cancel: cancel.clone() };
     foton_format::open(scene, &options).map_err(Failure::of_open)
@@ -46,6 +48,7 @@ pub(crate) fn build(
     console: &Console,
     cancel: &Cancel,
 ) -> Result<(Arc<Scene>, SceneIdentity), Failure> {
+    begin_step("building the scene");
     for warning in &opened.warnings {
         console.diagnostic(warning);
     }

@@ -10,7 +10,7 @@ use foton_session::{Session, StopRule};
 
 use crate::console::{Console, Failure};
 use crate::embedded::ALL;
-use crate::interrupts::{interrupt_on_signals, say_limit};
+use crate::interrupts::{begin_step, interrupt_on_signals, say_limit};
 use crate::memory::limit;
 use crate::opening::{Bounds, build, refuse_beyond_memory};
 use crate::settings::SettingsBuilder;
@@ -45,6 +45,7 @@ pub(crate) fn render(scene: Option<&Path>, console: &mut Console) -> Result<(), 
     for path in [&png, &exr] {
         check_writable(path)?;
     }
+    begin_step("collecting hit points");
     console.stage("collecting hit points");
     let mut session = Session::start(scene, settings, None, cancel)?;
     interrupt.begin_passes();

@@ -14,7 +14,7 @@ use foton_session::{Interrupt, Preset, SceneIdentity, Session, StopRule};
 
 use crate::args::{ErrorWish, RenderArgs};
 use crate::console::{Console, Failure};
-use crate::interrupts::{interrupt_on_signals, say_limit};
+use crate::interrupts::{begin_step, interrupt_on_signals, say_limit};
 use crate::opening::{Bounds, build, choose_sensor, file_name, open, refuse_beyond_memory, refuse_two_roles};
 use crate::settings::SettingsBuilder;
 use crate::writing::finish;
@@ -92,6 +92,7 @@ fn start(
 ) -> Result<Session, Failure> {
     let threads = args.settings.threads.map(usize::from);
     refuse_beyond_memory(&scene, &settings, threads, args.memory)?;
+    begin_step("collecting hit points");
     console.stage("collecting hit points");
     let mut session = Session::start(scene, settings, threads, interrupt.cancel())?;
     interrupt.begin_passes();

@@ -43,6 +43,11 @@ impl Console {
         Self { json, bar: ProgressBar::hidden(), said_floor, lost }
     }
 
+    /// Whether it says things in JSON.
+    pub(crate) const fn is_json(&self) -> bool {
+        self.json
+    }
+
     /// A line on stdout: what was asked for.
     pub(crate) fn out(&self, text: &str) {
         let mut stdout = io::stdout().lock();
@@ -131,6 +136,10 @@ impl Console {
             return;
         }
         if let Failure::Interrupted(at) = failure {
+            static SAID: AtomicBool = AtomicBool::new(false);
+            if SAID.swap(true, Ordering::SeqCst) {
+                return;
+            }
             self.event(&json!({ "event": "interrupted", "while": at }));
             self.line(&failure.to_string());
             return;

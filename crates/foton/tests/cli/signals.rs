@@ -311,3 +311,34 @@ fn a_scene_that_is_read_or_built_is_given_up_at_the_first_signal() {
         assert_eq!(left, [""; 0], "nothing is written");
     }
 }
+
+/// Steps of loading that hear nothing, as those of libraries do, end with the program.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_step_of_loading_that_hears_nothing_ends_at_the_first_signal() {
+    let folder = Folder::new("deaf");
+    for (step, signal) in
+        [("reading the scene", "-INT"), ("building the scene", "-TERM"), ("collecting hit points", "-INT")]
+    {
+        let mut command = folder.command("render scene.xml -o x.exr --passes 1 --json");
+        command.env("FOTON_DEAF", step).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().expect("starts");
+        let mut said = BufReader::new(child.stderr.take().expect("piped"));
+        let mut line = String::new();
+        while line.trim() != "deaf" {
+            line.clear();
+            assert_ne!(said.read_line(&mut line).expect("text"), 0, "it ended by itself");
+        }
+        let status = Command::new("kill").args([signal, &child.id().to_string()]).status();
+        assert!(status.expect("kill runs").success());
+        let mut rest = String::new();
+        said.read_to_string(&mut rest).expect("text");
+        let output = child.wait_with_output().expect("ends");
+        assert_eq!(output.status.code(), Some(1), "{rest}");
+        assert_eq!(rest.matches("interrupted while").count(), 1, "{rest}");
+        assert!(rest.contains(&format!("interrupted while {step}: nothing was written")), "{rest}");
+        let last = events(&output.stdout).pop().expect("an event");
+        assert_eq!((&last["event"], &last["while"]), (&json!("interrupted"), &json!(step)));
+    }
+    assert_eq!(folder.images(), [""; 0], "nothing is written");
+}
