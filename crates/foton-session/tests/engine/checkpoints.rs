@@ -62,7 +62,8 @@ fn a_checkpoint_of_any_age_is_resumed() {
         // What the checkpoint brings was not made in this window.
         let made = after.stats.photons - two.render().photons_emitted();
         let seconds = after.stats.elapsed.saturating_sub(elapsed).as_secs_f64();
-        if elapsed < Duration::from_secs(1) {
+        // Rates are those of the last two seconds, which on a busy machine may be above the mean of a longer render.
+        if elapsed < Duration::from_secs(1) && seconds < 2.0 {
             assert!(after.stats.photons_per_s * seconds <= 1.001 * made as f64, "{:?}", after.stats);
         }
     }
