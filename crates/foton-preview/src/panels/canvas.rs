@@ -123,13 +123,16 @@ fn point(ui: &egui::Ui, state: &mut State, response: &egui::Response, film: Film
     {
         state.ask(Command::Choose(Some(film.to_film(at))));
     }
+    let mut by = response.drag_delta();
     if response.drag_started()
         && let Some(at) = ui.input(|i| i.pointer.press_origin())
     {
         begin(state, response, film, at, modifiers);
+        // All of the way since the button went down: what was before the drag, some of it in the same frame, counts too.
+        by = response.interact_pointer_pos().unwrap_or(at) - at;
     }
     if response.dragged() {
-        go_on(state, response, film);
+        go_on(state, response, film, by);
     }
     if response.drag_stopped() {
         end(state, response, film);
@@ -199,8 +202,7 @@ fn begin(state: &mut State, response: &egui::Response, film: Film, at: Pos2, mod
     };
 }
 
-fn go_on(state: &mut State, response: &egui::Response, film: Film) {
-    let by = response.drag_delta();
+fn go_on(state: &mut State, response: &egui::Response, film: Film, by: Vec2) {
     if by == Vec2::ZERO {
         return;
     }

@@ -89,6 +89,27 @@ fn dragging_what_is_chosen_moves_it() {
     assert!(!asked.iter().any(|a| a.contains("Camera")), "{asked:?}");
 }
 
+/// On a slow machine the button goes down and the pointer goes all the way in a single frame, and rests from then on.
+#[test]
+fn a_drag_that_is_over_within_a_frame_moves_what_is_chosen_all_the_way() {
+    let mut harness = chosen();
+    let (from, to) = (at(&harness, [30.0, 20.0]), at(&harness, [34.0, 20.0]));
+    harness.hover_at(from);
+    settle(&mut harness);
+    harness.state_mut().outbox.clear();
+    let press = egui::Event::PointerButton {
+        pos: from,
+        button: egui::PointerButton::Primary,
+        pressed: true,
+        modifiers: Modifiers::NONE,
+    };
+    harness.input_mut().events.extend([press, egui::Event::PointerMoved(to)]);
+    harness.run_steps(4);
+    let asked: Vec<String> = asked(&mut harness).into_iter().filter(|a| !a.starts_with("Probe")).collect();
+    assert!(asked[0].contains("BeginDrag([30.") || asked[0].contains("film: [30."), "{asked:?}");
+    assert!(asked.get(1).is_some_and(|a| a.contains("DragTo([34.")), "{asked:?}");
+}
+
 #[test]
 fn escape_in_the_middle_of_a_drag_puts_it_back() {
     let mut harness = chosen();
