@@ -56,6 +56,11 @@ impl Log {
         self.seen = self.lines.len();
     }
 
+    /// Nothing counts as looked at.
+    pub const fn rewind(&mut self) {
+        self.seen = 0;
+    }
+
     /// All lines.
     ///
     /// # Panics

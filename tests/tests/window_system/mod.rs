@@ -15,8 +15,11 @@ fn the_render_goes_on_without_an_adapter_or_a_viewer_and_files_are_dropped() {
 }
 
 fn another_adapter_goes_on_with_the_same_render(driver: &mut Driver) {
-    // The first one was introduced before the first frame.
-    driver.window.wait("another adapter", |line| (line["event"] == "adapter").then_some(()));
+    // On a busy machine the first one may be lost before the window was seen to be open.
+    driver.window.log.rewind();
+    for which in ["an adapter", "another adapter"] {
+        driver.window.wait(which, |line| (line["event"] == "adapter").then_some(()));
+    }
     driver.window.wait("it said", |line| {
         (line["event"] == "notice" && line["message"].as_str()?.contains("adapter was lost and is back"))
             .then_some(())
