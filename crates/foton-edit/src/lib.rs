@@ -19,7 +19,6 @@ mod target;
 mod view;
 
 #[cfg(test)]
-#[cfg(test)]
 mod tests;
 
 pub use apply::{Edit, EditError};

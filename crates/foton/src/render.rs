@@ -47,8 +47,10 @@ pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Fai
     }
     let mut session = start(args, scene, settings, &interrupt, console)?;
     if let Some(path) = &args.resume {
+        begin_step("resuming the checkpoint");
         resume(args, path, &mut session, &identity, &rule, console)?;
     }
+    interrupt.begin_passes();
     run(args, &mut session, &rule, &identity, &interrupt, console)
 }
 
@@ -95,7 +97,6 @@ fn start(
     begin_step("collecting hit points");
     console.stage("collecting hit points");
     let mut session = Session::start(scene, settings, threads, interrupt.cancel())?;
-    interrupt.begin_passes();
     if args.strict {
         session.render_mut().stop_at_first_not_finite();
     }

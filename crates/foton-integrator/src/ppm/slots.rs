@@ -11,8 +11,7 @@ use super::hit_points::Irradiance;
 use super::statistics::Statistics;
 use crate::error::{Question, SlotMoments};
 
-/// Light found by a packet's lanes. Rows begin at cache lines: others are read and written in two parts.
-#[repr(align(64))]
+/// Light found by a packet's lanes.
 pub(crate) struct Found<const LAYERS: usize> {
     pub(crate) flux: [[[f32; LANES]; 3]; LAYERS],
     pub(crate) count: [u32; LANES],

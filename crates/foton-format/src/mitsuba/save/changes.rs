@@ -5,7 +5,6 @@ use foton_math::glam::DAffine3;
 use foton_scene::description::{
     EmitterKind, FovAxis, Geometry, SceneDescription, SensorDescription, ShapeDescription,
 };
-
 use foton_scene::plugins::{emitters, shapes};
 
 use super::tree::Obstacle;

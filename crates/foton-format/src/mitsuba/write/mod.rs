@@ -20,7 +20,6 @@ use foton_scene::description::{
     Bitmap, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
     SensorDescription, ShapeDescription,
 };
-
 use foton_scene::plugins::{emitters, shapes};
 
 use crate::mitsuba::read::shapes::is_turned_inside_out;
