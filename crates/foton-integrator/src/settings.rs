@@ -91,6 +91,21 @@ pub enum SettingChange {
     PhotonsPerPass(NonZeroU32),
 }
 
+impl SettingChange {
+    /// Whether another change is of the same setting.
+    pub(crate) fn is_of(self, other: Self) -> bool {
+        std::mem::discriminant(&self) == std::mem::discriminant(&other)
+    }
+
+    /// Whether settings have its value.
+    pub(crate) fn is_in(self, settings: &PpmSettings) -> bool {
+        match self {
+            Self::Alpha(alpha) => settings.alpha == alpha,
+            Self::PhotonsPerPass(photons) => settings.photons_per_pass == photons,
+        }
+    }
+}
+
 impl fmt::Display for SettingChange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -16,7 +16,7 @@ use super::hit_points::HitPoints;
 use super::light::Light;
 use super::lobes::lobe_use;
 use super::report::{PassReport, Start};
-use super::settings::{DirectLight, RadiusRule};
+use super::settings::{DirectLight, PpmSettings, RadiusRule};
 use super::slots::EarlierBatches;
 use crate::error::ErrorSums;
 use crate::settings::{RenderSettings, SettingChange};
@@ -47,6 +47,8 @@ pub(crate) struct Ppm {
     pub(super) photons_emitted: u64,
     pub(super) last_photons: u64,
     pub(super) changes: Vec<(u64, SettingChange)>,
+    /// The settings before the first change since the last pass, with the number of passes at it.
+    pub(super) unchanged: Option<(u64, PpmSettings)>,
     pub(super) start: Start,
     /// Whether a pass that leaves a value out does not happen.
     pub(super) strict: bool,
@@ -112,6 +114,7 @@ impl Ppm {
             photons_emitted: 0,
             last_photons: 0,
             changes: Vec::new(),
+            unchanged: None,
             start,
             strict: false,
             not_finite,

@@ -23,10 +23,16 @@ impl Ppm {
         self.not_finite.as_ref()
     }
 
-    /// Changes a setting from the next pass on. The change stands in [`Ppm::changes`] with the number of passes before it.
+    /// Changes a setting from the next pass on. The change stands in [`Ppm::changes`] with the number of passes before it, once:
+    /// of several before a pass the last one counts, and one that leads back to what the last pass had is none.
     pub(crate) fn change(&mut self, change: SettingChange) {
+        let unchanged = self.unchanged.filter(|(passes, _)| *passes == self.passes);
+        let (_, last) = *self.unchanged.insert(unchanged.unwrap_or((self.passes, self.settings.ppm)));
         self.settings.change(change);
-        self.changes.push((self.passes, change));
+        self.changes.retain(|(passes, earlier)| *passes < self.passes || !earlier.is_of(change));
+        if !change.is_in(&last) {
+            self.changes.push((self.passes, change));
+        }
     }
 
     /// Passes so far.

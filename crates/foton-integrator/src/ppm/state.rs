@@ -79,6 +79,7 @@ impl Ppm {
         let changes = (0..input.u64()?).map(|_| change(&mut input)).collect::<Result<_, _>>()?;
         (self.passes, self.photons_emitted, self.last_photons, self.changes) =
             (passes, emitted, last, changes);
+        self.unchanged = None;
         self.settings.ppm.alpha = alpha;
         self.settings.ppm.photons_per_pass = photons;
         self.restore_accounts(&mut input)?;

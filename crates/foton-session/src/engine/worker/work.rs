@@ -177,6 +177,6 @@ impl Worker {
     fn beyond_memory(&self, scene: &Scene) -> Option<String> {
         let estimate = Session::estimate_memory(scene, &self.plan.settings, self.plan.threads);
         let refusal = estimate.refusal(self.setup.memory_limit)?;
-        Some(format!("{refusal}. Fewer eye samples or photons a pass need less"))
+        Some(format!("{refusal}. Fewer samples/pixel or photons/pass need less"))
     }
 }
