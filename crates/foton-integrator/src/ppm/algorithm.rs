@@ -83,8 +83,9 @@ impl Ppm {
         let normals = lobe_use(&scene).shading_normals;
         let hit_points =
             HitPoints::new(&eye.hit_points, &eye.gloss, eye.pixel_start(), normals, shadow_rays, cancel)?;
-        let has_statistics = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;
-        let hit_points = if has_statistics { hit_points.with_radius_statistics() } else { hit_points };
+        let adapts = settings.ppm.radius_rule == RadiusRule::Adaptive;
+        let hit_points =
+            if settings.error || adapts { hit_points.with_radius_statistics() } else { hit_points };
         let start = Start { hit_points: hit_points.len() as u64, eye_rays: eye.rays, dropped: eye.dropped };
         let step = (eye.hit_points.len() / MAX_PROBED).max(1);
         let disc = |h: &HitPoint| (h.position, h.radius2.sqrt());
@@ -97,10 +98,10 @@ impl Ppm {
         let light = Light::new(eye.emission, &hit_points, &settings);
         let (width, samples) = (scene.sensors()[settings.sensor].width, settings.samples_per_pixel.get());
         let error = settings.error.then(|| ErrorSums::new(&hit_points, width, samples));
-        let lights = vec![LightUse::default(); scene.emitters().len()];
-        let losses = vec![Loss::default(); scene.materials().len()];
         cancel.check()?;
         Ok(Self {
+            lights: vec![LightUse::default(); scene.emitters().len()],
+            losses: vec![Loss::default(); scene.materials().len()],
             scene,
             sources,
             settings,
@@ -116,8 +117,6 @@ impl Ppm {
             earlier: EarlierBatches::default(),
             max_in_batch: MAX_PHOTONS,
             ledger: Ledger::default(),
-            lights,
-            losses,
             passes: 0,
             photons_emitted: 0,
             last_photons: 0,
