@@ -73,6 +73,14 @@ impl RenderSettings {
         self.max_depth.or(scene.max_depth()).map_or(MAX_PATH_EDGES, |d| d.min(MAX_PATH_EDGES))
     }
 
+    /// What is in force of the kind that a change is of.
+    pub(crate) const fn in_force(&self, change: &SettingChange) -> SettingChange {
+        match change {
+            SettingChange::Alpha(_) => SettingChange::Alpha(self.ppm.alpha),
+            SettingChange::PhotonsPerPass(_) => SettingChange::PhotonsPerPass(self.ppm.photons_per_pass),
+        }
+    }
+
     /// Takes a change on.
     pub const fn change(&mut self, change: SettingChange) {
         match change {
@@ -92,17 +100,9 @@ pub enum SettingChange {
 }
 
 impl SettingChange {
-    /// Whether another change is of the same setting.
-    pub(crate) fn is_of(self, other: Self) -> bool {
-        std::mem::discriminant(&self) == std::mem::discriminant(&other)
-    }
-
-    /// Whether settings have its value.
-    pub(crate) fn is_in(self, settings: &PpmSettings) -> bool {
-        match self {
-            Self::Alpha(alpha) => settings.alpha == alpha,
-            Self::PhotonsPerPass(photons) => settings.photons_per_pass == photons,
-        }
+    /// Whether both change the same setting.
+    pub(crate) fn is_of_the_kind_of(&self, other: &Self) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(other)
     }
 }
 

@@ -8,12 +8,14 @@ mod checkpointing;
 mod command;
 mod editable_scene;
 mod frame;
+mod kept;
 mod loader;
 mod newest;
 mod probe;
 mod rates;
 mod render;
 mod setup;
+mod starting;
 mod worker;
 mod writing;
 
@@ -74,7 +76,7 @@ impl Engine {
         Ok(Self { commands, frames, events, cancels, unwritten })
     }
 
-    /// Asks for something. Where the pass under way would be for nothing, it is discarded. Returns whether the engine is there
+    /// Asks for something. A pass under way makes way for it at once. Returns whether the engine is there
     /// and had room.
     pub fn send(&self, command: Command) -> bool {
         let (interrupts, writes) = (command.interrupts(), command.writes());
@@ -91,6 +93,7 @@ impl Engine {
         if interrupts {
             self.cancels.work.request();
         }
+        self.cancels.news.tell();
         sent
     }
 

@@ -18,7 +18,8 @@ impl Worker {
         Some((render, self.scene.as_ref()?))
     }
 
-    pub(super) fn snapshot(&self, folder: &Path) {
+    pub(super) fn snapshot(&mut self, folder: &Path) {
+        self.settle();
         if self.rendered().is_none() {
             return self.event(Event::Failed("there is no pass to save yet".to_owned()));
         }

@@ -2,6 +2,7 @@
 
 mod checkpoints;
 mod edits;
+mod pausing;
 mod rig;
 
 use std::num::NonZeroU32;

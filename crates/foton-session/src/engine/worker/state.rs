@@ -10,8 +10,10 @@ use rayon::ThreadPool;
 
 use crate::checkpoint::Keeper;
 use crate::engine::command::ViewMode;
-use crate::engine::frame::Picture;
-use crate::engine::render::LevelRender;
+use crate::engine::frame::{Picture, RenderStats};
+use crate::engine::kept::{Kept, Subject};
+use crate::engine::render::{Level, LevelRender};
+use crate::engine::starting::Starting;
 use crate::stop::StopRule;
 
 /// Whether passes are rendered.
@@ -39,6 +41,14 @@ pub(in crate::engine) struct Plan {
 #[derive(Default)]
 pub(in crate::engine) struct Current {
     pub(in crate::engine) render: Option<LevelRender>,
+    /// The whole render, while its hit points are collected.
+    pub(super) starting: Option<Starting>,
+    /// What the whole render is of.
+    pub(super) subject: Option<Subject>,
+    /// Those from before edits.
+    pub(super) kept: Kept,
+    /// There is always a pass to look at: one that was started anew in a pause is to have its first.
+    pub(super) owes_a_pass: bool,
     /// Changes with each start.
     pub(super) number: u64,
     /// A render that cannot start is not tried again until something changes.
@@ -67,11 +77,23 @@ pub(super) struct View {
     pub(super) probed: Option<[u32; 2]>,
 }
 
+/// What a picture is of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) struct PictureOf {
+    pub(super) render: u64,
+    pub(super) level: Level,
+    pub(super) passes: u64,
+    pub(super) mode: ViewMode,
+}
+
 /// What frames have carried.
 pub(super) struct Published {
     pub(super) frames: u64,
     /// The whole picture as it last was: retained while the next render has none.
     pub(super) picture: Option<Picture>,
+    pub(super) picture_of: Option<PictureOf>,
+    /// How a render stood after a pass, for one goal of its error.
+    pub(super) stats: Option<(u64, u64, Option<f64>, RenderStats)>,
     /// The render that it is of.
     pub(super) pictured: u64,
     pub(super) last_frame: Instant,
@@ -81,6 +103,14 @@ pub(super) struct Published {
 
 impl Default for Published {
     fn default() -> Self {
-        Self { frames: 0, picture: None, pictured: 0, last_frame: Instant::now(), unseen: true }
+        Self {
+            frames: 0,
+            picture: None,
+            picture_of: None,
+            stats: None,
+            pictured: 0,
+            last_frame: Instant::now(),
+            unseen: true,
+        }
     }
 }
