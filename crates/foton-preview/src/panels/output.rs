@@ -22,7 +22,7 @@ pub(super) fn show(ui: &mut Ui, state: &mut State) {
         let folder = state.auto_snapshots.then(|| state.snapshot_folder());
         state.ask(Command::AutoSnapshots(folder));
     }
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         if ui
             .button("Keep checkpoint…")
             .on_hover_text("Updates a file with this render's state every 30 s")

@@ -70,6 +70,7 @@ fn frame() -> Frame {
         settings: RenderSettings::default(),
         threads: None,
         stop: StopRule::default(),
+        checkpoint_age: None,
         scene: Arc::new(SceneFacts {
             name: "room.xml".into(),
             file: Some("/scenes/room.xml".into()),
