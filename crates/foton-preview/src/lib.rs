@@ -9,6 +9,7 @@ mod panels;
 mod preferences;
 mod present;
 mod state;
+mod themes;
 mod window;
 
 pub use window::{Close, Options, WindowError, run};

@@ -14,7 +14,6 @@ pub(crate) struct Preferences {
     pub(crate) snapshot_folder: PathBuf,
     /// Where file dialogs begin.
     pub(crate) scene_folder: PathBuf,
-    pub(crate) show_plots: bool,
 }
 
 impl Default for Preferences {
@@ -24,7 +23,6 @@ impl Default for Preferences {
             dark: true,
             snapshot_folder: PathBuf::from("."),
             scene_folder: PathBuf::from("."),
-            show_plots: true,
         }
     }
 }
@@ -62,7 +60,6 @@ impl Preferences {
             dark: value["dark"].as_bool().unwrap_or(default.dark),
             snapshot_folder: folder("snapshot_folder", &default.snapshot_folder),
             scene_folder: folder("scene_folder", &default.scene_folder),
-            show_plots: value["show_plots"].as_bool().unwrap_or(default.show_plots),
         }
     }
 
@@ -72,7 +69,6 @@ impl Preferences {
             "dark": self.dark,
             "snapshot_folder": self.snapshot_folder.to_string_lossy(),
             "scene_folder": self.scene_folder.to_string_lossy(),
-            "show_plots": self.show_plots,
         });
         format!("{value:#}\n")
     }

@@ -125,6 +125,15 @@ impl Window {
     /// If the program cannot be started, or shows nothing.
     #[must_use]
     pub fn open(display: &Display, opening: &Opening<'_>) -> Self {
+        Self::open_scaled(display, opening, 1.0)
+    }
+
+    /// The same on a display with so many pixels a point along each side.
+    ///
+    /// # Panics
+    /// If the program cannot be started, or shows nothing.
+    #[must_use]
+    pub fn open_scaled(display: &Display, opening: &Opening<'_>, scale: f64) -> Self {
         let folder = opening.folder;
         let settings = folder.join("config/foton");
         fs::create_dir_all(&settings).expect("a folder");
@@ -136,6 +145,7 @@ impl Window {
         command.args(opening.scene).arg("--frame-log").arg(&log).current_dir(folder);
         command.env("DISPLAY", &display.name).env_remove("WAYLAND_DISPLAY");
         command.env("XDG_CONFIG_HOME", folder.join("config"));
+        command.env("WINIT_X11_SCALE_FACTOR", scale.to_string());
         command.envs(opening.fault.map(|fault| ("FOTON_FAULT", fault)));
         command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(errors);
         let process = command.spawn().unwrap_or_else(|e| panic!("{}: {e}", opening.foton.display()));
@@ -184,6 +194,20 @@ impl Window {
     pub fn place(&mut self, name: &str) -> [f64; 4] {
         let place = self.log.place(name);
         place.unwrap_or_else(|| panic!("no place of {name}\n{}", self.log.tail()))
+    }
+
+    /// Where a share of the image, across and down, is on the canvas, in points, while the whole image is shown.
+    ///
+    /// # Panics
+    /// If the log does not say.
+    #[track_caller]
+    #[must_use]
+    pub fn on_film(&mut self, share: [f64; 2]) -> [f64; 2] {
+        let size = self.frame("a size", |f| Some([f["size"][0].as_f64()?, f["size"][1].as_f64()?]));
+        let [left, top, width, height] = self.place("canvas");
+        let scale = (width / size[0]).min(height / size[1]);
+        let along = |i: usize, from: f64, room: f64| from + 0.5 * room + (share[i] - 0.5) * size[i] * scale;
+        [along(0, left, width), along(1, top, height)]
     }
 
     /// The memory that the process holds, in bytes, as the system counts it.

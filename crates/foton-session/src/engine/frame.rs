@@ -218,6 +218,8 @@ pub struct Frame {
     pub threads: Option<usize>,
     /// When it will stop.
     pub stop: StopRule,
+    /// How much rendering the render's checkpoint does not have yet; `None` without a checkpoint.
+    pub checkpoint_age: Option<Duration>,
     /// The scene.
     pub scene: Arc<SceneFacts>,
     /// Photons of the last pass, if asked for.

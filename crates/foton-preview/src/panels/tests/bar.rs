@@ -5,18 +5,19 @@ use super::*;
 #[test]
 fn lists_choose_the_view_and_the_tone_map() {
     let mut harness = window(|_| ());
-    choose(&mut harness, "Tone", ToneMap::AgX.name());
+    choose(&mut harness, "Tone map", ToneMap::AgX.name());
     assert_eq!(asked(&mut harness), [""; 0], "nothing is rendered again");
     assert_eq!(harness.state().tone_map, ToneMap::AgX);
-    choose(&mut harness, "Show", "Radius");
+    choose(&mut harness, "View", "Radius");
     assert_asked(&mut harness, &Command::SetView(ViewMode::Radius));
-    assert!(harness.query_by_role_and_label(Role::Slider, "Exposure").is_none(), "measures are not exposed");
+    let exposure = find(&harness, Role::SpinButton, "Exposure").accesskit_node();
+    assert!(exposure.is_disabled(), "measures are not exposed");
 }
 
 #[test]
 fn kinds_of_light_are_switched_and_separate_from_then_on() {
     let mut harness = window(|_| ());
-    click(&mut harness, Role::Button, "Light");
+    click(&mut harness, Role::Button, "Light paths");
     click(&mut harness, Role::CheckBox, "Caustic");
     let view = ViewMode::Classes { reflected: [true, false, true], emission: true };
     let layers = Configuration { layers: true, ..Configuration::of(&RenderSettings::default(), None) };
@@ -45,7 +46,7 @@ fn the_bar_pauses_steps_restarts_saves_and_opens() {
         click(&mut harness, Role::Button, label);
         assert_asked(&mut harness, &command);
     }
-    click(&mut harness, Role::Button, "Scene");
+    click(&mut harness, Role::Button, "File");
     click(&mut harness, Role::Button, "Built in");
     click(&mut harness, Role::Button, "ring");
     assert_asked(&mut harness, &Command::Open(Source::BuiltIn("ring".into())));
@@ -55,18 +56,20 @@ fn the_bar_pauses_steps_restarts_saves_and_opens() {
     assert!(harness.state().pinned.is_none());
     click(&mut harness, Role::Button, "Reset camera");
     assert_asked(&mut harness, &Command::ResetCamera);
-    click(&mut harness, Role::CheckBox, "at passes 1, 2, 4, 8, …");
+    click(&mut harness, Role::CheckBox, "Snapshots at passes 1, 2, 4, 8, …");
     assert_asked(&mut harness, &Command::AutoSnapshots(Some("/pictures".into())));
 }
 
 #[test]
-fn where_the_light_went_stands_among_the_statistics() {
-    let harness = window(|_| ());
-    for text in ["absorbed, escaped", "75.00 %, 23.75 %", "cut off, dropped", "1.25 %, 0"] {
+fn where_the_light_went_stands_among_the_diagnostics() {
+    let mut harness = window(|_| ());
+    click(&mut harness, Role::DisclosureTriangle, "Diagnostics");
+    for text in ["Absorbed: 75.00 %", "Escaped: 23.75 %", "Truncated (max depth): 1.25 %", "Invalid: 0"] {
         assert!(harness.query_by_label(text).is_some(), "{text}");
     }
-    let dark = window(|state| state.frame.as_mut().expect("there").stats.ledger = Ledger::default());
-    assert!(dark.query_by_label("absorbed, escaped").is_none(), "nothing was emitted");
+    let mut dark = window(|state| state.frame.as_mut().expect("there").stats.ledger = Ledger::default());
+    click(&mut dark, Role::DisclosureTriangle, "Diagnostics");
+    assert!(dark.query_by_label_contains("Absorbed").is_none(), "nothing was emitted");
 }
 
 #[test]
@@ -81,14 +84,12 @@ fn checkpoints_are_written_and_resumed_by_the_file_dialog() {
     let mut harness = window(beside);
     let stem = harness.state().frame.as_ref().expect("there").scene.name.replace(".xml", "");
     let path = folder.join(format!("{stem}.checkpoint"));
-    click(&mut harness, Role::Button, "Scene");
-    click(&mut harness, Role::Button, "Keep a checkpoint…");
+    click(&mut harness, Role::Button, "Keep checkpoint…");
     click(&mut harness, Role::Button, "Save");
     assert_asked(&mut harness, &Command::KeepCheckpoint(path.clone()));
     std::fs::write(&path, "").expect("written");
     let mut harness = window(beside);
-    click(&mut harness, Role::Button, "Scene");
-    click(&mut harness, Role::Button, "Resume a checkpoint…");
+    click(&mut harness, Role::Button, "Resume checkpoint…");
     find(&harness, Role::TextInput, "Name").focus();
     settle(&mut harness);
     harness.event(egui::Event::Text(path.display().to_string()));

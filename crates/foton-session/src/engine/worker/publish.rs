@@ -133,6 +133,7 @@ impl Worker {
             settings: self.plan.settings.clone(),
             threads: self.plan.threads,
             stop: self.plan.stop,
+            checkpoint_age: self.checkpoint_age(),
             scene: facts,
             dots,
             probe: probed,
