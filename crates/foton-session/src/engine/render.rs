@@ -44,7 +44,7 @@ impl Level {
     const fn passes(self) -> u64 {
         match self {
             Self::Small => 1,
-            Self::Middle => 4,
+            Self::Middle => 2,
             Self::Whole => u64::MAX,
         }
     }
