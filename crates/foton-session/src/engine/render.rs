@@ -280,7 +280,7 @@ impl LevelRender {
             ViewMode::Luminance => {
                 measure("luminance (W/m²/sr)", render.image().pixels.iter().map(|c| c.luminance()).collect())
             }
-            ViewMode::Unknown => measure("hit points without a photon", render.unknown_share()),
+            ViewMode::Unknown => measure("unlit hit points", render.unknown_share()),
             ViewMode::Error(part) => {
                 let (label, kind) = match part {
                     ErrorPart::Noise => ("noise (W/m²/sr)", LayerKind::ErrorNoise),
