@@ -4,6 +4,7 @@
 //! [`run`] is all there is to call. Inside, `state` holds what is known and set, `panels` draw it, `present` puts pictures on
 //! the screen, and `window` ties them to the system.
 
+mod editing;
 mod files;
 mod panels;
 mod preferences;

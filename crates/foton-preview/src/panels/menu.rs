@@ -4,7 +4,7 @@ use egui::{Button, Ui};
 use foton_session::engine::{Command, SceneEdit, Source};
 
 use super::{actions, views};
-use crate::state::{Placement, State};
+use crate::state::{Leaving, Placement, State};
 
 pub(super) fn show(ui: &mut Ui, state: &mut State) {
     egui::MenuBar::new().ui(ui, |ui| {
@@ -38,7 +38,7 @@ fn file(ui: &mut Ui, state: &mut State) {
     ui.menu_button("Built in", |ui| {
         for name in state.built_in.clone() {
             if ui.button(&name).clicked() {
-                state.ask(Command::Open(Source::BuiltIn(name)));
+                state.leave(Leaving::Open(Source::BuiltIn(name)));
             }
         }
     });
@@ -66,7 +66,7 @@ fn file(ui: &mut Ui, state: &mut State) {
     }
     ui.separator();
     if entry(ui, true, "Quit", "Ctrl+Q").clicked() {
-        state.wants_to_close = true;
+        state.leave(Leaving::Close);
     }
 }
 
@@ -84,6 +84,15 @@ fn edit(ui: &mut Ui, state: &mut State) {
         state.ask(Command::Edit(SceneEdit::Redo));
     }
     ui.separator();
+    if entry(ui, is_selected, "Rename", "F2").clicked() {
+        actions::rename(state);
+    }
+    if entry(ui, is_selected, "Duplicate", "Ctrl+D").clicked() {
+        actions::duplicate(state);
+    }
+    if entry(ui, is_selected, "Delete", "Del").clicked() {
+        actions::delete(state);
+    }
     if entry(ui, is_selected, "Deselect", "Esc").clicked() {
         actions::deselect(state);
     }

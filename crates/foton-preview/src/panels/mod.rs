@@ -7,33 +7,41 @@ mod convergence;
 mod diagnostics;
 mod dropping;
 mod exposure;
+mod fields;
 mod figures;
 mod film_place;
+mod gizmo;
 mod help;
 mod icons;
 mod inspector;
 mod keys;
 mod legend;
 mod live;
+mod material;
 mod menu;
 mod messages;
 mod number;
 mod opening;
+mod outliner;
 mod output;
 mod overlay;
+mod pointer;
+mod presets;
 mod setup;
 mod slider;
 mod status;
 mod text;
 mod toolbar;
+mod tools;
 mod typing;
+mod unsaved;
 mod views;
 mod widgets;
 
 #[cfg(test)]
 mod tests;
 
-use foton_session::engine::Command;
+use foton_session::engine::{Command, SceneEdit};
 
 use crate::files::Outcome;
 use crate::state::{DialogPurpose, State};
@@ -72,6 +80,9 @@ pub(crate) fn ground(visuals: &egui::Visuals) -> egui::Color32 {
 /// Everything in the window, over a [`ground`].
 pub(crate) fn show(ui: &mut egui::Ui, state: &mut State) {
     state.places.clear();
+    if ui.input(|i| i.pointer.any_pressed()) {
+        state.editing.is_press_spent = egui::Popup::is_any_open(ui.ctx());
+    }
     // Screen readers say a window's name first.
     ui.ctx().accesskit_node_builder(egui::accesskit_root_id(), |window| window.set_label("foton"));
     keys::obey(ui, state);
@@ -102,6 +113,7 @@ pub(crate) fn show(ui: &mut egui::Ui, state: &mut State) {
         egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| canvas::show(ui, state));
     messages::show(ui.ctx(), state);
     help::show(ui.ctx(), state);
+    unsaved::show(ui.ctx(), state);
     dialog(ui.ctx(), state);
     dropping::show(ui.ctx(), canvas.response.rect);
     state.is_typing = ui.ctx().text_edit_focused();
@@ -115,6 +127,7 @@ fn left(ui: &mut egui::Ui, state: &mut State) {
             ui.label("No scene yet: open one, or drop a file here.");
             return;
         }
+        section(ui, "Scene", true, |ui| outliner::show(ui, state));
         section(ui, "Live", true, |ui| live::show(ui, state));
         section(ui, "Camera", true, |ui| camera::show(ui, state));
         section(ui, "Settings (restart)", true, |ui| setup::show(ui, state));
@@ -154,7 +167,7 @@ fn dialog(ctx: &egui::Context, state: &mut State) {
     let Some((purpose, mut dialog)) = state.dialog.take() else { return };
     match dialog.show(ctx) {
         Outcome::Browsing => state.dialog = Some((purpose, dialog)),
-        Outcome::Cancelled => {}
+        Outcome::Cancelled => state.after_save = None,
         Outcome::Chosen(path) => {
             if let Some(folder) = path.parent() {
                 state.preferences.scene_folder = folder.to_owned();
@@ -162,6 +175,7 @@ fn dialog(ctx: &egui::Context, state: &mut State) {
             match purpose {
                 DialogPurpose::OpenScene => state.open(path),
                 DialogPurpose::SaveScene => state.ask(Command::SaveScene(path)),
+                DialogPurpose::ImportMesh => state.ask(Command::Edit(SceneEdit::Import(path))),
                 DialogPurpose::KeepCheckpoint => state.ask(Command::KeepCheckpoint(path)),
                 DialogPurpose::ResumeCheckpoint => state.ask(Command::ResumeCheckpoint(path)),
             }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use foton_edit::{Inspection, Segment, Target};
+use foton_edit::{Gizmo, Inspection, Item, Segment, Target};
 use foton_film::{Image, Plane};
 use foton_integrator::{ErrorEstimate, Ledger, PathClass, Radii, RenderSettings};
 use foton_math::Rgb;
@@ -131,6 +131,10 @@ pub struct Selection {
     pub inspection: Inspection,
     /// Its outline.
     pub outline: Vec<Segment>,
+    /// Its handles; `None` where there is nothing to drag, or it is not in the image.
+    pub gizmo: Option<Gizmo>,
+    /// How far the drag under way is, in words.
+    pub drag: Option<String>,
 }
 
 /// What a window says of a scene.
@@ -138,14 +142,20 @@ pub struct Selection {
 pub struct SceneFacts {
     /// Its name.
     pub name: String,
+    /// Its name for people: that of its folder where the file is called `scene.xml`.
+    pub title: String,
     /// Its file, if it has one.
     pub file: Option<std::path::PathBuf>,
     /// Its sensors.
     pub sensors: Vec<SensorFacts>,
     /// Surfaces.
     pub shapes: usize,
+    /// All shapes, lights and cameras.
+    pub contents: Arc<Vec<Item>>,
     /// Whether the scene differs from its file.
     pub is_edited: bool,
+    /// Whether it has edits that no file holds; where its cameras stand does not count.
+    pub is_unsaved: bool,
     /// What undoing would take back.
     pub undo: Option<String>,
     /// What redoing would make again.

@@ -33,7 +33,7 @@ pub use frame::{
     Activity, BuildProgress, Dot, Frame, Picture, Probe, RenderStats, SceneFacts, Selection, SensorFacts,
     SurfaceNames,
 };
-pub use loader::{Loaded, Loader};
+pub use loader::{Loaded, Loader, Reopened, SavedScene};
 pub use setup::Setup;
 
 /// Commands that may wait at once. A window sends a few for each frame it draws.

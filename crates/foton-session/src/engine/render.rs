@@ -230,6 +230,8 @@ impl LevelRender {
     fn findings(&self, goal: Option<f64>) -> Vec<Finding> {
         let (render, names) = (self.session.render(), &SettingNames::CONTROLS);
         let mut found = findings::of_render(render, names);
+        // Edits may have taken it away.
+        found.extend(findings::without_light(render.scene()));
         found.extend(goal.and_then(|goal| findings::above_goal(render, goal, self.radii_at_floor, names)));
         found
     }

@@ -83,9 +83,10 @@ impl Worker {
             return self.event(Event::Failed("there is no scene to save".to_owned()));
         };
         match self.setup.loader.save(&*scene.origin, scene.description(), path) {
-            Ok(note) => {
-                scene.saved();
-                self.event(Event::Saved(vec![path.to_owned()]));
+            Ok(saved) => {
+                let note = saved.note.clone();
+                scene.saved(path, saved);
+                self.event(Event::SceneSaved(path.to_owned()));
                 if !note.is_empty() {
                     self.event(Event::Notice(note));
                 }

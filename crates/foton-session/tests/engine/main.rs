@@ -4,6 +4,7 @@ mod checkpoints;
 mod edits;
 mod pausing;
 mod rig;
+mod things;
 
 use std::num::NonZeroU32;
 use std::path::PathBuf;

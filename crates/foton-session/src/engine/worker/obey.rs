@@ -1,5 +1,7 @@
 //! What commands do.
 
+use std::sync::Arc;
+
 use foton_integrator::SettingChange;
 
 use super::Worker;
@@ -53,6 +55,10 @@ impl Worker {
                     Ok(Effect::None)
                 });
             }
+            Command::Select(target) => self.change_view(|scene| {
+                scene.select(target);
+                Ok(Effect::None)
+            }),
             Command::Edit(edit) => self.edit(edit),
             Command::SetView(mode) => self.view.mode = mode,
             Command::ShowPhotons(on) => self.view.photons = on,
@@ -114,9 +120,18 @@ impl Worker {
     /// on, if there is one of the scene as it is now.
     fn change_scene(&mut self, change: impl FnOnce(&mut EditableScene) -> Result<Effect, String>) {
         let Some(scene) = &mut self.scene else { return };
-        match change(scene) {
+        let sensor = self.plan.settings.sensor;
+        let camera = scene.sensors()[sensor].name.clone();
+        let changed = change(scene);
+        // The camera is still the same one, wherever it is in the list.
+        self.plan.settings.sensor = scene.sensor_named(&camera, sensor);
+        match changed {
             Ok(Effect::Restart) => {}
-            Ok(Effect::None) => return,
+            Ok(Effect::None) => {
+                // Other names are another description of what is rendered.
+                self.current.subject = self.current.subject.take().and_then(|_| self.subject());
+                return;
+            }
             Err(message) => return self.event(Event::Failed(message)),
         }
         // As long as the checkpoint is not written, the render is the one under way.
@@ -167,26 +182,8 @@ impl Worker {
     }
 
     fn edit(&mut self, edit: SceneEdit) {
-        let sensor = self.plan.settings.sensor;
-        match edit {
-            SceneEdit::BeginDrag { .. } | SceneEdit::DragTo(_) | SceneEdit::SetField { done: false, .. } => {
-                self.plan.moving = true;
-            }
-            _ => self.plan.moving = false,
-        }
-        self.change_scene(|scene| match edit {
-            SceneEdit::BeginDrag { film, mode } => {
-                scene.begin_drag(sensor, film, mode);
-                Ok(Effect::None)
-            }
-            SceneEdit::DragTo(film) => scene.drag_to(film),
-            SceneEdit::EndDrag(film) => scene.end_drag(film),
-            SceneEdit::CancelDrag => scene.cancel_drag(),
-            SceneEdit::Nudge { steps, mode } => scene.nudge(sensor, steps, mode),
-            SceneEdit::SetField { field, value, done } => scene.set_field(field, value, done),
-            SceneEdit::OwnMaterial => scene.own_material(),
-            SceneEdit::Undo => scene.undo(),
-            SceneEdit::Redo => scene.redo(),
-        });
+        self.plan.moving = self.scene.is_some() && edit.is_moving();
+        let (sensor, loader) = (self.plan.settings.sensor, Arc::clone(&self.setup.loader));
+        self.change_scene(|scene| scene.obey(sensor, edit, &*loader));
     }
 }
