@@ -29,7 +29,7 @@ pub(super) fn show(ui: &mut Ui, state: &State) {
             ui.separator();
         }
         let probe = frame.probe.as_ref().filter(|p| Some(p.pixel) == state.probed);
-        let rest = probe.map_or_else(|| frame.scene.name.clone(), probed);
+        let rest = probe.map_or_else(|| frame.scene.title.clone(), probed);
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| ui.add(Label::new(rest).truncate()));
     });
 }
@@ -57,7 +57,7 @@ fn progress(ui: &mut Ui, cell: egui::Rect, share: f32) {
     let response = ui.interact(cell, ui.scope_id().with("pass"), egui::Sense::hover());
     let words = format!("Pass under way: {:.0} % done", 100.0 * share);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ProgressIndicator, true, &words));
-    response.on_hover_text(words.clone());
+    response.on_hover_text(words);
 }
 
 /// The time left; nothing where it is not known, or where nothing goes on.

@@ -103,13 +103,12 @@ impl Worker {
         let stats = self.stats();
         let mut dots = Arc::default();
         let mut probed = None;
-        if let Some(render) = self.current.render.as_ref().filter(|r| r.render().passes() > 0) {
-            if render.is_whole() {
-                if self.view.photons {
-                    dots = Arc::new(probe::dots(render.render()));
-                }
-                probed = self.view.probed.and_then(|pixel| probe::probe(render.render(), pixel));
+        let has_passes = |r: &&LevelRender| r.is_whole() && r.render().passes() > 0;
+        if let Some(render) = self.current.render.as_ref().filter(has_passes) {
+            if self.view.photons {
+                dots = Arc::new(probe::dots(render.render()));
             }
+            probed = self.view.probed.and_then(|pixel| probe::probe(render.render(), pixel));
         }
         let sensor = self.plan.settings.sensor;
         let scene = self.scene.as_ref();
