@@ -44,6 +44,7 @@ fn opened() -> (Folder, Driver) {
 /// Types into a field instead of what it holds.
 fn type_into(driver: &mut Driver, field: &str, text: &str) {
     driver.click(field);
+    frames(driver);
     driver.key("ctrl+a");
     driver.display.hand(&format!("type {text}"));
     driver.key("Return");
