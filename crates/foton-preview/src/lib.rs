@@ -4,7 +4,9 @@
 //! [`run`] is all there is to call. Inside, `state` holds what is known and set, `panels` draw it, `present` puts pictures on
 //! the screen, and `window` ties them to the system.
 
+mod difference;
 mod files;
+mod light_scale;
 mod panels;
 mod preferences;
 mod present;

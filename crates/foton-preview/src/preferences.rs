@@ -11,7 +11,10 @@ pub(crate) struct Preferences {
     /// Width and height of the window in points.
     pub(crate) window: [f32; 2],
     pub(crate) dark: bool,
+    /// Where snapshots go; it is made when it is needed.
     pub(crate) snapshot_folder: PathBuf,
+    /// Whether the PNGs of snapshots have the exposure and the tone map of the screen.
+    pub(crate) png_as_shown: bool,
     /// Where file dialogs begin.
     pub(crate) scene_folder: PathBuf,
     pub(crate) show_plots: bool,
@@ -22,7 +25,8 @@ impl Default for Preferences {
         Self {
             window: [1280.0, 800.0],
             dark: true,
-            snapshot_folder: PathBuf::from("."),
+            snapshot_folder: foton_session::folders::pictures(),
+            png_as_shown: true,
             scene_folder: PathBuf::from("."),
             show_plots: true,
         }
@@ -54,13 +58,15 @@ impl Preferences {
             side.filter(|v| (320.0..=16384.0).contains(v)).unwrap_or(default.window[i])
         };
         let folder = |name: &str, default: &PathBuf| {
-            let folder = value[name].as_str().map(PathBuf::from).filter(|f| f.is_dir());
+            // Relative ones are of the first edition, whose default was the working directory.
+            let folder = value[name].as_str().map(PathBuf::from).filter(|f| f.is_absolute() && f.is_dir());
             folder.unwrap_or_else(|| default.clone())
         };
         Self {
             window: [side(0), side(1)],
             dark: value["dark"].as_bool().unwrap_or(default.dark),
             snapshot_folder: folder("snapshot_folder", &default.snapshot_folder),
+            png_as_shown: value["png_as_shown"].as_bool().unwrap_or(default.png_as_shown),
             scene_folder: folder("scene_folder", &default.scene_folder),
             show_plots: value["show_plots"].as_bool().unwrap_or(default.show_plots),
         }
@@ -71,6 +77,7 @@ impl Preferences {
             "window": self.window,
             "dark": self.dark,
             "snapshot_folder": self.snapshot_folder.to_string_lossy(),
+            "png_as_shown": self.png_as_shown,
             "scene_folder": self.scene_folder.to_string_lossy(),
             "show_plots": self.show_plots,
         });
@@ -94,11 +101,22 @@ mod tests {
 
     #[test]
     fn what_is_written_reads_back_and_nonsense_is_the_default() {
-        let preferences = Preferences { window: [900.0, 700.0], dark: false, ..Preferences::default() };
+        let snapshot_folder = std::env::temp_dir();
+        let preferences = Preferences {
+            window: [900.0, 700.0],
+            dark: false,
+            png_as_shown: false,
+            snapshot_folder,
+            ..Preferences::default()
+        };
         assert_eq!(Preferences::parse(&preferences.text()), preferences);
-        for bad in
-            ["", "[]", "{\"window\":[1e9,\"x\"],\"dark\":3}", "{\"snapshot_folder\":\"/nowhere/at/all\"}"]
-        {
+        for bad in [
+            "",
+            "[]",
+            "{\"window\":[1e9,\"x\"],\"dark\":3}",
+            "{\"snapshot_folder\":\"/nowhere/at/all\"}",
+            "{\"snapshot_folder\":\".\"}",
+        ] {
             assert_eq!(Preferences::parse(bad), Preferences::default(), "{bad}");
         }
     }

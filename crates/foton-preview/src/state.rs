@@ -7,8 +7,11 @@ use std::path::PathBuf;
 use foton_film::ToneMap;
 use foton_session::SettingChange;
 use foton_session::engine::{Command, Configuration, Event, Frame, Picture, Source, ViewMode};
+use foton_session::snapshot::Look;
 
+use crate::difference::Difference;
 use crate::files::FileDialog;
+use crate::light_scale::LightScale;
 use crate::preferences::Preferences;
 
 /// Points of a plot at most; older ones are thinned.
@@ -40,6 +43,18 @@ pub(crate) struct Message {
 pub(crate) struct Pinned {
     pub(crate) picture: Picture,
     pub(crate) label: String,
+    /// The number of the pass in the history, if it is from there.
+    pub(crate) entry: Option<u64>,
+}
+
+/// How two pictures are compared.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Compare {
+    /// One beside the other, with a line between them that can be dragged.
+    #[default]
+    Wipe,
+    /// How far they are apart.
+    Difference,
 }
 
 /// How the image lies in the window.
@@ -79,6 +94,14 @@ pub(crate) enum Grip {
     Object,
     /// Moving the line of the wipe.
     Wipe,
+}
+
+/// A region that is being dragged out.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Choosing {
+    /// Where the drag began, in pixels of the image.
+    pub(crate) from: Option<[f64; 2]>,
+    pub(crate) to: [f64; 2],
 }
 
 /// A value over time.
@@ -121,10 +144,31 @@ pub(crate) struct State {
     pub(crate) placement: Placement,
     pub(crate) exposure_stops: f32,
     pub(crate) tone_map: ToneMap,
+    /// How PNGs show radiance, as the engine was told.
+    told_look: Look,
+    /// Whether the scene that is being opened is the present one, read again.
+    pub(crate) reloads: bool,
     pub(crate) view: ViewMode,
     pub(crate) show_photons: bool,
+    pub(crate) show_histogram: bool,
+    /// How bright the last picture is.
+    pub(crate) light_scale: Option<LightScale>,
+    /// What the wheel has turned of a tenth of a stop.
+    pub(crate) turned: f32,
+    /// Whether pixels are marked that are black or as bright as they get.
+    pub(crate) marks_clipping: bool,
+    /// The region that is being dragged out.
+    pub(crate) choosing_region: Option<Choosing>,
     pub(crate) auto_snapshots: bool,
     pub(crate) pinned: Option<Pinned>,
+    pub(crate) compare: Compare,
+    /// The difference that was shown last.
+    pub(crate) difference: Option<Difference>,
+    pub(crate) show_history: bool,
+    /// Pictures of the history, by their numbers.
+    pub(crate) thumbnails: Vec<(u64, egui::TextureHandle)>,
+    /// Steps of a turntable, and passes of each.
+    pub(crate) turntable: [u64; 2],
     /// Where the wipe's line is, as a share of the view's width.
     pub(crate) wipe: f32,
     pub(crate) show_help: bool,
@@ -165,10 +209,22 @@ impl State {
             placement: Placement::FIT,
             exposure_stops: 0.0,
             tone_map: ToneMap::default(),
+            told_look: Look::default(),
+            reloads: false,
             view: ViewMode::Radiance,
             show_photons: false,
+            show_histogram: false,
+            light_scale: None,
+            turned: 0.0,
+            marks_clipping: false,
+            choosing_region: None,
             auto_snapshots: false,
             pinned: None,
+            compare: Compare::Wipe,
+            difference: None,
+            show_history: false,
+            thumbnails: Vec::new(),
+            turntable: [24, 16],
             wipe: 0.5,
             show_help: false,
             dialog: None,
@@ -217,6 +273,9 @@ impl State {
                 self.pinned = None;
                 self.draft = None;
                 self.changed_on_disk = false;
+                if !std::mem::take(&mut self.reloads) {
+                    self.reset_view();
+                }
                 self.notice(format!("Opened {name}"));
                 for warning in warnings {
                     self.notice(warning);
@@ -228,7 +287,10 @@ impl State {
                 }
             }
             Event::Notice(text) => self.notice(text),
-            Event::Failed(text) => self.error(text),
+            Event::Failed(text) => {
+                self.reloads = false;
+                self.error(text);
+            }
         }
     }
 
@@ -265,7 +327,29 @@ impl State {
         }
     }
 
+    /// Shows the next scene as it is: exposure, tone map and kinds of light were chosen for the one before.
+    fn reset_view(&mut self) {
+        self.exposure_stops = 0.0;
+        self.tone_map = ToneMap::default();
+        self.choose_view(ViewMode::Radiance);
+    }
+
+    /// Where snapshots go.
     pub(crate) fn snapshot_folder(&self) -> PathBuf {
-        self.preferences.snapshot_folder.clone()
+        let folder = &self.preferences.snapshot_folder;
+        if folder.as_os_str().is_empty() { foton_session::folders::pictures() } else { folder.clone() }
+    }
+
+    /// Tells the engine how PNGs are to show radiance, as a person last saw it, where that has changed.
+    pub(crate) fn tell_look(&mut self) {
+        let look = if self.preferences.png_as_shown {
+            Look { tone_map: self.tone_map, exposure_stops: self.exposure_stops }
+        } else {
+            Look::default()
+        };
+        if look != self.told_look {
+            self.told_look = look;
+            self.ask(Command::SetLook(look));
+        }
     }
 }

@@ -141,7 +141,7 @@ impl Ppm {
     /// Adds a pass to the image, its error to the error, and what it counted to the render's own.
     pub(super) fn accumulate(&mut self, mut counts: Counts, watch: &mut dyn FnMut(Stage)) -> PassReport {
         watch(Stage::Radiance);
-        counts.leave_out(self.light.add_pass(&self.hit_points));
+        counts.leave_out(self.light.add_pass(&self.hit_points, counts.photons));
         let Counts { ledger, lights, losses, photons, rays, stored, tally, left_out } = counts;
         (self.ledger, self.lights, self.losses) = (ledger, lights, losses);
         if let (None, Some(left_out)) = (&self.not_finite, left_out) {

@@ -1,13 +1,16 @@
 //! The picture in the middle: where it lies, what the pointer does to it, and what is drawn over it.
 
+use std::sync::Arc;
+
 use egui::{Pos2, Rect, Sense, Vec2};
 use foton_edit::DragMode;
 use foton_session::engine::{Command, Gesture, Picture as EnginePicture, SceneEdit};
 
 use super::film_place::{Film, place};
-use super::{legend, overlay};
+use super::{dot_legend, legend, overlay, pixel_values, region};
+use crate::difference::Difference;
 use crate::present::{self, Mode, PresentCallback, View};
-use crate::state::{Grip, Placement, State};
+use crate::state::{Compare, Grip, Placement, State};
 
 /// Radians that the camera turns for each point that the pointer moves.
 const TURN: f64 = 0.006;
@@ -32,12 +35,22 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
     };
     let size = Vec2::new(frame.size[0] as f32, frame.size[1] as f32);
     let image = place(rect, size, state.placement);
-    point(ui, state, &response, Film { rect, image, size });
-    let image = place(rect, size, state.placement);
+    if !region::drag(ui, state, &response, Film { rect, image, size }) {
+        point(ui, state, &response, Film { rect, image, size });
+    }
+    let film = Film { rect, image: place(rect, size, state.placement), size };
+    let part = region::place(film, frame.window);
+    let difference = difference(state, picture);
+    let picture = difference.as_ref().unwrap_or(picture);
     let (mode, scale) = mode(picture);
-    paint(ui, state, rect, image, picture, mode);
+    paint(ui, state, rect, part, picture, mode);
     let painter = ui.painter_at(rect);
-    overlay::draw(&painter, state, &frame, Film { rect, image, size });
+    pixel_values::draw(&painter, state, rect, part, picture);
+    overlay::draw(&painter, state, &frame, film);
+    region::draw(&painter, state, film);
+    if state.show_photons {
+        dot_legend::draw(&painter, rect);
+    }
     let reduction = present::reduction(frame.size, state.largest_texture);
     if reduction > 1 {
         let text = format!(
@@ -69,6 +82,21 @@ fn hint(ui: &egui::Ui, rect: Rect, text: &str) {
     );
 }
 
+/// How far the picture is from the pinned one, where that is what is to be seen.
+fn difference(state: &mut State, picture: &EnginePicture) -> Option<EnginePicture> {
+    let EnginePicture::Colour(pinned) = &state.pinned.as_ref()?.picture else { return None };
+    let EnginePicture::Colour(image) = picture else { return None };
+    if state.compare != Compare::Difference {
+        return None;
+    }
+    let known = state.difference.take().filter(|known| known.is_of(image, pinned));
+    // While things move, the picture is of fewer pixels: the last difference stays away until it can be told again.
+    let difference = known.or_else(|| Difference::new(image, pinned))?;
+    let plane = Arc::clone(&difference.plane);
+    state.difference = Some(difference);
+    Some(EnginePicture::Measure { label: "difference (W/m²/sr)", plane })
+}
+
 /// How a picture is drawn, and the scale of false colours.
 fn mode(picture: &EnginePicture) -> (Mode, Option<legend::Scale>) {
     match picture {
@@ -94,8 +122,9 @@ fn paint(ui: &egui::Ui, state: &State, rect: Rect, image: Rect, picture: &Engine
         exposure_stops: state.exposure_stops,
         tone_map: state.tone_map,
         mode,
+        marks_clipping: state.marks_clipping,
         image_rect: Rect::from_min_max(image.min * to_pixels, image.max * to_pixels),
-        wipe: state.pinned.as_ref().map(|_| state.wipe),
+        wipe: state.pinned.as_ref().filter(|_| state.compare == Compare::Wipe).map(|_| state.wipe),
         // White around a picture would make it look darker than it is.
         background: if ui.visuals().dark_mode {
             ui.visuals().extreme_bg_color
@@ -187,7 +216,8 @@ fn begin(state: &mut State, response: &egui::Response, film: Film, at: Pos2, mod
         state.frame.as_ref().and_then(|f| f.selection.as_ref()).is_some_and(|s| {
             overlay::handle(&s.outline).is_some_and(|h| film.to_points(h).distance(at) < 12.0)
         });
-    state.grip = if state.pinned.is_some() && (at.x - wipe).abs() < WIPE_REACH {
+    let wipes = state.pinned.is_some() && state.compare == Compare::Wipe;
+    state.grip = if wipes && (at.x - wipe).abs() < WIPE_REACH {
         Grip::Wipe
     } else if modifiers.command || response.dragged_by(egui::PointerButton::Middle) {
         Grip::Image

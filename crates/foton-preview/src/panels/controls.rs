@@ -6,6 +6,7 @@ use std::time::Duration;
 use foton_session::engine::{Command, Configuration, Gesture};
 use foton_session::{Alpha, DirectLight, RadiusFloor, RadiusRule, RenderSettings, SettingChange, StopRule};
 
+use super::output;
 use super::widgets::{heading, slider};
 use crate::state::State;
 
@@ -14,13 +15,14 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
         ui.weak("No scene yet: open one, or drop a file here.");
         return;
     };
-    let (settings, stop, threads) = (frame.settings.clone(), frame.stop, frame.threads);
+    let (settings, stop) = (frame.settings.clone(), frame.stop);
+    let now = Configuration::of(&settings, frame.threads, frame.region);
     heading(ui, "While it runs");
     steer(ui, state, &settings);
     heading(ui, "Stop");
     stop_rule(ui, state, stop);
     heading(ui, "Restarts the render");
-    restarting(ui, state, &settings, threads);
+    restarting(ui, state, now);
     heading(ui, "Camera");
     camera(ui, state, settings.sensor);
 }
@@ -88,8 +90,7 @@ fn stop_rule(ui: &mut egui::Ui, state: &mut State, rule: StopRule) {
 }
 
 /// Settings that restart the render: sent when a control is let go.
-fn restarting(ui: &mut egui::Ui, state: &mut State, settings: &RenderSettings, threads: Option<usize>) {
-    let now = Configuration::of(settings, threads);
+fn restarting(ui: &mut egui::Ui, state: &mut State, now: Configuration) {
     let mut draft = state.draft.take().unwrap_or_else(|| now.clone());
     methods(ui, &mut draft);
     let median = state.frame.as_ref().map_or(1.0, |f| f.stats.radii.median);
@@ -231,19 +232,5 @@ fn camera(ui: &mut egui::Ui, state: &mut State, sensor: usize) {
         state.ask(Command::ResetCamera);
     }
     heading(ui, "Snapshots");
-    ui.horizontal(|ui| {
-        let label = ui.label("Folder");
-        let mut edited = state.preferences.snapshot_folder.display().to_string();
-        let field = ui.add(egui::TextEdit::singleline(&mut edited).desired_width(180.0));
-        let field = field.labelled_by(label.id);
-        if field.changed() {
-            state.preferences.snapshot_folder = edited.into();
-        }
-    });
-    let auto = ui.checkbox(&mut state.auto_snapshots, "at passes 1, 2, 4, 8, …");
-    if auto.on_hover_text("Writes a picture at powers of two: frames of a film of the convergence").changed()
-    {
-        let folder = state.auto_snapshots.then(|| state.snapshot_folder());
-        state.ask(Command::AutoSnapshots(folder));
-    }
+    output::show(ui, state);
 }

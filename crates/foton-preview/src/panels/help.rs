@@ -2,7 +2,7 @@
 
 use crate::state::State;
 
-const KEYS: [(&str, &str); 23] = [
+const KEYS: [(&str, &str); 27] = [
     ("drag", "turn the camera"),
     ("Shift+drag, right drag", "move the camera across"),
     ("wheel", "camera nearer, farther"),
@@ -20,6 +20,10 @@ const KEYS: [(&str, &str); 23] = [
     ("Ctrl+R", "restart"),
     ("P", "snapshot: EXR and PNG"),
     ("O", "photons as dots"),
+    ("N", "keep this pass in the history"),
+    ("T", "the history: compare, return, films"),
+    ("L", "histogram"),
+    ("C", "mark clipped and black pixels"),
     ("K", "pin this pass, compare"),
     ("1 … 5", "radiance, luminance, radius, photons, none yet"),
     ("Ctrl+O", "open a scene"),

@@ -36,7 +36,7 @@ pub(super) fn obey(ui: &egui::Ui, state: &mut State) {
     if ui.input(|i| i.events.iter().any(|e| matches!(e, egui::Event::Text(t) if t == "?"))) {
         state.show_help = !state.show_help;
     }
-    let plain: [(Key, Act); 8] = [
+    let plain: [(Key, Act); 12] = [
         (Key::Space, toggle_pause),
         (Key::Period, |s| s.ask(Command::Step)),
         (Key::F, |s| s.placement = Placement::FIT),
@@ -50,6 +50,10 @@ pub(super) fn obey(ui: &egui::Ui, state: &mut State) {
             s.ask(Command::ShowPhotons(s.show_photons));
         }),
         (Key::K, toggle_pin),
+        (Key::N, |s| s.ask(Command::Remember)),
+        (Key::T, |s| s.show_history = !s.show_history),
+        (Key::L, |s| s.show_histogram = !s.show_histogram),
+        (Key::C, |s| s.marks_clipping = !s.marks_clipping),
         (Key::Escape, escape),
     ];
     for (key, act) in plain {
@@ -78,12 +82,14 @@ fn toggle_pin(state: &mut State) {
     }
     let Some(frame) = &state.frame else { return };
     let label = format!("pass {}", frame.stats.passes);
-    state.pinned = frame.picture.clone().map(|picture| Pinned { picture, label });
+    state.pinned = frame.picture.clone().map(|picture| Pinned { picture, label, entry: None });
 }
 
 fn escape(state: &mut State) {
     if state.show_help {
         state.show_help = false;
+    } else if state.choosing_region.take().is_some() {
+        // That was to be given up.
     } else if state.grip == Grip::Object {
         state.grip = Grip::None;
         state.ask(Command::Edit(SceneEdit::CancelDrag));

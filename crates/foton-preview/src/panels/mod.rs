@@ -2,15 +2,21 @@
 
 mod canvas;
 mod controls;
+mod dot_legend;
 mod dropping;
 mod error;
+mod exposure;
 mod film_place;
 mod help;
+mod history;
 mod inspector;
 mod keys;
 mod legend;
 mod messages;
+mod output;
 mod overlay;
+mod pixel_values;
+mod region;
 mod stats;
 mod text;
 mod toolbar;
@@ -32,6 +38,7 @@ pub(crate) fn ground(visuals: &egui::Visuals) -> egui::Color32 {
 /// Everything in the window, over a [`ground`].
 pub(crate) fn show(ui: &mut egui::Ui, state: &mut State) {
     state.places.clear();
+    state.tell_look();
     // Screen readers say a window's name first.
     ui.ctx().accesskit_node_builder(egui::accesskit_root_id(), |window| window.set_label("foton"));
     keys::obey(ui, state);
@@ -40,6 +47,9 @@ pub(crate) fn show(ui: &mut egui::Ui, state: &mut State) {
     let frame = egui::Frame::side_top_panel(ui.style()).fill(egui::Color32::TRANSPARENT);
     egui::Panel::top("toolbar").frame(frame).show(ui, |ui| toolbar::show(ui, state));
     egui::Panel::bottom("status").frame(frame).show(ui, |ui| stats::status(ui, state));
+    if state.show_history {
+        egui::Panel::bottom("history").frame(frame).show(ui, |ui| history::show(ui, state));
+    }
     let controls = egui::Panel::left("controls").frame(frame);
     controls.default_size(300.0).size_range(260.0..=440.0).show(ui, |ui| {
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -55,6 +65,7 @@ pub(crate) fn show(ui: &mut egui::Ui, state: &mut State) {
     }
     let canvas =
         egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| canvas::show(ui, state));
+    exposure::histogram(ui.ctx(), state, canvas.response.rect);
     messages::show(ui.ctx(), state);
     help::show(ui.ctx(), state);
     dialog(ui.ctx(), state);

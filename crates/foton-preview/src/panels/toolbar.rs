@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use foton_film::ToneMap;
-use foton_session::engine::{Activity, BuildProgress, Command, Configuration, ErrorPart, Source, ViewMode};
+use foton_session::engine::{Activity, BuildProgress, Command, ErrorPart, Source, ViewMode};
 
+use super::{exposure, region};
 use crate::files::{CHECKPOINTS, FileDialog, SCENES};
 use crate::state::{DialogPurpose, Pinned, Placement, State};
 
@@ -54,6 +55,7 @@ fn scene_menu(ui: &mut egui::Ui, state: &mut State) {
         && ui.button("Reload").on_hover_text("The scene's file has changed on the disk").clicked()
     {
         state.changed_on_disk = false;
+        state.reloads = true;
         if let Some(file) = state.frame.as_ref().and_then(|f| f.scene.file.clone()) {
             state.open(file);
         }
@@ -132,7 +134,7 @@ fn run(ui: &mut egui::Ui, state: &mut State) {
     }
     let snapshot = ui
         .add_enabled(there, egui::Button::new("Snapshot"))
-        .on_hover_text("Saves this pass as EXR and PNG, as `foton render` would write them (P)");
+        .on_hover_text("Saves this pass as EXR and PNG (P)");
     state.place("snapshot", &snapshot);
     if snapshot.clicked() {
         let folder = state.snapshot_folder();
@@ -164,16 +166,7 @@ fn view(ui: &mut egui::Ui, state: &mut State) {
     });
     list.response.labelled_by(label.id);
     if matches!(state.view, ViewMode::Radiance | ViewMode::Classes { .. }) {
-        let label = ui.label("Exposure");
-        let exposure = ui.add(
-            egui::Slider::new(&mut state.exposure_stops, -8.0..=8.0)
-                .suffix(" stops")
-                .step_by(0.1)
-                .clamping(egui::SliderClamping::Never),
-        );
-        exposure
-            .labelled_by(label.id)
-            .on_hover_text("Each stop doubles the light on the screen; nothing is rendered again");
+        exposure::control(ui, state);
         let label = ui.label("Tone");
         let list =
             egui::ComboBox::from_id_salt("tone").selected_text(state.tone_map.name()).show_ui(ui, |ui| {
@@ -194,9 +187,23 @@ fn view(ui: &mut egui::Ui, state: &mut State) {
     {
         state.ask(Command::ShowPhotons(state.show_photons));
     }
+    ui.menu_button("Looking", |ui| looking(ui, state))
+        .response
+        .on_hover_text("What is drawn over the picture");
+    region::button(ui, state);
+    let history = ui.toggle_value(&mut state.show_history, "History");
+    state.place("history", &history);
+    history.on_hover_text("Passes that were kept, to compare with and to return to; films (T)");
     if ui.button("Fit").on_hover_text("The whole image (F)").clicked() {
         state.placement = Placement::FIT;
     }
+}
+
+fn looking(ui: &mut egui::Ui, state: &mut State) {
+    ui.checkbox(&mut state.show_histogram, "Histogram").on_hover_text("How bright the pixels are (L)");
+    ui.checkbox(&mut state.marks_clipping, "Clipping").on_hover_text(
+        "Stripes over pixels that are 255 in a channel, blue over black ones: what a PNG would clip (C)",
+    );
 }
 
 fn classes(ui: &mut egui::Ui, state: &mut State) {
@@ -210,7 +217,6 @@ fn classes(ui: &mut egui::Ui, state: &mut State) {
         ui.checkbox(on, name);
     }
     ui.checkbox(&mut emission, "Emitters");
-    ui.weak("Separate kinds take more memory;\nswitching them on restarts the render.");
     if (reflected, emission) == before {
         return;
     }
@@ -219,12 +225,6 @@ fn classes(ui: &mut egui::Ui, state: &mut State) {
         return;
     }
     state.choose_view(ViewMode::Classes { reflected, emission });
-    let apart = state.frame.as_ref().map(|f| (f.settings.clone(), f.threads));
-    if let Some((settings, threads)) = apart.filter(|(settings, _)| !settings.layers) {
-        let configuration = Configuration { layers: true, ..Configuration::of(&settings, threads) };
-        state.ask(Command::Configure(configuration));
-        state.notice("Restarted, with direct, caustic and indirect light separate");
-    }
 }
 
 fn compare(ui: &mut egui::Ui, state: &mut State) {
@@ -238,7 +238,7 @@ fn compare(ui: &mut egui::Ui, state: &mut State) {
             "Keeps this picture to the right of a line that can be dragged, to compare with (K)",
         );
         if pin.clicked() {
-            state.pinned = Some(Pinned { picture, label: format!("pass {passes}") });
+            state.pinned = Some(Pinned { picture, label: format!("pass {passes}"), entry: None });
         }
     }
 }

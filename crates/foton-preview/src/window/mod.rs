@@ -53,14 +53,11 @@ pub fn run(options: Options) -> Result<(), WindowError> {
     let events = events.map_err(|cause| WindowError::NoDisplay(reason(&cause)))?;
     let proxy = events.create_proxy();
     let wake = proxy.clone();
-    let setup = Setup {
-        loader: options.loader,
-        wake: Box::new(move || {
-            // The loop is gone when the window is closed.
-            let _ = wake.send_event(UserEvent::Wake);
-        }),
-        memory_limit: options.memory_limit,
-    };
+    let wake = Box::new(move || {
+        // The loop is gone when the window is closed.
+        let _ = wake.send_event(UserEvent::Wake);
+    });
+    let setup = Setup::new(options.loader, wake, options.memory_limit);
     let close = events.create_proxy();
     (options.closes)(Box::new(move || {
         let _ = close.send_event(UserEvent::Close);

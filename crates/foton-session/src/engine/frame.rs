@@ -1,5 +1,7 @@
 //! What a window sees of a render: a picture and statistics, never a hit point or a scene.
 
+use std::ffi::OsStr;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -9,7 +11,8 @@ use foton_integrator::{ErrorEstimate, Ledger, PathClass, Radii, RenderSettings};
 use foton_math::Rgb;
 use foton_scene::BuildStep;
 
-use super::command::ViewMode;
+use super::command::{Region, ViewMode};
+use super::history::HistoryEntry;
 use crate::clock::StageTimes;
 use crate::findings::Finding;
 use crate::stop::StopRule;
@@ -152,6 +155,20 @@ pub struct SceneFacts {
     pub redo: Option<String>,
 }
 
+impl SceneFacts {
+    /// What a person calls it: the name without its ending, and that of its folder where a file is just called `scene`.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let text = |name: Option<&OsStr>| name.map(|name| name.to_string_lossy().into_owned());
+        let stem = text(Path::new(&self.name).file_stem()).unwrap_or_default();
+        let folder = || {
+            let file = std::path::absolute(self.file.as_ref()?).ok()?;
+            text(file.parent()?.file_name())
+        };
+        if stem.eq_ignore_ascii_case("scene") { folder().unwrap_or(stem) } else { stem }
+    }
+}
+
 /// How a render stands.
 #[derive(Clone, Debug, Default)]
 pub struct RenderStats {
@@ -202,7 +219,11 @@ pub struct Frame {
     pub building: Option<BuildProgress>,
     /// Size of the whole image in pixels.
     pub size: [u32; 2],
-    /// The picture; smaller than `size` while things move.
+    /// The part of that which the picture is of.
+    pub window: Region,
+    /// The part that a person has chosen to render alone.
+    pub region: Option<Region>,
+    /// The picture of the window; of fewer pixels while things move.
     pub picture: Option<Picture>,
     /// What the picture is of.
     pub view: ViewMode,
@@ -214,6 +235,10 @@ pub struct Frame {
     pub threads: Option<usize>,
     /// When it will stop.
     pub stop: StopRule,
+    /// Passes that were kept, the oldest first.
+    pub history: Arc<Vec<HistoryEntry>>,
+    /// Frames of a turntable that are written, and all of them, while one turns.
+    pub turntable: Option<[u32; 2]>,
     /// The scene.
     pub scene: Arc<SceneFacts>,
     /// Photons of the last pass, if asked for.

@@ -8,12 +8,15 @@ mod checkpointing;
 mod command;
 mod editable_scene;
 mod frame;
+mod history;
 mod loader;
 mod newest;
 mod probe;
 mod rates;
 mod render;
+mod run;
 mod setup;
+mod teller;
 mod worker;
 mod writing;
 
@@ -25,12 +28,13 @@ use std::time::{Duration, Instant};
 use crossbeam_channel::{Receiver, Sender, bounded};
 
 use cancels::Cancels;
-pub use command::{Command, Configuration, ErrorPart, Event, Gesture, SceneEdit, Source, ViewMode};
+pub use command::{Command, Configuration, ErrorPart, Event, Gesture, Region, SceneEdit, Source, ViewMode};
 pub use foton_scene::BuildStep;
 pub use frame::{
     Activity, BuildProgress, Dot, Frame, Picture, Probe, RenderStats, SceneFacts, Selection, SensorFacts,
     SurfaceNames,
 };
+pub use history::{HistoryEntry, Thumbnail};
 pub use loader::{Loaded, Loader};
 pub use setup::Setup;
 

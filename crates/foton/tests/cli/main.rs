@@ -8,6 +8,7 @@ mod interface;
 #[cfg(target_os = "linux")]
 mod places;
 mod refusals;
+mod regions;
 mod resuming;
 mod roles;
 mod scene_says;

@@ -45,7 +45,7 @@ fn stop_rules_are_switched_and_typed() {
 
 #[test]
 fn what_restarts_the_render_says_so_and_is_sent_once_it_is_let_go() {
-    let now = Configuration::of(&RenderSettings::default(), None);
+    let now = Configuration::of(&RenderSettings::default(), None, None);
     let mut harness = window(|_| ());
     click(&mut harness, Role::Button, "shadow rays");
     let shadow_rays = Configuration { direct_light: DirectLight::ShadowRays, ..now };

@@ -2,8 +2,10 @@
 
 mod bar;
 mod controls;
+mod history;
 mod inspector;
 mod keys;
+mod looking;
 mod picture;
 mod pointer;
 mod stats;
@@ -19,12 +21,14 @@ use foton_edit::{Control, Field, FieldId, Inspection, MaterialUse, Property, Sid
 use foton_film::{Image, ToneMap};
 use foton_math::Rgb;
 use foton_session::engine::{
-    Activity, BuildProgress, BuildStep, Command, Configuration, Event, Frame, Picture, RenderStats,
+    Activity, BuildProgress, BuildStep, Command, Configuration, Event, Frame, Picture, Region, RenderStats,
     SceneFacts, Selection, SensorFacts, Source, ViewMode,
 };
 use foton_session::{
     Alpha, DirectLight, Ledger, RadiusFloor, RadiusRule, RenderSettings, SettingChange, StopRule,
 };
+
+use foton_session::snapshot::Look;
 
 use crate::preferences::Preferences;
 use crate::state::State;
@@ -50,6 +54,8 @@ fn frame() -> Frame {
         opening: None,
         building: None,
         size: SIZE,
+        window: Region { x: 0, y: 0, width: SIZE[0], height: SIZE[1] },
+        region: None,
         picture: Some(Picture::Colour(Arc::new(image))),
         view: ViewMode::Radiance,
         stats: RenderStats {
@@ -65,6 +71,8 @@ fn frame() -> Frame {
         settings: RenderSettings::default(),
         threads: None,
         stop: StopRule::default(),
+        history: Arc::default(),
+        turntable: None,
         scene: Arc::new(SceneFacts {
             name: "room.xml".into(),
             file: Some("/scenes/room.xml".into()),

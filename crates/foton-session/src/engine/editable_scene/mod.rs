@@ -2,6 +2,7 @@
 
 mod build;
 mod chosen;
+mod returning;
 mod selection;
 #[cfg(test)]
 mod tests;
@@ -12,7 +13,7 @@ use std::sync::Arc;
 
 use foton_edit::{Camera, History, camera_xml, focus_distance};
 use foton_scene::Scene;
-use foton_scene::description::{SceneDescription, SensorDescription};
+use foton_scene::description::{Crop, SceneDescription, SensorDescription};
 
 use self::chosen::Chosen;
 use super::cancels::Cancels;
@@ -58,6 +59,8 @@ pub(super) struct EditableScene {
     opened: Arc<SceneDescription>,
     /// The sensors of the file that was opened or saved last.
     saved_sensors: Vec<SensorDescription>,
+    /// The part of the image that is rendered, and of which sensor.
+    region: Option<(usize, Crop)>,
     /// The camera of a sensor, once it was moved.
     moved: Option<MovedCamera>,
     chosen: Option<Chosen>,
@@ -86,6 +89,7 @@ impl EditableScene {
             opened: Arc::clone(&description),
             saved_sensors: sensors.clone(),
             sensors,
+            region: None,
             moved: None,
             chosen: None,
             description: Arc::clone(&description),
@@ -178,9 +182,37 @@ impl EditableScene {
         self.renew_sensors()
     }
 
+    /// Renders a part of a sensor's image alone, or all that the file asks for.
+    pub(super) fn set_region(&mut self, region: Option<(usize, Crop)>) -> Result<Effect, String> {
+        let before = std::mem::replace(&mut self.region, region);
+        if before == region {
+            return Ok(Effect::None);
+        }
+        let check = region.map_or(Ok(()), |(sensor, region)| self.sensors[sensor].clone().show_only(region));
+        let renewed = check.and_then(|()| self.renew_sensors());
+        if renewed.is_err() {
+            self.region = before;
+        }
+        renewed
+    }
+
+    /// The part of the image that is rendered, if a person has chosen one.
+    pub(super) fn region(&self) -> Option<Crop> {
+        self.region.map(|(_, region)| region)
+    }
+
+    /// The sensors as they are rendered. The region is no part of the scene: it is saved in no file.
+    pub(super) fn rendered_sensors(&self) -> Vec<SensorDescription> {
+        let mut sensors = self.sensors.clone();
+        if let Some((sensor, region)) = self.region {
+            sensors[sensor].crop = Some(region);
+        }
+        sensors
+    }
+
     /// The same scene with the sensors as they are now.
     fn renew_sensors(&mut self) -> Result<Effect, String> {
-        let scene = self.scene.with_sensors(&self.sensors).map_err(|cause| cause.to_string())?;
+        let scene = self.scene.with_sensors(&self.rendered_sensors()).map_err(|cause| cause.to_string())?;
         self.scene = Arc::new(scene);
         self.refresh();
         Ok(Effect::Restart)

@@ -10,6 +10,9 @@ impl Worker {
     /// Does what a command asks for.
     pub(super) fn obey(&mut self, command: Command) {
         self.published.unseen = true;
+        if command.ends_turntable() {
+            self.end_turntable();
+        }
         match command {
             Command::Open(source) => self.opening = Some(Opening::begin(&self.setup.loader, source)),
             Command::CancelOpen => self.opening = None,
@@ -51,7 +54,13 @@ impl Worker {
             Command::ShowPhotons(on) => self.view.photons = on,
             Command::Probe(pixel) => self.view.probed = pixel,
             Command::Snapshot(folder) => self.snapshot(&folder),
+            Command::SetLook(look) => self.files.look = look,
             Command::AutoSnapshots(folder) => self.files.auto_snapshots = folder,
+            Command::Remember => self.remember(),
+            Command::ReturnTo(id) => self.return_to(id),
+            Command::ExportFilm { of, folder } => self.export_film(of, &folder),
+            Command::Turntable { steps, passes, folder } => self.begin_turntable(steps, passes, &folder),
+            Command::EndTurntable => {}
             Command::SaveScene(path) => self.save_scene(&path),
             Command::KeepCheckpoint(path) => self.begin_checkpoint(&path),
             Command::ResumeCheckpoint(path) => {
@@ -67,6 +76,12 @@ impl Worker {
         if let Some(scene) = &self.scene {
             self.plan.settings.sensor = self.plan.settings.sensor.min(scene.sensors().len() - 1);
         }
+        let sensor = self.plan.settings.sensor;
+        let region = configuration.region.map(|region| (sensor, region));
+        let set = self.scene.as_mut().map_or(Ok(Effect::None), |scene| scene.set_region(region));
+        if let Err(message) = set {
+            self.event(Event::Failed(message));
+        }
         if self.plan.threads != configuration.threads {
             self.plan.threads = configuration.threads;
             self.current.pool = None;
@@ -75,9 +90,10 @@ impl Worker {
     }
 
     /// Restarts the render.
-    pub(super) fn restart(&mut self) {
+    pub(in crate::engine) fn restart(&mut self) {
         self.leave_checkpoint();
         self.files.resuming = None;
+        self.files.resuming_as = None;
         self.current.render = None;
         self.current.number += 1;
         self.current.refused = false;

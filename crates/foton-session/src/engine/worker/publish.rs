@@ -5,7 +5,10 @@ use std::time::{Duration, Instant};
 
 use super::Worker;
 use super::state::Flow;
+use crate::engine::command::Region;
+use crate::engine::editable_scene::EditableScene;
 use crate::engine::frame::{Activity, Frame, RenderStats};
+use crate::engine::history::Turntable;
 use crate::engine::loader::Opening;
 use crate::engine::probe;
 
@@ -13,6 +16,14 @@ use crate::engine::probe;
 const FRAME_GAP: Duration = Duration::from_millis(30);
 
 impl Worker {
+    /// The part of the whole image that is rendered.
+    fn window(&self) -> Region {
+        let none = Region { x: 0, y: 0, width: 0, height: 0 };
+        let sensor =
+            |scene: &EditableScene| Some(scene.scene().sensors().get(self.plan.settings.sensor)?.window());
+        self.scene.as_ref().and_then(sensor).unwrap_or(none)
+    }
+
     fn activity(&self) -> Activity {
         let Some(render) = &self.current.render else {
             return match &self.scene {
@@ -40,12 +51,14 @@ impl Worker {
             return;
         }
         let activity = self.activity();
+        let window = self.window();
         let mut stats = RenderStats::default();
         let mut dots = Arc::default();
         let mut probed = None;
         if let Some(render) = self.current.render.as_mut().filter(|r| r.render().passes() > 0) {
             self.published.picture = Some(render.picture(self.view.mode));
             self.published.pictured = self.current.number;
+            self.published.window = window;
             if render.is_whole() {
                 stats = render.stats(self.plan.stop.error);
                 if self.view.photons {
@@ -54,6 +67,7 @@ impl Worker {
                 probed = self.view.probed.and_then(|pixel| probe::probe(render.render(), pixel));
             }
         }
+        let history = self.history.shown();
         let sensor = self.plan.settings.sensor;
         let scene = self.scene.as_ref();
         let facts = scene.map(|s| Arc::clone(s.facts())).unwrap_or_default();
@@ -68,12 +82,16 @@ impl Worker {
             opening: self.opening.as_ref().map(|o| o.name.clone()),
             building: self.opening.as_ref().and_then(Opening::building),
             size: facts.sensors.get(sensor).map_or([0, 0], |s| s.size),
+            window: if self.published.picture.is_some() { self.published.window } else { window },
+            region: scene.and_then(EditableScene::region),
             picture: self.published.picture.clone(),
             view: self.view.mode,
             stats,
             settings: self.plan.settings.clone(),
             threads: self.plan.threads,
             stop: self.plan.stop,
+            history,
+            turntable: self.turntable.as_ref().map(Turntable::progress),
             scene: facts,
             dots,
             probe: probed,
@@ -82,6 +100,6 @@ impl Worker {
         });
         self.published.unseen = false;
         self.published.last_frame = Instant::now();
-        (self.setup.wake)();
+        self.teller.wake();
     }
 }

@@ -9,14 +9,17 @@ use foton_integrator::RenderSettings;
 use rayon::ThreadPool;
 
 use crate::checkpoint::Keeper;
-use crate::engine::command::ViewMode;
+use crate::engine::command::{Region, ViewMode};
 use crate::engine::frame::Picture;
 use crate::engine::render::LevelRender;
+use crate::engine::run::Run;
+use crate::metadata::SceneIdentity;
+use crate::snapshot::Look;
 use crate::stop::StopRule;
 
 /// Whether passes are rendered.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
-pub(super) enum Flow {
+pub(in crate::engine) enum Flow {
     /// Passes, until the stop rule.
     #[default]
     Run,
@@ -30,7 +33,7 @@ pub(in crate::engine) struct Plan {
     pub(in crate::engine) settings: RenderSettings,
     pub(super) threads: Option<usize>,
     pub(super) stop: StopRule,
-    pub(super) flow: Flow,
+    pub(in crate::engine) flow: Flow,
     /// Whether more moves of the camera or of an object are to follow.
     pub(super) moving: bool,
 }
@@ -40,7 +43,7 @@ pub(in crate::engine) struct Plan {
 pub(in crate::engine) struct Current {
     pub(in crate::engine) render: Option<LevelRender>,
     /// Changes with each start.
-    pub(super) number: u64,
+    pub(in crate::engine) number: u64,
     /// A render that cannot start is not tried again until something changes.
     pub(super) refused: bool,
     pub(super) last_pass: Duration,
@@ -53,10 +56,16 @@ pub(in crate::engine) struct Files {
     /// Files that were asked for and are not written yet.
     pub(in crate::engine) unwritten: Arc<AtomicUsize>,
     pub(super) auto_snapshots: Option<PathBuf>,
+    /// What pictures of the render are called.
+    pub(in crate::engine) run: Option<Run>,
+    /// How PNGs show radiance.
+    pub(in crate::engine) look: Look,
     /// The checkpoint that follows the render.
     pub(in crate::engine) keeper: Option<Keeper>,
     /// The checkpoint that the next whole render goes on from.
     pub(in crate::engine) resuming: Option<PathBuf>,
+    /// The scene that it is of, where it is one of the history; else that of the file.
+    pub(in crate::engine) resuming_as: Option<SceneIdentity>,
 }
 
 /// What frames are to carry.
@@ -74,6 +83,8 @@ pub(super) struct Published {
     pub(super) picture: Option<Picture>,
     /// The render that it is of.
     pub(super) pictured: u64,
+    /// The part of the whole image that it shows.
+    pub(super) window: Region,
     pub(super) last_frame: Instant,
     /// Whether there is something that no frame has carried.
     pub(super) unseen: bool,
@@ -81,6 +92,7 @@ pub(super) struct Published {
 
 impl Default for Published {
     fn default() -> Self {
-        Self { frames: 0, picture: None, pictured: 0, last_frame: Instant::now(), unseen: true }
+        let window = Region { x: 0, y: 0, width: 0, height: 0 };
+        Self { frames: 0, picture: None, pictured: 0, window, last_frame: Instant::now(), unseen: true }
     }
 }

@@ -30,7 +30,8 @@ impl Worker {
         let findings = ready.findings.iter().map(|finding| finding.text.clone());
         let warnings = loaded.warnings.iter().cloned().chain(findings).collect();
         self.event(Event::Opened { name: loaded.identity.name.clone(), warnings });
-        self.plan.settings = RenderSettings { layers: self.plan.settings.layers, ..loaded.settings.clone() };
+        // Light by path class changes no bit of the whole, and a person may look at it at any time.
+        self.plan.settings = RenderSettings { layers: true, ..loaded.settings.clone() };
         self.scene = Some(EditableScene::new(ready, self.cancels.clone()));
         self.plan.moving = false;
         self.published.picture = None;
@@ -51,6 +52,9 @@ impl Worker {
         match self.plan.flow {
             Flow::Steps(left) => left == 0,
             Flow::Run => {
+                if self.turntable.is_some() {
+                    return false;
+                }
                 let render = level.render();
                 self.plan.stop.is_reached(
                     render.passes(),
@@ -75,6 +79,10 @@ impl Worker {
             Some(Ok(None)) => return,
             Some(Err(message)) => return self.refuse(message),
             None => {}
+        }
+        // A state that was taken back may be past the stop rule already.
+        if self.is_idle() {
+            return;
         }
         self.advance();
     }
@@ -109,7 +117,7 @@ impl Worker {
             }
         };
         let (settings, cancel) = (&self.plan.settings, &self.cancels.work);
-        match LevelRender::start(level, scene.scene(), scene.sensors(), settings, pool, cancel) {
+        match LevelRender::start(level, scene.scene(), &scene.rendered_sensors(), settings, pool, cancel) {
             Ok(render) => Ok(Some(render)),
             Err(StartError::Panicked(panic)) => Err(panic.to_string()),
             Err(_) => Ok(None),
@@ -132,7 +140,7 @@ impl Worker {
 
     /// Eye samples of the whole picture.
     fn eye_samples(&self, scene: &EditableScene) -> u64 {
-        let sensor = &scene.sensors()[self.plan.settings.sensor];
+        let sensor = &scene.scene().sensors()[self.plan.settings.sensor];
         let pixels = u64::from(sensor.width) * u64::from(sensor.height);
         pixels * u64::from(self.plan.settings.samples_per_pixel.get())
     }
@@ -163,8 +171,9 @@ impl Worker {
         let due = render.render().passes().is_power_of_two();
         self.update_checkpoint();
         if let Some(folder) = self.files.auto_snapshots.clone().filter(|_| due) {
-            self.auto_snapshot(&folder);
+            self.write(&folder);
         }
+        self.turn();
     }
 
     /// Ends the render until something changes, and says why.

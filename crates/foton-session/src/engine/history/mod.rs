@@ -1,0 +1,15 @@
+//! The history of a session: passes that were kept with their pictures and states, to compare with and to return to.
+//!
+//! Pictures and states lie in a folder of this process in the user's cache; a thread of its own writes them and keeps within a
+//! limit by removing the oldest. What a render needs beside them (the scene as it was edited, the camera, settings) is shared.
+
+mod entry;
+mod film;
+mod keep;
+mod rooms;
+mod store;
+mod turntable;
+
+pub use entry::{HistoryEntry, Thumbnail};
+pub(super) use store::History;
+pub(super) use turntable::Turntable;
