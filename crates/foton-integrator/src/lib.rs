@@ -5,6 +5,7 @@
 //! own. There are no files, windows or clocks here: a
 //! caller that wants to time stages is told when they begin.
 
+mod changes;
 mod error;
 mod layers;
 mod ppm;
@@ -15,7 +16,8 @@ pub use error::{ClassError, ErrorEstimate, TileError};
 pub use foton_transport::codec::StateError;
 pub use foton_transport::photon_map::PathClass;
 pub use foton_transport::{
-    Cancel, Cancelled, Halt, Ledger, LightUse, LobeUse, Loss, NotFinite, Quantity, Stage,
+    Cancel, Cancelled, Halt, Ledger, LightUse, LobeUse, Loss, NotFinite, Quantity, ShouldSuspend, Stage,
+    Suspended,
 };
 pub use layers::LayerKind;
 pub use ppm::{

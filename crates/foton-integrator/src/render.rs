@@ -7,7 +7,7 @@ use foton_math::Rgb;
 use foton_math::glam::DVec3;
 use foton_scene::Scene;
 use foton_transport::codec::StateError;
-use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite, Stage};
+use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite, ShouldSuspend, Stage};
 
 use crate::error::{ErrorEstimate, TileError};
 use crate::layers::LayerKind;
@@ -42,9 +42,24 @@ impl Render {
         watch: &mut dyn FnMut(Stage),
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
+        Self::start_telling(scene, settings, &|_| (), watch, cancel)
+    }
+
+    /// As [`Render::start`]; `tell` is told by many threads what share of the pixels is done.
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub fn start_telling(
+        scene: Arc<Scene>,
+        settings: RenderSettings,
+        tell: &(dyn Fn(f64) + Sync),
+        watch: &mut dyn FnMut(Stage),
+        cancel: &Cancel,
+    ) -> Result<Self, Cancelled> {
         match settings.method {
             Method::Ppm => {
-                Ppm::start(scene, settings, watch, cancel).map(|ppm| Self(Running::Ppm(Box::new(ppm))))
+                let ppm = Ppm::start(scene, settings, tell, watch, cancel)?;
+                Ok(Self(Running::Ppm(Box::new(ppm))))
             }
         }
     }
@@ -55,7 +70,34 @@ impl Render {
     /// When cancelled inside it; the pass then has not happened. After [`Render::stop_at_first_not_finite`], when a value is not:
     /// the image is then that of the passes before, and the render is not to go on.
     pub fn advance(&mut self, watch: &mut dyn FnMut(Stage), cancel: &Cancel) -> Result<PassReport, Halt> {
-        each!(&mut self.0, r => r.advance(watch, cancel))
+        self.advance_unless(&|| false, watch, cancel)
+    }
+
+    /// One pass, or what is left of one that was suspended. `should_suspend` is asked every few milliseconds; once it says yes the
+    /// pass stays as it is until the next call, which goes on with it. How often that happens changes no bit.
+    ///
+    /// # Errors
+    /// As [`Render::advance`]; and [`Halt::Suspended`].
+    pub fn advance_unless(
+        &mut self,
+        should_suspend: ShouldSuspend<'_>,
+        watch: &mut dyn FnMut(Stage),
+        cancel: &Cancel,
+    ) -> Result<PassReport, Halt> {
+        each!(&mut self.0, r => r.advance(watch, cancel, should_suspend))
+    }
+
+    /// How much of a suspended pass is done, from 0 to 1; 0 between passes.
+    #[must_use]
+    pub fn pass_share(&self) -> f64 {
+        each!(&self.0, r => r.pass_share())
+    }
+
+    /// Whether a suspended pass has refined hit points: they, and what [`Render::save`] says of them, are then not as the last whole pass
+    /// left them. Not to be saved before [`Render::advance`] has finished that pass; the image is as it was.
+    #[must_use]
+    pub fn has_refined(&self) -> bool {
+        each!(&self.0, r => r.has_refined())
     }
 
     /// From now on a pass in which a value is not finite does not happen. Otherwise such values are left out and counted.
@@ -69,7 +111,7 @@ impl Render {
         each!(&self.0, r => r.first_not_finite())
     }
 
-    /// Changes a setting from the next pass on. The change stands in [`Render::changes`] with the number of passes before it.
+    /// Changes a setting from the next pass on; not the one that is suspended. The change stands in [`Render::changes`] with the number of passes before it.
     pub fn change(&mut self, change: SettingChange) {
         each!(&mut self.0, r => r.change(change));
     }
@@ -80,7 +122,7 @@ impl Render {
         each!(&self.0, r => r.changes())
     }
 
-    /// The settings as they are now.
+    /// The settings as they are now: of a suspended pass, those that it began with.
     #[must_use]
     pub fn settings(&self) -> &RenderSettings {
         each!(&self.0, r => r.settings())

@@ -74,6 +74,14 @@ impl RenderSettings {
         self.max_depth.or(scene.max_depth()).map_or(MAX_PATH_EDGES, |d| d.min(MAX_PATH_EDGES))
     }
 
+    /// What is in force of the kind that a change is of.
+    pub(crate) const fn in_force(&self, change: &SettingChange) -> SettingChange {
+        match change {
+            SettingChange::Alpha(_) => SettingChange::Alpha(self.ppm.alpha),
+            SettingChange::PhotonsPerPass(_) => SettingChange::PhotonsPerPass(self.ppm.photons_per_pass),
+        }
+    }
+
     /// Takes a change on.
     pub const fn change(&mut self, change: SettingChange) {
         match change {
@@ -90,6 +98,13 @@ pub enum SettingChange {
     Alpha(Alpha),
     /// A new [`PpmSettings::photons_per_pass`].
     PhotonsPerPass(NonZeroU32),
+}
+
+impl SettingChange {
+    /// Whether both change the same setting.
+    pub(crate) fn is_of_the_kind_of(&self, other: &Self) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(other)
+    }
 }
 
 impl fmt::Display for SettingChange {

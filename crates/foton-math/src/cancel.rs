@@ -1,4 +1,5 @@
-//! A request to stop, shared between threads: long loops check it every few thousand steps.
+//! Requests to stop, shared between threads: long loops check them every few thousand steps. Cancelled work is discarded; suspended work
+//! goes on later.
 
 use std::error::Error;
 use std::fmt;
@@ -16,6 +17,22 @@ impl fmt::Display for Cancelled {
 }
 
 impl Error for Cancelled {}
+
+/// The work was asked to make way; what it had done so far is kept, and the next call goes on with it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Suspended;
+
+impl fmt::Display for Suspended {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("suspended")
+    }
+}
+
+impl Error for Suspended {}
+
+/// Asked by many threads, after every few milliseconds of work, whether that work is to make way. Which parts of the work were
+/// done by then changes no result.
+pub type ShouldSuspend<'a> = &'a (dyn Fn() -> bool + Sync);
 
 /// A request to stop, shared between threads.
 #[derive(Clone, Debug, Default)]

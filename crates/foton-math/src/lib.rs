@@ -14,7 +14,7 @@ mod stream;
 pub mod warp;
 
 pub use aabb::Aabb;
-pub use cancel::{Cancel, Cancelled};
+pub use cancel::{Cancel, Cancelled, ShouldSuspend, Suspended};
 pub use cancel_reader::CancelReader;
 pub use frame::Frame;
 pub use glam;

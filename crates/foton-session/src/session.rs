@@ -4,7 +4,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use foton_integrator::{
-    Cancel, Cancelled, Halt, MemoryEstimate, NotFinite, PassReport, Render, RenderSettings, StateError,
+    Cancel, Cancelled, Halt, MemoryEstimate, NotFinite, PassReport, Render, RenderSettings, ShouldSuspend,
+    StateError, Suspended,
 };
 use foton_scene::Scene;
 use rayon::{ThreadPool, ThreadPoolBuildError};
@@ -30,12 +31,15 @@ pub enum StartError {
     Panicked(#[from] Panic),
 }
 
-/// Why a pass has not happened.
+/// Why a pass is not finished.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum PassError {
     /// Someone asked to stop inside it.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+    /// It made way; the next one goes on with it.
+    #[error(transparent)]
+    Suspended(#[from] Suspended),
     /// A fault of our own; no other pass can follow.
     #[error(transparent)]
     Panicked(#[from] Panic),
@@ -48,6 +52,7 @@ impl From<Halt> for PassError {
     fn from(halt: Halt) -> Self {
         match halt {
             Halt::Cancelled(cause) => cause.into(),
+            Halt::Suspended(cause) => cause.into(),
             Halt::NotFinite(place) => place.into(),
         }
     }
@@ -112,7 +117,7 @@ impl Session {
         threads: Option<usize>,
         cancel: &Cancel,
     ) -> Result<Self, StartError> {
-        Self::start_on(Self::pool(threads)?, scene, settings, cancel)
+        Self::start_on(Self::pool(threads)?, scene, settings, &|_| (), cancel)
     }
 
     /// Threads to render on, by default as many as the machine has; one pool serves any number of renders, one at a time.
@@ -123,11 +128,12 @@ impl Session {
         threads::pool(threads, Rank::Equal)
     }
 
-    /// Collects hit points on the threads of `pool`.
+    /// Collects hit points on the threads of `pool`, which tell what share of the pixels is done.
     pub(crate) fn start_on(
         pool: Arc<ThreadPool>,
         scene: Arc<Scene>,
         settings: RenderSettings,
+        tell: &(dyn Fn(f64) + Sync),
         cancel: &Cancel,
     ) -> Result<Self, StartError> {
         let mut stages = StageTimes::default();
@@ -139,7 +145,9 @@ impl Session {
                 clock.begin(stage);
                 inject_fault(seed, stage, 0);
             };
-            let started = catch_panic(|| pool.install(|| Render::start(scene, settings, &mut watch, cancel)));
+            let started = catch_panic(|| {
+                pool.install(|| Render::start_telling(scene, settings, tell, &mut watch, cancel))
+            });
             started.map_err(|message| Panic { stage: clock.stage(), message })??
         };
         Ok(Self { render, pool, stages, elapsed: begin.elapsed(), rays: 0, panic: None, not_finite: None })
@@ -167,7 +175,7 @@ impl Session {
             last = self.elapsed.saturating_sub(before);
             let report = match report {
                 Ok(report) => report,
-                Err(PassError::Cancelled(_)) => return StopCause::Interrupted,
+                Err(PassError::Cancelled(_) | PassError::Suspended(_)) => return StopCause::Interrupted,
                 Err(PassError::Panicked(_)) => return StopCause::Panicked,
                 Err(PassError::NotFinite(_)) => return StopCause::NotFinite,
             };
@@ -186,6 +194,18 @@ impl Session {
     /// # Errors
     /// When cancelled, by a fault of our own, or at a value that is not finite if it is to stop there; the pass then has not happened.
     pub fn advance(&mut self, cancel: &Cancel) -> Result<PassReport, PassError> {
+        self.advance_unless(&|| false, cancel)
+    }
+
+    /// Runs one pass, or what is left of one that was suspended: see [`Render::advance_unless`].
+    ///
+    /// # Errors
+    /// As [`Session::advance`], and when suspended.
+    pub fn advance_unless(
+        &mut self,
+        should_suspend: ShouldSuspend<'_>,
+        cancel: &Cancel,
+    ) -> Result<PassReport, PassError> {
         if let Some(panic) = &self.panic {
             return Err(panic.clone().into());
         }
@@ -201,7 +221,9 @@ impl Session {
                 clock.begin(stage);
                 inject_fault(seed, stage, pass);
             };
-            let outcome = catch_panic(|| self.pool.install(|| render.advance(&mut watch, cancel)));
+            let outcome = catch_panic(|| {
+                self.pool.install(|| render.advance_unless(should_suspend, &mut watch, cancel))
+            });
             outcome.map_err(|message| Panic { stage: clock.stage(), message })
         };
         self.elapsed = self.elapsed.saturating_add(begin.elapsed());
@@ -212,6 +234,14 @@ impl Session {
         let report = report?;
         self.rays = self.rays.saturating_add(report.rays);
         Ok(report)
+    }
+
+    /// Finishes a suspended pass that has refined hit points, so that the render can be saved. No photon is traced for that.
+    ///
+    /// # Errors
+    /// As [`Session::advance`].
+    pub fn settle(&mut self) -> Result<(), PassError> {
+        if self.render.has_refined() { self.advance(&Cancel::default()).map(|_| ()) } else { Ok(()) }
     }
 
     /// The fault that ended the render, if one did. What the image is then worth, [`Panic::leaves_the_image_whole`] says.

@@ -17,7 +17,7 @@ pub mod shading;
 mod stage;
 pub mod straight;
 
-pub use foton_math::{Cancel, Cancelled};
+pub use foton_math::{Cancel, Cancelled, ShouldSuspend, Suspended};
 pub use ledger::{Ledger, Loss};
 pub use light_use::LightUse;
 pub use lobes::{Bounce, LobePolicy, LobeSplit, LobeUse};

@@ -12,7 +12,7 @@ use foton_math::glam::{DVec3, Vec3};
 use foton_scene::Scene;
 use thiserror::Error;
 
-use foton_math::Cancelled;
+use foton_math::{Cancelled, Suspended};
 
 /// How far in front of a point the ray that looks for its surface starts, in scene units: the scene's half-size is at least a
 /// thousand.
@@ -173,12 +173,15 @@ impl fmt::Display for NotFinite {
     }
 }
 
-/// Why a pass has not happened.
+/// Why a pass is not finished.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum Halt {
-    /// Someone asked to stop inside it.
+    /// Someone asked to stop inside it: it has not happened.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+    /// Someone asked it to make way: the next call goes on with it.
+    #[error(transparent)]
+    Suspended(#[from] Suspended),
     /// A value was not finite, and the render is to stop at the first of those.
     #[error(transparent)]
     NotFinite(#[from] Box<NotFinite>),

@@ -8,7 +8,7 @@ use foton_scene::{Scene, Sources};
 use foton_transport::camera_paths::HitPoint;
 use foton_transport::light_paths::MAX_PHOTONS;
 use foton_transport::photon_map::{Chunk, Grid, PhotonMap};
-use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite, Stage};
+use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite, ShouldSuspend, Stage};
 use pulp::Arch;
 
 use super::eye_samples::eye_pass;
@@ -18,6 +18,8 @@ use super::lobes::lobe_use;
 use super::report::{PassReport, Start};
 use super::settings::{DirectLight, RadiusRule};
 use super::slots::EarlierBatches;
+use super::under_way::UnderWay;
+use crate::changes::Changes;
 use crate::error::ErrorSums;
 use crate::settings::{RenderSettings, SettingChange};
 
@@ -37,6 +39,8 @@ pub(crate) struct Ppm {
     pub(super) marked_radius2: f64,
     pub(super) chunks: Vec<Chunk>,
     pub(super) map: PhotonMap,
+    /// Photons that were emitted for those in the map.
+    pub(super) map_photons: u64,
     pub(super) earlier: EarlierBatches,
     /// The largest number of photons in a batch: [`MAX_PHOTONS`], except in tests.
     pub(super) max_in_batch: u64,
@@ -46,7 +50,11 @@ pub(crate) struct Ppm {
     pub(super) passes: u64,
     pub(super) photons_emitted: u64,
     pub(super) last_photons: u64,
-    pub(super) changes: Vec<(u64, SettingChange)>,
+    pub(super) changes: Changes,
+    /// Changes that wait for the end of the pass under way.
+    pub(super) deferred: Vec<SettingChange>,
+    /// A pass that was suspended.
+    pub(super) under_way: Option<Box<UnderWay>>,
     pub(super) start: Start,
     /// Whether a pass that leaves a value out does not happen.
     pub(super) strict: bool,
@@ -56,26 +64,28 @@ pub(crate) struct Ppm {
 }
 
 impl Ppm {
-    /// Collects hit points. `watch` is told each stage as it begins.
+    /// Collects hit points. `tell` is told by many threads what share of the pixels has its hit points, `watch` each stage as it begins.
     ///
     /// # Errors
     /// When cancelled.
     pub(crate) fn start(
         scene: Arc<Scene>,
         settings: RenderSettings,
+        tell: &(dyn Fn(f64) + Sync),
         watch: &mut dyn FnMut(Stage),
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
         watch(Stage::EyePass);
         let max_depth = settings.max_depth_in(&scene);
-        let eye = eye_pass(&scene, &settings, max_depth, Purpose::Eye).run(cancel)?;
+        let eye = eye_pass(&scene, &settings, max_depth, Purpose::Eye).run(cancel, tell)?;
         watch(Stage::Layout);
         let shadow_rays = settings.ppm.direct_light == DirectLight::ShadowRays;
         let normals = lobe_use(&scene).shading_normals;
         let hit_points =
             HitPoints::new(&eye.hit_points, &eye.gloss, eye.pixel_start(), normals, shadow_rays, cancel)?;
-        let has_statistics = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;
-        let hit_points = if has_statistics { hit_points.with_radius_statistics() } else { hit_points };
+        let adapts = settings.ppm.radius_rule == RadiusRule::Adaptive;
+        let hit_points =
+            if settings.error || adapts { hit_points.with_radius_statistics() } else { hit_points };
         let start = Start { hit_points: hit_points.len() as u64, eye_rays: eye.rays, dropped: eye.dropped };
         let step = (eye.hit_points.len() / MAX_PROBED).max(1);
         let disc = |h: &HitPoint| (h.position, h.radius2.sqrt());
@@ -88,10 +98,10 @@ impl Ppm {
         let light = Light::new(eye.emission, &hit_points, &settings);
         let (width, samples) = (scene.sensors()[settings.sensor].width, settings.samples_per_pixel.get());
         let error = settings.error.then(|| ErrorSums::new(&hit_points, width, samples));
-        let lights = vec![LightUse::default(); scene.emitters().len()];
-        let losses = vec![Loss::default(); scene.materials().len()];
         cancel.check()?;
         Ok(Self {
+            lights: vec![LightUse::default(); scene.emitters().len()],
+            losses: vec![Loss::default(); scene.materials().len()],
             scene,
             sources,
             settings,
@@ -103,15 +113,16 @@ impl Ppm {
             marked_radius2: f64::INFINITY,
             chunks: Vec::new(),
             map: PhotonMap::default(),
+            map_photons: 0,
             earlier: EarlierBatches::default(),
             max_in_batch: MAX_PHOTONS,
             ledger: Ledger::default(),
-            lights,
-            losses,
             passes: 0,
             photons_emitted: 0,
             last_photons: 0,
-            changes: Vec::new(),
+            changes: Changes::default(),
+            deferred: Vec::new(),
+            under_way: None,
             start,
             strict: false,
             not_finite,
@@ -120,26 +131,48 @@ impl Ppm {
     }
 
     /// One pass: photons from the emitters, sorted into a map, gathered by every hit point, which is then refined, batch by batch; then
-    /// added to the image.
+    /// added to the image. Where a pass was suspended, this goes on with it; how often that happens changes no bit.
     ///
     /// # Errors
-    /// When cancelled while photons are traced; the pass then has not happened. After [`Ppm::stop_at_first_not_finite`], when a
-    /// value is not: the image is then that of the passes before, and hit points may be half-way to the next.
+    /// When cancelled while photons are traced; the pass then has not happened. When suspended. After
+    /// [`Ppm::stop_at_first_not_finite`], when a value is not: the image is then that of the passes before, and hit points may be
+    /// half-way to the next.
     pub(crate) fn advance(
         &mut self,
         watch: &mut dyn FnMut(Stage),
         cancel: &Cancel,
+        should_suspend: ShouldSuspend<'_>,
     ) -> Result<PassReport, Halt> {
         self.halt_at(None)?;
-        let mut counts = self.begin_pass();
-        for batch in self.batches(counts.photons) {
-            self.emit_and_trace(batch, &counts, watch, cancel)?;
-            self.build_map(watch, cancel)?;
-            self.gather_and_refine(batch, &mut counts, watch);
-            self.halt_at(counts.left_out)?;
+        let mut pass = self.under_way.take().unwrap_or_else(|| Box::new(self.begin_pass()));
+        match self.complete(&mut pass, watch, cancel, should_suspend) {
+            Ok(()) => Ok(self.accumulate(*pass, watch)),
+            Err(halt) => {
+                self.under_way = matches!(halt, Halt::Suspended(_)).then_some(pass);
+                if self.under_way.is_none() {
+                    self.take_deferred_changes();
+                }
+                Err(halt)
+            }
         }
-        self.add_shadow_rays(&mut counts, watch);
-        self.halt_at(counts.left_out)?;
-        Ok(self.accumulate(counts, watch))
+    }
+
+    /// What is left of a pass: each step does what it has not done before.
+    fn complete(
+        &mut self,
+        pass: &mut UnderWay,
+        watch: &mut dyn FnMut(Stage),
+        cancel: &Cancel,
+        should_suspend: ShouldSuspend<'_>,
+    ) -> Result<(), Halt> {
+        while let Some(batch) = pass.batch() {
+            self.emit_and_trace(batch, pass, watch, cancel, should_suspend)?;
+            self.build_map(pass, watch, cancel)?;
+            self.gather_and_refine(batch, pass, watch, should_suspend)?;
+            self.halt_at(pass.counts.left_out)?;
+            pass.end_batch();
+        }
+        self.add_shadow_rays(pass, watch, should_suspend)?;
+        self.halt_at(pass.counts.left_out)
     }
 }

@@ -86,7 +86,7 @@ impl Ppm {
         }
     }
 
-    /// Photons of the last pass, `at_most` of them, spread evenly over the scene's cells.
+    /// Photons of the last batch, `at_most` of them, spread evenly over the scene's cells.
     #[must_use]
     pub(crate) fn stored_photons(&self, at_most: usize) -> Vec<StoredPhoton> {
         let photons = self.map.photons();
@@ -94,7 +94,7 @@ impl Ppm {
         photons.iter().step_by(step).map(|p| self.stored(p)).collect()
     }
 
-    /// Photons of the last pass within `radius` of a point, `at_most` of them.
+    /// Photons of the last batch within `radius` of a point, `at_most` of them.
     #[must_use]
     pub(crate) fn photons_near(&self, position: DVec3, radius: f64, at_most: usize) -> Vec<StoredPhoton> {
         let normalisation = self.scene.normalisation();
@@ -107,17 +107,12 @@ impl Ppm {
     fn stored(&self, photon: &Photon) -> StoredPhoton {
         let normalisation = self.scene.normalisation();
         let scale = normalisation.scale();
-        let watts = 1.0 / (self.photons_in_last_batch().max(1) as f64 * scale * scale);
+        let watts = 1.0 / (self.map_photons.max(1) as f64 * scale * scale);
         StoredPhoton {
             position: normalisation.world_point(photon.position),
             class: PathClass::ALL[photon.class_index()],
             power: photon.power * watts as f32,
         }
-    }
-
-    /// Of the photons of the last pass, how many there were in the last batch, whose photons the map still holds.
-    fn photons_in_last_batch(&self) -> u64 {
-        self.batches(self.last_photons).last().map_or(0, |batch| batch.photons(self.last_photons))
     }
 
     /// Radiance of one pixel as it stands; black beyond the image.

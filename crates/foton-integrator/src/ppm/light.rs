@@ -6,6 +6,7 @@ use foton_transport::Omissions;
 use foton_transport::codec::{Reader, StateError, Writer};
 use foton_transport::photon_map::{LANES, PathClass};
 
+use super::by_block::ByBlock;
 use super::hit_points::{HitPoints, Irradiance};
 use super::radiance::Radiance;
 use super::shadow_rays::{self, PassKey};
@@ -64,14 +65,15 @@ impl Light {
         }
     }
 
-    /// Adds direct light by shadow rays to the pass; returns the number of rays, and what was left out because it was not finite.
+    /// Adds direct light by shadow rays to the pass, block by block.
     pub(crate) fn add_direct(
         &mut self,
         scene: &Scene,
         hit_points: &HitPoints,
         key: PassKey,
-    ) -> (u64, Omissions) {
-        each!(self, s => shadow_rays::add(scene, hit_points, &mut s.irradiance_slots, key))
+        by_block: ByBlock<'_, (u64, Omissions)>,
+    ) {
+        each!(self, s => shadow_rays::add(scene, hit_points, &mut s.irradiance_slots, key, by_block));
     }
 
     /// Adds the pass of so many photons to the pixels; says what was left out because it was not finite.

@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod algorithm;
+mod by_block;
 mod counts;
 mod eye_samples;
 mod features;
@@ -28,6 +29,7 @@ mod sweep;
 mod tally;
 #[cfg(test)]
 mod tests;
+mod under_way;
 mod variants;
 
 pub(crate) use algorithm::Ppm;

@@ -25,8 +25,37 @@ impl Ppm {
 
     /// Changes a setting from the next pass on. The change stands in [`Ppm::changes`] with the number of passes before it.
     pub(crate) fn change(&mut self, change: SettingChange) {
+        if self.under_way.is_some() {
+            self.deferred.push(change);
+        } else {
+            self.take(change);
+        }
+    }
+
+    fn take(&mut self, change: SettingChange) {
+        self.changes.add(self.passes, self.settings.in_force(&change), change);
         self.settings.change(change);
-        self.changes.push((self.passes, change));
+    }
+
+    /// Takes the changes on that were made while a pass was under way.
+    pub(super) fn take_deferred_changes(&mut self) {
+        for change in std::mem::take(&mut self.deferred) {
+            self.take(change);
+        }
+    }
+
+    /// How much of the pass under way is done, from 0 to 1; 0 between passes.
+    pub(crate) fn pass_share(&self) -> f64 {
+        let traced = || {
+            let traced = self.chunks.iter().filter(|chunk| chunk.is_traced).count();
+            traced as f64 / self.chunks.len().max(1) as f64
+        };
+        self.under_way.as_ref().map_or(0.0, |pass| pass.share(traced()))
+    }
+
+    /// Whether the pass under way has refined hit points: they are then not as the last whole pass left them.
+    pub(crate) fn has_refined(&self) -> bool {
+        self.under_way.as_ref().is_some_and(|pass| pass.has_refined())
     }
 
     /// Passes so far.
@@ -44,7 +73,7 @@ impl Ppm {
     /// All changes so far, each with the number of passes before it.
     #[must_use]
     pub(crate) fn changes(&self) -> &[(u64, SettingChange)] {
-        &self.changes
+        self.changes.log()
     }
 
     /// The settings as they are now.

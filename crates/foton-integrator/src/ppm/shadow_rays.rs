@@ -10,6 +10,7 @@ use foton_transport::photon_map::LANES;
 use foton_transport::{LeftOut, Omissions, Quantity, Surface};
 use rayon::prelude::*;
 
+use super::by_block::ByBlock;
 use super::hit_points::{HitPoints, Irradiance};
 
 /// Slots of one task.
@@ -26,17 +27,19 @@ pub(crate) struct PassKey {
 }
 
 /// Adds this pass's estimate of direct irradiance, times `photons` so that it can join sums that are divided by the number of
-/// photons. Returns the number of rays, and what was left out because it was not finite.
+/// photons. `by_block` gets the number of rays, and what was left out because it was not finite; where the work was suspended, blocks
+/// that have theirs are not lit again.
 pub(crate) fn add<const LAYERS: usize>(
     scene: &Scene,
     hit_points: &HitPoints,
     irradiance_slots: &mut [Irradiance<LAYERS>],
     PassKey { seed, pass, photons }: PassKey,
-) -> (u64, Omissions) {
-    irradiance_slots
-        .par_chunks_mut(BLOCK)
-        .enumerate()
-        .map(|(block, irradiance)| {
+    by_block: ByBlock<'_, (u64, Omissions)>,
+) {
+    let places = by_block.places(irradiance_slots.len().div_ceil(BLOCK));
+    let blocks = irradiance_slots.par_chunks_mut(BLOCK).zip(places).enumerate();
+    blocks.for_each(|(block, (irradiance, place))| {
+        place.fill(|| {
             let (mut rays, mut omissions) = (0, Omissions::default());
             for (i, irradiance) in irradiance.iter_mut().enumerate() {
                 let slot = block * BLOCK + i;
@@ -72,6 +75,6 @@ pub(crate) fn add<const LAYERS: usize>(
                 }
             }
             (rays, omissions)
-        })
-        .reduce(|| (0, Omissions::default()), |a, b| (a.0 + b.0, a.1.followed_by(b.1)))
+        });
+    });
 }

@@ -10,6 +10,7 @@ use super::adaptive::RadiusStatistics;
 use super::algorithm::Ppm;
 use super::settings::Alpha;
 use super::statistics::Statistics;
+use crate::changes::Changes;
 use crate::settings::SettingChange;
 
 impl Ppm {
@@ -24,8 +25,8 @@ impl Ppm {
         let settings = &self.settings;
         out.f64(settings.ppm.alpha.get());
         out.u64(settings.ppm.photons_per_pass.get().into());
-        out.u64(self.changes.len() as u64);
-        for (pass, change) in &self.changes {
+        out.u64(self.changes().len() as u64);
+        for (pass, change) in self.changes() {
             let (kind, bits) = match change {
                 SettingChange::Alpha(alpha) => (0, alpha.get().to_bits()),
                 SettingChange::PhotonsPerPass(photons) => (1, photons.get().into()),
@@ -75,7 +76,7 @@ impl Ppm {
         let photons = nonzero(input.u64()?)?;
         let changes = (0..input.u64()?).map(|_| change(&mut input)).collect::<Result<_, _>>()?;
         (self.passes, self.photons_emitted, self.last_photons, self.changes) =
-            (passes, emitted, last, changes);
+            (passes, emitted, last, Changes::restored(changes));
         self.settings.ppm.alpha = alpha;
         self.settings.ppm.photons_per_pass = photons;
         self.restore_accounts(&mut input)?;

@@ -1,9 +1,12 @@
 //! The steps of a pass.
 
 use foton_transport::light_paths::{Batch, PhotonPass};
-use foton_transport::{Cancel, Cancelled, Halt, LeftOut, NotFinite, Stage};
+use foton_transport::{
+    Cancel, Cancelled, Halt, LeftOut, NotFinite, Omissions, ShouldSuspend, Stage, Suspended,
+};
 
 use super::algorithm::{MAX_PROBED, Ppm};
+use super::by_block::ByBlock;
 use super::counts::Counts;
 use super::light::Light;
 use super::lobes::LOBE_POLICY;
@@ -14,6 +17,7 @@ use super::shadow_rays::PassKey;
 use super::slots::EarlierBatches;
 use super::sweep::{Photons, sweep};
 use super::tally::Tally;
+use super::under_way::{NextStep, UnderWay};
 use crate::error::{ErrorSums, PassFacts, Question};
 
 /// Cells are marked again when the mean r² has shrunk by this factor since the last time.
@@ -30,13 +34,14 @@ impl Ppm {
     }
 
     /// Prepares for the batches of a pass.
-    pub(super) fn begin_pass(&mut self) -> Counts {
+    pub(super) fn begin_pass(&mut self) -> UnderWay {
         let photons = u64::from(self.settings.ppm.photons_after(self.passes).get());
         let slots = self.hit_points.statistics_slots.len();
         let adapts = !self.hit_points.radius_statistics_slots.is_empty();
-        let several = self.batches(photons).nth(1).is_some();
-        self.earlier = if several { EarlierBatches::of(slots, adapts) } else { EarlierBatches::default() };
-        Counts {
+        let batches: Vec<Batch> = Batch::all(photons, self.max_in_batch).collect();
+        self.earlier =
+            if batches.len() > 1 { EarlierBatches::of(slots, adapts) } else { EarlierBatches::default() };
+        let counts = Counts {
             ledger: self.ledger,
             lights: self.lights.clone(),
             losses: self.losses.clone(),
@@ -45,12 +50,8 @@ impl Ppm {
             stored: 0,
             tally: Tally::default(),
             left_out: None,
-        }
-    }
-
-    /// How a pass falls into batches.
-    pub(super) fn batches(&self, photons: u64) -> impl Iterator<Item = Batch> + use<> {
-        Batch::all(photons, self.max_in_batch)
+        };
+        UnderWay::new(counts, self.settings.ppm.alpha, batches)
     }
 
     pub(super) fn photon_pass(&self, photons: u64, batch: Batch) -> PhotonPass<'_> {
@@ -75,26 +76,43 @@ impl Ppm {
     pub(super) fn emit_and_trace(
         &mut self,
         batch: Batch,
-        counts: &Counts,
+        pass: &mut UnderWay,
         watch: &mut dyn FnMut(Stage),
         cancel: &Cancel,
+        should_suspend: ShouldSuspend<'_>,
     ) -> Result<(), Halt> {
+        if pass.next > NextStep::Trace {
+            return Ok(());
+        }
         watch(Stage::Trace);
         let mut chunks = std::mem::take(&mut self.chunks);
-        let shot = self.photon_pass(counts.photons, batch).shoot(&mut chunks, cancel);
+        let photon_pass = self.photon_pass(pass.counts.photons, batch);
+        if pass.next == NextStep::Begin {
+            photon_pass.begin(&mut chunks);
+            pass.next = NextStep::Trace;
+        }
+        let shot = photon_pass.shoot(&mut chunks, cancel, should_suspend);
         self.chunks = chunks;
         shot?;
+        pass.next = NextStep::Sort;
         self.halt_at(self.chunks.iter().find_map(|chunk| chunk.left_out))
     }
 
     /// Sorts the photons that lie in `chunks` into the map.
     pub(super) fn build_map(
         &mut self,
+        pass: &mut UnderWay,
         watch: &mut dyn FnMut(Stage),
         cancel: &Cancel,
     ) -> Result<(), Cancelled> {
+        if pass.next > NextStep::Sort {
+            return Ok(());
+        }
         watch(Stage::Sort);
         self.map.build(&self.chunks, self.grid.touched());
+        self.map_photons = pass.batch().map_or(0, |batch| batch.photons(pass.photons()));
+        pass.next = NextStep::Gather;
+        pass.tallies.clear();
         cancel.check()
     }
 
@@ -102,15 +120,16 @@ impl Ppm {
     pub(super) fn gather_and_refine(
         &mut self,
         batch: Batch,
-        counts: &mut Counts,
+        pass: &mut UnderWay,
         watch: &mut dyn FnMut(Stage),
-    ) {
+        should_suspend: ShouldSuspend<'_>,
+    ) -> Result<(), Suspended> {
         watch(Stage::Gather);
-        let (alpha, before) = (self.settings.ppm.alpha, self.photons_emitted);
+        let (alpha, before) = (pass.alpha, self.photons_emitted);
         let rule = Rule {
             alpha,
             adapts: self.settings.ppm.radius_rule == RadiusRule::Adaptive,
-            common: self.settings.ppm.radius_rule.common(alpha, before, counts.photons),
+            common: self.settings.ppm.radius_rule.common(alpha, before, pass.counts.photons),
             batch,
             question: Question::after(self.passes),
             arch: self.arch,
@@ -118,29 +137,52 @@ impl Ppm {
         let moments = self.error.as_mut().map_or_else(Default::default, ErrorSums::moment_slots);
         let (hit_points, earlier) = (&mut self.hit_points, &mut self.earlier);
         let photons = Photons { map: &self.map, grid: &self.grid };
-        let tally = match &mut self.light {
-            Light::Whole(sums) => sweep(hit_points, photons, rule, sums.irradiance_slots(), moments, earlier),
-            Light::ByClass(sums) => {
-                sweep(hit_points, photons, rule, sums.irradiance_slots(), moments, earlier)
+        let tallies = ByBlock { done: &mut pass.tallies, should_suspend };
+        match &mut self.light {
+            Light::Whole(sums) => {
+                sweep(hit_points, photons, rule, sums.irradiance_slots(), moments, earlier, tallies);
             }
-        };
-        counts.add(&self.chunks, &tally);
+            Light::ByClass(sums) => {
+                sweep(hit_points, photons, rule, sums.irradiance_slots(), moments, earlier, tallies);
+            }
+        }
+        let mut tally = Tally::default();
+        for of_block in &pass.tallies {
+            tally += (*of_block).ok_or(Suspended)?;
+        }
+        pass.counts.add(&self.chunks, &tally);
+        Ok(())
     }
 
     /// Adds direct light by shadow rays, if settings ask for them, once hit points are refined.
-    pub(super) fn add_shadow_rays(&mut self, counts: &mut Counts, watch: &mut dyn FnMut(Stage)) {
-        if self.settings.ppm.direct_light == DirectLight::ShadowRays {
-            watch(Stage::ShadowRays);
-            let key = PassKey { seed: self.settings.seed, pass: self.passes, photons: counts.photons };
-            let (rays, omissions) = self.light.add_direct(&self.scene, &self.hit_points, key);
-            counts.rays += rays;
-            counts.leave_out(omissions);
+    pub(super) fn add_shadow_rays(
+        &mut self,
+        pass: &mut UnderWay,
+        watch: &mut dyn FnMut(Stage),
+        should_suspend: ShouldSuspend<'_>,
+    ) -> Result<(), Suspended> {
+        if self.settings.ppm.direct_light != DirectLight::ShadowRays || pass.is_lit {
+            return Ok(());
         }
+        watch(Stage::ShadowRays);
+        let key = PassKey { seed: self.settings.seed, pass: self.passes, photons: pass.counts.photons };
+        let by_block = ByBlock { done: &mut pass.shadow_rays, should_suspend };
+        self.light.add_direct(&self.scene, &self.hit_points, key, by_block);
+        let (mut rays, mut omissions) = (0, Omissions::default());
+        for of_block in &pass.shadow_rays {
+            let (more, left_out) = (*of_block).ok_or(Suspended)?;
+            (rays, omissions) = (rays + more, omissions.followed_by(left_out));
+        }
+        pass.is_lit = true;
+        pass.counts.rays += rays;
+        pass.counts.leave_out(omissions);
+        Ok(())
     }
 
     /// Adds a pass to the image, its error to the error, and what it counted to the render's own.
-    pub(super) fn accumulate(&mut self, mut counts: Counts, watch: &mut dyn FnMut(Stage)) -> PassReport {
+    pub(super) fn accumulate(&mut self, pass: UnderWay, watch: &mut dyn FnMut(Stage)) -> PassReport {
         watch(Stage::Radiance);
+        let mut counts = pass.counts;
         counts.leave_out(self.light.add_pass(&self.hit_points, counts.photons));
         let Counts { ledger, lights, losses, photons, rays, stored, tally, left_out } = counts;
         (self.ledger, self.lights, self.losses) = (ledger, lights, losses);
@@ -162,6 +204,7 @@ impl Ppm {
         }
         self.last_photons = photons;
         self.passes += 1;
+        self.take_deferred_changes();
         PassReport {
             pass: self.passes,
             photons: self.photons_emitted,

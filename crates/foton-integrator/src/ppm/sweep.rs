@@ -6,6 +6,7 @@ use foton_transport::photon_map::{Grid, LANES, Packet, PhotonMap};
 use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
+use super::by_block::ByBlock;
 use super::gather::{collect, collect_gloss};
 use super::hit_points::{HitPoints, Irradiance};
 use super::refine::refine;
@@ -31,8 +32,10 @@ pub(super) struct Photons<'a> {
 /// Gathers the photons of a batch for all hit points. With the last batch of a pass they are refined, and `irradiance_slots`
 /// hold the pass's estimates; before, they and the other slots hold sums.
 ///
-/// `LAYERS` is 3 to sum caustic and indirect light beside all of it, or 1. `moment_slots` get what the bias is estimated from, where there are any.
-/// `earlier` has room where a pass has more than one batch.
+/// `LAYERS` is 3 to sum caustic and indirect light beside all of it, or 1. `moment_slots` get what the bias is estimated from, where
+/// there are any.
+/// `earlier` has room where a pass has more than one batch. `tallies` get what each block counts; where the work was suspended, blocks
+/// that have theirs are not gathered again.
 pub(super) fn sweep<const LAYERS: usize>(
     hit_points: &mut HitPoints,
     photons: Photons<'_>,
@@ -40,11 +43,28 @@ pub(super) fn sweep<const LAYERS: usize>(
     irradiance_slots: &mut [Irradiance<LAYERS>],
     moment_slots: &mut [SlotMoments],
     earlier: &mut EarlierBatches,
-) -> Tally {
+    tallies: ByBlock<'_, Tally>,
+) {
     if hit_points.radius_statistics_slots.is_empty() {
-        sweep_with::<LAYERS, NO_MOMENTS>(hit_points, photons, rule, irradiance_slots, moment_slots, earlier)
+        sweep_with::<LAYERS, NO_MOMENTS>(
+            hit_points,
+            photons,
+            rule,
+            irradiance_slots,
+            moment_slots,
+            earlier,
+            tallies,
+        );
     } else {
-        sweep_with::<LAYERS, MOMENTS>(hit_points, photons, rule, irradiance_slots, moment_slots, earlier)
+        sweep_with::<LAYERS, MOMENTS>(
+            hit_points,
+            photons,
+            rule,
+            irradiance_slots,
+            moment_slots,
+            earlier,
+            tallies,
+        );
     }
 }
 
@@ -55,14 +75,15 @@ fn sweep_with<const LAYERS: usize, const MOMENTS: bool>(
     irradiance_slots: &mut [Irradiance<LAYERS>],
     moment_slots: &mut [SlotMoments],
     earlier: &mut EarlierBatches,
-) -> Tally {
+    tallies: ByBlock<'_, Tally>,
+) {
     let blocks = hit_points.packets.len().div_ceil(BLOCK);
     let moments = by_block(moment_slots, blocks);
     let (counts, discs) = (by_block(&mut earlier.counts, blocks), by_block(&mut earlier.discs, blocks));
     let radius_statistics = by_block(&mut hit_points.radius_statistics_slots, blocks);
     let shading = &hit_points.shading_normals;
     let (first_glossy, gloss_slots) = (hit_points.first_glossy, &hit_points.gloss_slots);
-    let tallies: Vec<Tally> = hit_points
+    hit_points
         .packets
         .par_chunks_mut(BLOCK)
         .zip(hit_points.statistics_slots.par_chunks_mut(BLOCK * LANES))
@@ -71,26 +92,26 @@ fn sweep_with<const LAYERS: usize, const MOMENTS: bool>(
         .zip(moments)
         .zip(counts.into_par_iter().zip(discs))
         .zip(radius_statistics)
+        .zip(tallies.places(blocks))
         .enumerate()
-        .map(
+        .for_each(
             |(
                 block,
                 (
-                    (((((packets, statistics), smallest2), irradiance), moments), (counts, discs)),
-                    radius_statistics,
+                    (
+                        (((((packets, statistics), smallest2), irradiance), moments), (counts, discs)),
+                        radius_statistics,
+                    ),
+                    tally,
                 ),
             )| {
                 let first = block * BLOCK;
                 let slots =
                     Slots { statistics, smallest2, irradiance, moments, counts, discs, radius_statistics };
                 let block = Block { first, first_glossy, packets, slots, shading, gloss_slots };
-                rule.arch.dispatch(OfBlock::<LAYERS, MOMENTS> { block, photons, rule })
+                tally.fill(|| rule.arch.dispatch(OfBlock::<LAYERS, MOMENTS> { block, photons, rule }));
             },
-        )
-        .collect();
-    let mut tally = Tally::default();
-    tallies.into_iter().for_each(|t| tally += t);
-    tally
+        );
 }
 
 /// Slots in the shares of blocks; empty shares of none.

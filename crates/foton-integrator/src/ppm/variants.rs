@@ -8,13 +8,13 @@ use std::sync::Arc;
 use foton_scene::Scene;
 use foton_transport::light_paths::PhotonPass;
 use foton_transport::photon_map::{Chunk, Grid, PathClass};
-use foton_transport::{Cancel, Cancelled, Stage};
+use foton_transport::{Cancel, Cancelled, ShouldSuspend, Stage};
 use rayon::prelude::*;
 
 use super::algorithm::Ppm;
-use super::counts::Counts;
 use super::report::PassReport;
 use super::settings::{DirectLight, PpmSettings};
+use super::under_way::UnderWay;
 use crate::render::Render;
 use crate::settings::RenderSettings;
 
@@ -28,6 +28,9 @@ pub enum Step {
     /// A stage of the variant of that index.
     Of(usize, Stage),
 }
+
+/// Variants advance by whole passes.
+const NEVER: ShouldSuspend<'static> = &|| false;
 
 /// Renders under way that share their photons.
 pub struct Variants {
@@ -81,30 +84,32 @@ impl Variants {
         watch: &mut dyn FnMut(Step),
         cancel: &Cancel,
     ) -> Result<Vec<PassReport>, Cancelled> {
-        let mut counts: Vec<Counts> = self.runs.iter_mut().map(|run| run.ppm_mut().begin_pass()).collect();
-        let photons = counts[0].photons;
-        for batch in self.runs[0].ppm().batches(photons) {
+        let mut passes: Vec<UnderWay> = self.runs.iter_mut().map(|run| run.ppm_mut().begin_pass()).collect();
+        let photons = passes[0].photons();
+        while let Some(batch) = passes[0].batch() {
             watch(Step::Trace);
             let pass = self.runs[0].ppm().photon_pass(photons, batch);
-            PhotonPass { grid: &self.everywhere, stores_direct: true, ..pass }
-                .shoot(&mut self.chunks, cancel)?;
-            for (i, (run, counts)) in self.runs.iter_mut().zip(&mut counts).enumerate() {
+            let photon_pass = PhotonPass { grid: &self.everywhere, stores_direct: true, ..pass };
+            photon_pass.begin(&mut self.chunks);
+            photon_pass.shoot(&mut self.chunks, cancel, NEVER).map_err(|_| Cancelled)?;
+            for (i, (run, pass)) in self.runs.iter_mut().zip(&mut passes).enumerate() {
                 let run = run.ppm_mut();
                 watch(Step::Share);
                 hand_out(&self.chunks, run);
                 let watch = &mut |stage| watch(Step::Of(i, stage));
-                run.build_map(watch, cancel)?;
-                run.gather_and_refine(batch, counts, watch);
+                run.build_map(pass, watch, cancel)?;
+                run.gather_and_refine(batch, pass, watch, NEVER).map_err(|_| Cancelled)?;
+                pass.end_batch();
             }
         }
-        let runs = self.runs.iter_mut().zip(counts).enumerate();
-        let conclude = |(i, (run, mut counts)): (usize, (&mut Render, Counts))| {
+        let runs = self.runs.iter_mut().zip(passes).enumerate();
+        let conclude = |(i, (run, mut pass)): (usize, (&mut Render, UnderWay))| {
             let watch = &mut |stage| watch(Step::Of(i, stage));
             let run = run.ppm_mut();
-            run.add_shadow_rays(&mut counts, watch);
-            run.accumulate(counts, watch)
+            run.add_shadow_rays(&mut pass, watch, NEVER).map_err(|_| Cancelled)?;
+            Ok(run.accumulate(pass, watch))
         };
-        Ok(runs.map(conclude).collect())
+        runs.map(conclude).collect()
     }
 
     /// The renders, in the order of their settings.
@@ -191,10 +196,10 @@ mod tests {
             together.advance(&mut |_| (), &cancel).expect("not cancelled");
         }
         for (settings, run) in settings.iter().zip(together.runs()) {
-            let alone = Ppm::start(Arc::clone(&scene), settings.clone(), &mut |_| (), &cancel);
+            let alone = Ppm::start(Arc::clone(&scene), settings.clone(), &|_| (), &mut |_| (), &cancel);
             let mut alone = alone.expect("not cancelled").with_batches_of(6_000);
             for _ in 0..3 {
-                alone.advance(&mut |_| (), &cancel).expect("not cancelled");
+                alone.advance(&mut |_| (), &cancel, NEVER).expect("not cancelled");
             }
             assert!(run.image() == alone.image() && run.ledger() == alone.ledger());
             assert!(alone.material_losses().iter().any(|loss| loss.truncated > 0.0));

@@ -5,7 +5,7 @@ use std::fmt;
 use foton_math::glam::DAffine3;
 
 /// A camera.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SensorDescription {
     /// The id in the file, or `sensor`, `sensor-2`, …
     pub name: String,

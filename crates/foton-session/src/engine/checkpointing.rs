@@ -19,6 +19,7 @@ impl Worker {
         if let Some(message) = self.why_not_over_the_scene(path) {
             return self.event(Event::Failed(message));
         }
+        self.settle();
         self.finish_checkpoint();
         match self.first_checkpoint(path) {
             Ok(keeper) => {
@@ -63,6 +64,9 @@ impl Worker {
 
     /// Writes the checkpoint for the last time.
     pub(super) fn finish_checkpoint(&mut self) {
+        if self.files.keeper.is_some() {
+            self.settle();
+        }
         let Some(mut keeper) = self.files.keeper.take() else { return };
         let written = self.rendered().map_or(Ok(()), |(render, _)| keeper.write_last(render.session()));
         if let Err(unwritten) = written {

@@ -199,11 +199,11 @@ pub enum Command {
     Steer(foton_integrator::SettingChange),
     /// Restarts with other settings.
     Configure(Configuration),
-    /// Finishes the pass under way and waits.
+    /// Waits, in the middle of a pass too.
     Pause,
     /// Goes on.
     Resume,
-    /// One pass, then waits.
+    /// One pass, or what is left of one, then waits.
     Step,
     /// Restarts with the same settings.
     Restart,
@@ -290,7 +290,7 @@ impl Command {
         )
     }
 
-    /// Whether the pass under way would be for nothing.
+    /// Whether a scene that is being built, or a small picture, would be for nothing.
     pub(super) const fn interrupts(&self) -> bool {
         matches!(
             self,

@@ -229,7 +229,11 @@ pub struct Frame {
     pub view: ViewMode,
     /// How the render stands.
     pub stats: RenderStats,
-    /// The settings as they are now.
+    /// How much of the pass under way is done, from 0 to 1.
+    pub pass_share: f64,
+    /// The share of the pixels that have their hit points, while those of the whole picture are collected.
+    pub collecting: Option<f64>,
+    /// The settings as they are now: α and photons of the next pass.
     pub settings: RenderSettings,
     /// Threads; `None`: as many as the machine has.
     pub threads: Option<usize>,

@@ -9,6 +9,7 @@ mod command;
 mod editable_scene;
 mod frame;
 mod history;
+mod kept;
 mod loader;
 mod newest;
 mod probe;
@@ -16,6 +17,7 @@ mod rates;
 mod render;
 mod run;
 mod setup;
+mod starting;
 mod teller;
 mod worker;
 mod writing;
@@ -78,7 +80,7 @@ impl Engine {
         Ok(Self { commands, frames, events, cancels, unwritten })
     }
 
-    /// Asks for something. Where the pass under way would be for nothing, it is discarded. Returns whether the engine is there
+    /// Asks for something. A pass under way makes way for it at once. Returns whether the engine is there
     /// and had room.
     pub fn send(&self, command: Command) -> bool {
         let (interrupts, writes) = (command.interrupts(), command.writes());
@@ -95,6 +97,7 @@ impl Engine {
         if interrupts {
             self.cancels.work.request();
         }
+        self.cancels.news.tell();
         sent
     }
 

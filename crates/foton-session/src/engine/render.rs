@@ -5,7 +5,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use foton_film::{Image, Plane};
-use foton_integrator::{Cancel, Cancelled, LayerKind, PpmSettings, Radii, Render, RenderSettings};
+use foton_integrator::{
+    Cancel, Cancelled, LayerKind, PpmSettings, Radii, Render, RenderSettings, ShouldSuspend,
+};
 use foton_math::Rgb;
 use foton_scene::Scene;
 use foton_scene::description::SensorDescription;
@@ -83,6 +85,10 @@ pub(super) struct LevelRender {
     session: Session,
     level: Level,
     rates: Rates,
+    /// How long the pass under way has taken so far.
+    pass_took: Duration,
+    /// Share of hit points without a photon in the preview that this render follows.
+    preview_share: f64,
     no_photon_share: f64,
     photons_in_pass: u64,
     /// Radii that were at the radius floor in the last pass.
@@ -98,10 +104,12 @@ impl LevelRender {
         sensors: &[SensorDescription],
         settings: &RenderSettings,
         pool: &Arc<ThreadPool>,
+        tell: &(dyn Fn(f64) + Sync),
         cancel: &Cancel,
     ) -> Result<Self, StartError> {
         if level == Level::Whole {
-            let session = Session::start_on(Arc::clone(pool), Arc::clone(scene), settings.clone(), cancel)?;
+            let (pool, scene) = (Arc::clone(pool), Arc::clone(scene));
+            let session = Session::start_on(pool, scene, settings.clone(), tell, cancel)?;
             return Ok(Self::over(session, level));
         }
         let mut sensors = sensors.to_vec();
@@ -123,7 +131,7 @@ impl LevelRender {
         };
         // Sensors that made a scene once make one at any size.
         let scene = Arc::new(scene.with_sensors(&sensors).map_err(|_| Cancelled)?);
-        Ok(Self::over(Session::start_on(Arc::clone(pool), scene, settings, cancel)?, level))
+        Ok(Self::over(Session::start_on(Arc::clone(pool), scene, settings, tell, cancel)?, level))
     }
 
     fn over(session: Session, level: Level) -> Self {
@@ -132,6 +140,8 @@ impl LevelRender {
             session,
             level,
             rates,
+            pass_took: Duration::ZERO,
+            preview_share: 1.0,
             no_photon_share: 1.0,
             photons_in_pass: 0,
             radii_at_floor: 0,
@@ -141,7 +151,24 @@ impl LevelRender {
 
     /// The render once its session has resumed a checkpoint: clocks, photons and rays are then the checkpoint's.
     pub(super) fn resumed(self) -> Self {
-        Self::over(self.session, self.level)
+        Self { preview_share: self.preview_share, ..Self::over(self.session, self.level) }
+    }
+
+    /// As the one that is shown instead of a preview, once it is better.
+    pub(super) fn after(self, preview: Option<&Self>) -> Self {
+        Self { preview_share: preview.map_or(1.0, |preview| preview.no_photon_share), ..self }
+    }
+
+    /// Whether the picture is better than that of the preview: few more hit points are still without a photon, if any, at more pixels.
+    /// After some passes, what is dark then will stay dark for a while.
+    pub(super) fn beats_its_preview(&self) -> bool {
+        const MORE: f64 = 0.02;
+        const PASSES: u64 = 16;
+        self.no_photon_share <= self.preview_share + MORE || self.render().passes() >= PASSES
+    }
+
+    pub(super) const fn level(&self) -> Level {
+        self.level
     }
 
     pub(super) fn is_whole(&self) -> bool {
@@ -174,15 +201,24 @@ impl LevelRender {
         self.session.elapsed()
     }
 
-    /// One pass; returns how long it took.
-    pub(super) fn advance(&mut self, cancel: &Cancel) -> Result<Duration, PassError> {
+    /// One pass, or a part of it; returns how long the pass took, once it is whole.
+    pub(super) fn advance(
+        &mut self,
+        should_suspend: ShouldSuspend<'_>,
+    ) -> Result<Option<Duration>, PassError> {
         let before = self.session.elapsed();
-        let report = self.session.advance(cancel)?;
+        let outcome = self.session.advance_unless(should_suspend, &Cancel::default());
+        self.pass_took += self.session.elapsed().saturating_sub(before);
+        let report = match outcome {
+            Ok(report) => report,
+            Err(PassError::Suspended(_)) => return Ok(None),
+            Err(error) => return Err(error),
+        };
         self.no_photon_share = report.no_photon_share;
         self.photons_in_pass = report.photons_in_pass;
         self.radii_at_floor = report.floored;
         self.rates.add(Mark::of(&self.session));
-        Ok(self.session.elapsed().saturating_sub(before))
+        Ok(Some(std::mem::take(&mut self.pass_took)))
     }
 
     /// What a person should know of the render, whose error is to fall to a goal.

@@ -25,6 +25,7 @@ impl Worker {
 
     /// Writes both pictures of the last pass into a folder.
     pub(super) fn snapshot(&mut self, folder: &Path) {
+        self.settle();
         if self.rendered().is_none() {
             return self.event(Event::Failed("there is no pass to save yet".to_owned()));
         }

@@ -3,6 +3,7 @@
 mod checkpoints;
 mod edits;
 mod history;
+mod pausing;
 mod regions;
 mod rig;
 

@@ -1,5 +1,7 @@
 //! The eye pass over all samples of all pixels.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use foton_math::{Cancel, Cancelled, Rgb, Stream};
 use rayon::prelude::*;
 
@@ -12,14 +14,21 @@ use crate::not_finite::{self, LeftOut, Quantity};
 const CHUNK: usize = 1024;
 
 impl EyePass<'_> {
-    /// Follows all samples of all pixels.
-    pub fn run(&self, cancel: &Cancel) -> Result<EyePaths, Cancelled> {
-        let pixels = self.sensor().width as usize * self.sensor().height as usize;
-        let parts: Vec<EyePaths> = (0..pixels.div_ceil(CHUNK))
+    /// Follows all samples of all pixels. `tell` is told by many threads what share of the pixels is done.
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub fn run(&self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Result<EyePaths, Cancelled> {
+        let done = AtomicUsize::new(0);
+        let all = self.sensor().width as usize * self.sensor().height as usize;
+        let parts: Vec<EyePaths> = (0..all.div_ceil(CHUNK))
             .into_par_iter()
             .map(|chunk| {
-                let pixels = (chunk * CHUNK..pixels.min((chunk + 1) * CHUNK)).map(|p| p as u32);
+                let pixels = (chunk * CHUNK..all.min((chunk + 1) * CHUNK)).map(|p| p as u32);
+                let of = pixels.len();
                 let part = self.follow(pixels, cancel);
+                let so_far = done.fetch_add(of, Ordering::Relaxed) + of;
+                tell(so_far as f64 / all as f64);
                 cancel.check().map(|()| part)
             })
             .collect::<Result<_, _>>()?;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use foton_math::{Cancel, Cancelled, Purpose, Ray, Stream};
+use foton_math::{Cancel, Purpose, Ray, ShouldSuspend, Stream, Suspended};
 use foton_scene::Hit;
 use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
@@ -11,7 +11,7 @@ use super::draws::{Draw, Draws};
 use super::pass::{Path, PhotonPass, WAVE};
 use crate::ledger::{Ledger, Loss, energy};
 use crate::light_use::LightUse;
-use crate::not_finite::{LeftOut, Quantity, Surface};
+use crate::not_finite::{Halt, LeftOut, Quantity, Surface};
 use crate::photon_map::{CHUNK, Chunk, PathClass};
 
 /// The work on a chunk, compiled for each instruction set; the best that the machine has is taken. No instruction set changes a
@@ -58,12 +58,31 @@ impl WithSimd for Follow<'_, '_> {
 }
 
 impl PhotonPass<'_> {
-    /// Emits and follows all photons of the batch into `chunks`, the same ones for any number of threads.
-    pub fn shoot(&self, chunks: &mut Vec<Chunk>, cancel: &Cancel) -> Result<(), Cancelled> {
+    /// Makes `chunks` ready for the photons of the batch.
+    pub fn begin(&self, chunks: &mut Vec<Chunk>) {
         let photons = self.batch.photons(self.photons);
         chunks.resize_with(photons.div_ceil(CHUNK) as usize, Chunk::default);
-        chunks.par_iter_mut().enumerate().try_for_each(|(i, chunk)| {
+        chunks.iter_mut().for_each(|chunk| chunk.is_traced = false);
+    }
+
+    /// Emits and follows all photons of the batch into `chunks`, the same ones for any number of threads; where that was suspended,
+    /// those that are left.
+    ///
+    /// # Errors
+    /// When cancelled or suspended.
+    pub fn shoot(
+        &self,
+        chunks: &mut [Chunk],
+        cancel: &Cancel,
+        should_suspend: ShouldSuspend<'_>,
+    ) -> Result<(), Halt> {
+        let photons = self.batch.photons(self.photons);
+        let left = chunks.par_iter_mut().enumerate().filter(|(_, chunk)| !chunk.is_traced);
+        left.try_for_each(|(i, chunk)| {
             cancel.check()?;
+            if should_suspend() {
+                return Err(Suspended.into());
+            }
             let first = i as u64 * CHUNK;
             chunk.photons.clear();
             chunk.cells.clear();
@@ -75,7 +94,8 @@ impl PhotonPass<'_> {
             chunk.losses.resize(self.scene.materials().len(), Loss::default());
             chunk.left_out = None;
             let range = first..photons.min(first + CHUNK);
-            self.arch.dispatch(Follow { pass: self, range, chunk });
+            self.arch.dispatch(Follow { pass: self, range, chunk: &mut *chunk });
+            chunk.is_traced = true;
             Ok(())
         })
     }

@@ -11,6 +11,8 @@ pub const CHUNK: u64 = 4096;
 /// What one task emits. Reused from pass to pass, so that photons need no new memory once it has grown.
 #[derive(Default)]
 pub struct Chunk {
+    /// Whether all its photons have been traced in the batch under way.
+    pub is_traced: bool,
     /// Photons that were stored, in the order of emission.
     pub photons: Vec<Photon>,
     /// Number of the cell of each photon.

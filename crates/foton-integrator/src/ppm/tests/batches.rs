@@ -28,13 +28,13 @@ fn settings() -> RenderSettings {
 }
 
 fn start(settings: RenderSettings, max_in_batch: u64) -> Ppm {
-    Ppm::start(scene(), settings, &mut |_| (), &Cancel::default())
+    Ppm::start(scene(), settings, &|_| (), &mut |_| (), &Cancel::default())
         .expect("not cancelled")
         .with_batches_of(max_in_batch)
 }
 
 fn advance(ppm: &mut Ppm) -> PassReport {
-    ppm.advance(&mut |_| (), &Cancel::default()).expect("not cancelled")
+    ppm.advance(&mut |_| (), &Cancel::default(), &|| false).expect("not cancelled")
 }
 
 /// Everything that passes have changed, and all layers.
@@ -132,7 +132,7 @@ fn a_pass_that_is_cancelled_between_its_batches_has_not_happened() {
             cancel.request();
         }
     };
-    assert!(ppm.advance(&mut watch, &cancel).is_err());
+    assert!(ppm.advance(&mut watch, &cancel, &|| false).is_err());
     assert!(traced == 3 && before == state(&ppm));
     advance(&mut ppm);
     let mut straight = start(settings(), MAX);
@@ -149,7 +149,7 @@ fn a_start_that_is_cancelled_ends_in_that_wherever_it_comes() {
     loop {
         let mut last = None;
         let mut watch = |stage| last = Some(stage);
-        let started = Ppm::start(scene(), settings(), &mut watch, &Cancel::after(questions));
+        let started = Ppm::start(scene(), settings(), &|_| (), &mut watch, &Cancel::after(questions));
         stages.extend(last);
         if started.is_ok() {
             break;

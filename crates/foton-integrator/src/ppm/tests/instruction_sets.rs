@@ -22,9 +22,10 @@ fn render(scene: &Arc<Scene>, arch: Arch) -> (Vec<[u32; 3]>, u64) {
         ..RenderSettings::default()
     };
     let cancel = Cancel::default();
-    let mut ppm = Ppm::start(scene.clone(), settings, &mut |_| (), &cancel).expect("not cancelled");
+    let mut ppm = Ppm::start(scene.clone(), settings, &|_| (), &mut |_| (), &cancel).expect("not cancelled");
     ppm.arch = arch;
-    let accepted = (0..3).map(|_| ppm.advance(&mut |_| (), &cancel).expect("not cancelled").accepted).sum();
+    let accepted =
+        (0..3).map(|_| ppm.advance(&mut |_| (), &cancel, &|| false).expect("not cancelled").accepted).sum();
     let image = ppm.image();
     (image.pixels.iter().map(|p| p.to_array().map(f32::to_bits)).collect(), accepted)
 }

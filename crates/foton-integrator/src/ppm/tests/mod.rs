@@ -3,6 +3,7 @@
 mod batches;
 mod instruction_sets;
 pub(super) mod scene;
+mod suspending;
 
 use super::algorithm::Ppm;
 

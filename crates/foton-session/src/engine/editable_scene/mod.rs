@@ -31,6 +31,19 @@ pub(super) enum Effect {
     Restart,
 }
 
+/// What is rendered: the same state is the same scene, seen from the same place.
+#[derive(Clone)]
+pub(super) struct SceneState {
+    description: Arc<SceneDescription>,
+    sensors: Vec<SensorDescription>,
+}
+
+impl PartialEq for SceneState {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.description, &other.description) && self.sensors == other.sensors
+    }
+}
+
 /// The camera of a sensor that was moved.
 struct MovedCamera {
     /// Index of the sensor.
@@ -117,6 +130,12 @@ impl EditableScene {
 
     pub(super) const fn description(&self) -> &Arc<SceneDescription> {
         &self.description
+    }
+
+    /// What is rendered, for comparison with what it was before or is afterwards; `None` while that is still to be built.
+    pub(super) fn state(&self) -> Option<SceneState> {
+        let state = || SceneState { description: Arc::clone(&self.built), sensors: self.sensors.clone() };
+        (!self.is_stale).then(state)
     }
 
     /// The scene's name and hash; the name says if it is not as in the file that was opened, saved elsewhere or not.

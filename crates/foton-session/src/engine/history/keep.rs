@@ -12,6 +12,7 @@ use crate::metadata;
 impl Worker {
     /// Keeps the pass that the render stands at, unless it is kept already.
     pub(in crate::engine) fn remember(&mut self) {
+        self.settle();
         let Some((render, _)) = self.rendered() else {
             return self.event(Event::Failed("there is no pass to keep yet".to_owned()));
         };
@@ -60,7 +61,7 @@ impl Worker {
     }
 
     /// Goes on from a pass that was kept: with its scene, camera, settings and state.
-    pub(in crate::engine) fn return_to(&mut self, id: u64) {
+    pub(in crate::engine) fn return_to_entry(&mut self, id: u64) {
         let Some(kept) = self.history.get(id).cloned() else {
             return self.event(Event::Failed("the history does not have that pass any more".to_owned()));
         };
@@ -80,10 +81,9 @@ impl Worker {
             return self.event(Event::Failed(message));
         }
         self.plan.settings = kept.settings;
-        let flow = self.plan.flow;
         self.restart();
-        // There is a pass to look at, and who has paused waits.
-        self.plan.flow = flow;
+        // There is a pass to look at: who has paused waits.
+        self.current.owes_a_pass = false;
         self.files.resuming = Some(kept.state);
         self.files.resuming_as = Some(kept.identity);
     }

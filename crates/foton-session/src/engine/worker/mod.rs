@@ -93,8 +93,9 @@ impl Worker {
     /// Runs until asked to quit, or until nobody holds the engine.
     pub(super) fn run(mut self) {
         loop {
-            // A request that comes from here on is for work that is still to begin: at worst a pass is traced twice.
+            // A request that comes from here on is for work that is still to begin: at worst something is begun twice.
             self.cancels.work.rearm();
+            self.cancels.news.forget();
             let Some(commands) = self.wait_for_commands() else { return };
             for command in commands {
                 if matches!(command, Command::Quit) {
@@ -130,13 +131,16 @@ impl Worker {
             self.guarded(|worker| worker.publish(true));
             let nothing = never();
             let opened = self.opening.as_ref().map_or(&nothing, |o| &o.result);
-            // What was opened stays in its channel: it is taken where commands are not waited for.
+            let never_started = never();
+            let started = self.current.starting.as_ref().map_or(&never_started, |s| &s.result);
+            // What was opened or started stays in its channel: it is taken where commands are not waited for.
             let mut wait = crossbeam_channel::Select::new();
             wait.recv(&self.channels.commands);
             wait.recv(opened);
+            wait.recv(started);
             wait.recv(self.history.gone());
-            if self.opening.is_some() {
-                // Building goes on, and the window shows how far it is.
+            if self.opening.is_some() || self.current.starting.is_some() {
+                // That goes on, and the window shows how far it is.
                 let _ = wait.ready_timeout(POLL);
                 self.published.unseen = true;
             } else {
@@ -155,6 +159,6 @@ impl Worker {
     pub(super) fn event(&self, event: Event) {
         // A window that does not read its events has other troubles.
         let _ = self.channels.events.try_send(event);
-        (self.setup.wake)();
+        self.teller.wake();
     }
 }

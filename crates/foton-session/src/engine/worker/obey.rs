@@ -1,10 +1,14 @@
 //! What commands do.
 
+use foton_integrator::SettingChange;
+
 use super::Worker;
 use super::state::Flow;
 use crate::engine::command::{Command, Configuration, Event, SceneEdit};
 use crate::engine::editable_scene::{EditableScene, Effect};
+use crate::engine::kept::Subject;
 use crate::engine::loader::Opening;
+use crate::engine::render::LevelRender;
 
 impl Worker {
     /// Does what a command asks for.
@@ -23,7 +27,10 @@ impl Worker {
                 }
             }
             Command::Configure(configuration) => self.configure(&configuration),
-            Command::Pause => self.plan.flow = Flow::Steps(0),
+            Command::Pause => {
+                self.plan.flow = Flow::Steps(0);
+                self.current.owes_a_pass = false;
+            }
             Command::Resume => self.plan.flow = Flow::Run,
             Command::Step => {
                 let left = if let Flow::Steps(n) = self.plan.flow { n } else { 0 };
@@ -34,17 +41,17 @@ impl Worker {
             Command::Camera { gesture, moving } => {
                 self.plan.moving = moving;
                 let sensor = self.plan.settings.sensor;
-                self.change_scene(|scene| scene.gesture(sensor, gesture));
+                self.change_view(|scene| scene.gesture(sensor, gesture));
             }
             Command::Moving(moving) => self.plan.moving = moving,
             Command::ResetCamera => {
                 self.plan.moving = false;
                 let sensor = self.plan.settings.sensor;
-                self.change_scene(|scene| scene.reset_camera(sensor));
+                self.change_view(|scene| scene.reset_camera(sensor));
             }
             Command::Choose(film) => {
                 let sensor = self.plan.settings.sensor;
-                self.change_scene(|scene| {
+                self.change_view(|scene| {
                     scene.choose(sensor, film);
                     Ok(Effect::None)
                 });
@@ -57,7 +64,7 @@ impl Worker {
             Command::SetLook(look) => self.files.look = look,
             Command::AutoSnapshots(folder) => self.files.auto_snapshots = folder,
             Command::Remember => self.remember(),
-            Command::ReturnTo(id) => self.return_to(id),
+            Command::ReturnTo(id) => self.return_to_entry(id),
             Command::ExportFilm { of, folder } => self.export_film(of, &folder),
             Command::Turntable { steps, passes, folder } => self.begin_turntable(steps, passes, &folder),
             Command::EndTurntable => {}
@@ -86,31 +93,94 @@ impl Worker {
             self.plan.threads = configuration.threads;
             self.current.pool = None;
         }
+        self.current.kept.clear();
         self.restart();
     }
 
     /// Restarts the render.
     pub(in crate::engine) fn restart(&mut self) {
+        self.end_render();
+        self.current.render = None;
+        self.current.owes_a_pass = self.plan.flow == Flow::Steps(0);
+    }
+
+    /// The render is no longer the one under way.
+    fn end_render(&mut self) {
         self.leave_checkpoint();
         self.files.resuming = None;
         self.files.resuming_as = None;
-        self.current.render = None;
+        self.current.starting = None;
+        self.current.subject = None;
+        self.current.owes_a_pass = false;
         self.current.number += 1;
         self.current.refused = false;
-        // There is always a pass to look at, paused or not.
-        if self.plan.flow == Flow::Steps(0) {
-            self.plan.flow = Flow::Steps(1);
-        }
     }
 
-    /// Changes the scene, and restarts where that changes the picture.
-    fn change_scene(&mut self, change: impl FnOnce(&mut EditableScene) -> Result<Effect, String>) {
+    /// Changes the camera, and restarts where that changes the picture.
+    fn change_view(&mut self, change: impl FnOnce(&mut EditableScene) -> Result<Effect, String>) {
         let Some(scene) = &mut self.scene else { return };
         match change(scene) {
             Ok(Effect::Restart) => self.restart(),
             Ok(Effect::None) => {}
             Err(message) => self.event(Event::Failed(message)),
         }
+    }
+
+    /// Changes the scene. Where that changes the picture, the render is kept for when the change is undone, and the one from before goes
+    /// on, if there is one of the scene as it is now.
+    fn change_scene(&mut self, change: impl FnOnce(&mut EditableScene) -> Result<Effect, String>) {
+        let Some(scene) = &mut self.scene else { return };
+        match change(scene) {
+            Ok(Effect::Restart) => {}
+            Ok(Effect::None) => return,
+            Err(message) => return self.event(Event::Failed(message)),
+        }
+        // As long as the checkpoint is not written, the render is the one under way.
+        self.leave_checkpoint();
+        let render = self.current.render.take().filter(|r| r.is_whole() && r.render().passes() > 0);
+        if let (Some(render), Some(subject)) = (render, self.current.subject.take()) {
+            self.keep(subject, render);
+        }
+        match self.subject().and_then(|now| Some((self.current.kept.take(&now)?, now))) {
+            Some((render, now)) => {
+                self.return_to(render);
+                self.current.subject = Some(now);
+            }
+            None => self.restart(),
+        }
+    }
+
+    /// What is rendered.
+    pub(super) fn subject(&self) -> Option<Subject> {
+        let scene = self.scene.as_ref()?;
+        let configuration = Configuration::of(&self.plan.settings, self.plan.threads, scene.region());
+        Some(Subject { scene: scene.state()?, configuration })
+    }
+
+    fn keep(&mut self, subject: Subject, render: LevelRender) {
+        // The next render takes about as much as this one.
+        let room = self.setup.memory_limit.map(|limit| limit - render.render().bytes() as f64);
+        let gone = self.current.kept.put(subject, render, room);
+        if gone > 0 {
+            let renders = if gone == 1 { "a render" } else { "renders" };
+            self.event(Event::Notice(format!(
+                "No memory to keep {renders} from before an edit: undo restarts it"
+            )));
+        }
+    }
+
+    /// Goes on with a render from before an edit, paused or not.
+    fn return_to(&mut self, mut render: LevelRender) {
+        self.end_render();
+        let (now, wanted) = (render.render().settings().ppm, self.plan.settings.ppm);
+        if now.alpha != wanted.alpha {
+            render.session_mut().render_mut().change(SettingChange::Alpha(wanted.alpha));
+        }
+        if now.photons_per_pass != wanted.photons_per_pass {
+            let change = SettingChange::PhotonsPerPass(wanted.photons_per_pass);
+            render.session_mut().render_mut().change(change);
+        }
+        self.current.render = Some(render);
     }
 
     fn edit(&mut self, edit: SceneEdit) {

@@ -4,13 +4,15 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::Worker;
-use super::state::Flow;
+use super::state::{Flow, PictureOf};
 use crate::engine::command::Region;
 use crate::engine::editable_scene::EditableScene;
 use crate::engine::frame::{Activity, Frame, RenderStats};
 use crate::engine::history::Turntable;
 use crate::engine::loader::Opening;
 use crate::engine::probe;
+use crate::engine::render::LevelRender;
+use crate::engine::starting::Starting;
 
 /// Frames are at least this far apart unless a person is waiting for one.
 const FRAME_GAP: Duration = Duration::from_millis(30);
@@ -35,9 +37,51 @@ impl Worker {
         match self.plan.flow {
             _ if self.plan.moving => Activity::Moving,
             _ if !render.is_whole() => Activity::Collecting,
-            Flow::Steps(0) => Activity::Paused,
+            Flow::Steps(0) if !self.current.owes_a_pass => Activity::Paused,
             Flow::Run if self.is_idle() => Activity::Done,
             _ => Activity::Rendering,
+        }
+    }
+
+    /// The whole render, once its hit points are collected.
+    fn whole(&self) -> Option<&LevelRender> {
+        self.current.render.as_ref().filter(|render| render.is_whole())
+    }
+
+    /// Takes the picture of the newest pass. That of a preview stays until there is a better one, unless a person is waiting for this pass.
+    fn renew_picture(&mut self) {
+        let waits = self.plan.flow != Flow::Run || self.is_idle();
+        let Some(render) = self.current.render.as_ref().filter(|r| r.render().passes() > 0) else { return };
+        let has_preview = self.published.pictured == self.current.number;
+        if render.is_whole() && has_preview && !waits && !render.beats_its_preview() {
+            return;
+        }
+        let of = PictureOf {
+            render: self.current.number,
+            level: render.level(),
+            passes: render.render().passes(),
+            mode: self.view.mode,
+        };
+        if self.published.picture_of != Some(of) {
+            self.published.picture = Some(render.picture(of.mode));
+            self.published.picture_of = Some(of);
+            self.published.pictured = of.render;
+            self.published.window = self.window();
+        }
+    }
+
+    /// How the whole render stands after its last pass.
+    fn stats(&mut self) -> RenderStats {
+        let (number, goal) = (self.current.number, self.plan.stop.error);
+        let whole = self.current.render.as_mut().filter(|r| r.is_whole() && r.render().passes() > 0);
+        let Some(render) = whole else { return RenderStats::default() };
+        let passes = render.render().passes();
+        match &mut self.published.stats {
+            Some((n, p, g, stats)) if (*n, *p, *g) == (number, passes, goal) => {
+                stats.elapsed = render.elapsed();
+                stats.clone()
+            }
+            stats => stats.insert((number, passes, goal, render.stats(goal))).3.clone(),
         }
     }
 
@@ -51,16 +95,13 @@ impl Worker {
             return;
         }
         let activity = self.activity();
+        self.renew_picture();
         let window = self.window();
-        let mut stats = RenderStats::default();
+        let stats = self.stats();
         let mut dots = Arc::default();
         let mut probed = None;
-        if let Some(render) = self.current.render.as_mut().filter(|r| r.render().passes() > 0) {
-            self.published.picture = Some(render.picture(self.view.mode));
-            self.published.pictured = self.current.number;
-            self.published.window = window;
+        if let Some(render) = self.current.render.as_ref().filter(|r| r.render().passes() > 0) {
             if render.is_whole() {
-                stats = render.stats(self.plan.stop.error);
                 if self.view.photons {
                     dots = Arc::new(probe::dots(render.render()));
                 }
@@ -87,6 +128,8 @@ impl Worker {
             picture: self.published.picture.clone(),
             view: self.view.mode,
             stats,
+            pass_share: self.whole().map_or(0.0, |render| render.render().pass_share()),
+            collecting: self.current.starting.as_ref().map(Starting::share),
             settings: self.plan.settings.clone(),
             threads: self.plan.threads,
             stop: self.plan.stop,

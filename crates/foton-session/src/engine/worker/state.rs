@@ -10,9 +10,11 @@ use rayon::ThreadPool;
 
 use crate::checkpoint::Keeper;
 use crate::engine::command::{Region, ViewMode};
-use crate::engine::frame::Picture;
-use crate::engine::render::LevelRender;
+use crate::engine::frame::{Picture, RenderStats};
+use crate::engine::kept::{Kept, Subject};
+use crate::engine::render::{Level, LevelRender};
 use crate::engine::run::Run;
+use crate::engine::starting::Starting;
 use crate::metadata::SceneIdentity;
 use crate::snapshot::Look;
 use crate::stop::StopRule;
@@ -42,6 +44,14 @@ pub(in crate::engine) struct Plan {
 #[derive(Default)]
 pub(in crate::engine) struct Current {
     pub(in crate::engine) render: Option<LevelRender>,
+    /// The whole render, while its hit points are collected.
+    pub(super) starting: Option<Starting>,
+    /// What the whole render is of.
+    pub(super) subject: Option<Subject>,
+    /// Those from before edits.
+    pub(super) kept: Kept,
+    /// There is always a pass to look at: one that was started anew in a pause is to have its first.
+    pub(in crate::engine) owes_a_pass: bool,
     /// Changes with each start.
     pub(in crate::engine) number: u64,
     /// A render that cannot start is not tried again until something changes.
@@ -76,11 +86,23 @@ pub(super) struct View {
     pub(super) probed: Option<[u32; 2]>,
 }
 
+/// What a picture is of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) struct PictureOf {
+    pub(super) render: u64,
+    pub(super) level: Level,
+    pub(super) passes: u64,
+    pub(super) mode: ViewMode,
+}
+
 /// What frames have carried.
 pub(super) struct Published {
     pub(super) frames: u64,
     /// The whole picture as it last was: retained while the next render has none.
     pub(super) picture: Option<Picture>,
+    pub(super) picture_of: Option<PictureOf>,
+    /// How a render stood after a pass, for one goal of its error.
+    pub(super) stats: Option<(u64, u64, Option<f64>, RenderStats)>,
     /// The render that it is of.
     pub(super) pictured: u64,
     /// The part of the whole image that it shows.
@@ -92,7 +114,15 @@ pub(super) struct Published {
 
 impl Default for Published {
     fn default() -> Self {
-        let window = Region { x: 0, y: 0, width: 0, height: 0 };
-        Self { frames: 0, picture: None, pictured: 0, window, last_frame: Instant::now(), unseen: true }
+        Self {
+            frames: 0,
+            picture: None,
+            picture_of: None,
+            stats: None,
+            pictured: 0,
+            window: Region { x: 0, y: 0, width: 0, height: 0 },
+            last_frame: Instant::now(),
+            unseen: true,
+        }
     }
 }

@@ -1,6 +1,9 @@
 //! What the engine does between commands: takes scenes that were opened, starts renders, and passes.
 
-use foton_integrator::RenderSettings;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use foton_integrator::{RenderSettings, ShouldSuspend};
 use foton_scene::Scene;
 
 use super::Worker;
@@ -9,8 +12,12 @@ use crate::engine::command::Event;
 use crate::engine::editable_scene::EditableScene;
 use crate::engine::loader::Ready;
 use crate::engine::render::{Level, LevelRender};
+use crate::engine::starting::Starting;
 use crate::session::{PassError, Session, StartError};
 use crate::threads::{self, Rank};
+
+/// A pass makes way for a frame that shows how far it is after this long.
+const SLICE: Duration = Duration::from_millis(200);
 
 impl Worker {
     /// Takes a scene that was opened meanwhile.
@@ -37,12 +44,30 @@ impl Worker {
         self.published.picture = None;
         self.view.probed = None;
         self.plan.flow = Flow::Run;
+        self.current.kept.clear();
         self.restart();
+    }
+
+    /// Takes a render whose hit points were collected meanwhile.
+    fn take_started(&mut self) {
+        let Some(started) = self.current.starting.as_ref().and_then(|s| s.result.try_recv().ok()) else {
+            return;
+        };
+        self.current.starting = None;
+        self.published.unseen = true;
+        match started {
+            Ok(Some(render)) => {
+                let render = render.after(self.current.render.as_ref());
+                self.current.render = self.resume_in(render);
+            }
+            Ok(None) => {}
+            Err(message) => self.refuse(message),
+        }
     }
 
     /// Whether there is nothing to do but wait.
     pub(super) fn is_idle(&self) -> bool {
-        if self.scene.is_none() || self.current.refused {
+        if self.scene.is_none() || self.current.refused || self.current.starting.is_some() {
             return true;
         }
         let Some(level) = &self.current.render else { return false };
@@ -50,7 +75,9 @@ impl Worker {
             return self.plan.moving && level.waits_for_a_move();
         }
         match self.plan.flow {
-            Flow::Steps(left) => left == 0,
+            Flow::Steps(left) => left == 0 && !self.current.owes_a_pass,
+            // A pass that was begun is finished, as everywhere.
+            Flow::Run if level.render().pass_share() > 0.0 => false,
             Flow::Run => {
                 if self.turntable.is_some() {
                     return false;
@@ -68,23 +95,22 @@ impl Worker {
 
     /// One step: a start or a pass.
     pub(super) fn work(&mut self) {
+        self.take_started();
         if self.is_idle() || !self.build_edited() {
             return;
         }
-        match self.due_level().map(|level| self.start(level)) {
-            Some(Ok(Some(render))) => {
-                self.published.unseen = true;
-                self.current.render = if render.is_whole() { self.resume_in(render) } else { Some(render) };
+        if let Some(level) = self.due_level() {
+            match self.start(level) {
+                Ok(Some(render)) => {
+                    self.published.unseen = true;
+                    self.current.render = Some(render);
+                }
+                Ok(None) => return,
+                Err(message) => return self.refuse(message),
             }
-            Some(Ok(None)) => return,
-            Some(Err(message)) => return self.refuse(message),
-            None => {}
         }
-        // A state that was taken back may be past the stop rule already.
-        if self.is_idle() {
-            return;
-        }
-        self.advance();
+        let (begin, news) = (Instant::now(), self.cancels.news.clone());
+        self.advance(&|| news.is_there() || begin.elapsed() > SLICE);
     }
 
     /// The level at which a render is to be started now, if any is.
@@ -97,18 +123,13 @@ impl Worker {
         }
     }
 
-    /// Starts a render at a level; `None` where that was cancelled.
+    /// Starts a render at a level; `None` where that was cancelled, or goes on elsewhere, as it does for the whole.
     fn start(&mut self, level: Level) -> Result<Option<LevelRender>, String> {
         // A small picture is there so soon that a frame without it would be drawn for nothing.
         if level != Level::Small || self.published.picture.is_none() {
             self.publish(true);
         }
         let Some(scene) = &self.scene else { return Ok(None) };
-        if level == Level::Whole
-            && let Some(message) = self.beyond_memory(scene.scene())
-        {
-            return Err(message);
-        }
         let pool = match &self.current.pool {
             Some(pool) => pool,
             None => {
@@ -116,12 +137,22 @@ impl Worker {
                 self.current.pool.insert(pool.map_err(|error| error.to_string())?)
             }
         };
-        let (settings, cancel) = (&self.plan.settings, &self.cancels.work);
-        match LevelRender::start(level, scene.scene(), &scene.rendered_sensors(), settings, pool, cancel) {
-            Ok(render) => Ok(Some(render)),
-            Err(StartError::Panicked(panic)) => Err(panic.to_string()),
-            Err(_) => Ok(None),
+        let (threads, limit, pool) = (self.plan.threads, self.setup.memory_limit, Arc::clone(pool));
+        let (settings, scene, sensors) =
+            (self.plan.settings.clone(), Arc::clone(scene.scene()), scene.rendered_sensors());
+        if level != Level::Whole {
+            let cancel = &self.cancels.work;
+            return started(LevelRender::start(level, &scene, &sensors, &settings, &pool, &|_| (), cancel));
         }
+        self.current.subject = self.subject();
+        self.current.starting = Some(Starting::begin(move |tell, cancel| {
+            if let Some(message) = beyond_memory(&scene, &settings, threads, limit) {
+                return Err(message);
+            }
+            let render = LevelRender::start(level, &scene, &[], &settings, &pool, tell, cancel);
+            started(render).map(|render| render.map(Box::new))
+        }));
+        Ok(None)
     }
 
     /// Builds the scene of an edit, if that was given up before. Whether there is a scene to render now.
@@ -145,12 +176,24 @@ impl Worker {
         pixels * u64::from(self.plan.settings.samples_per_pixel.get())
     }
 
-    /// One pass, and what is written after it.
-    fn advance(&mut self) {
+    /// Finishes a pass that has refined hit points already, so that what is written is of a whole pass. No photon is traced for that.
+    pub(in crate::engine) fn settle(&mut self) {
+        if self.current.render.as_ref().is_some_and(|render| render.render().has_refined()) {
+            self.advance(&|| false);
+        }
+    }
+
+    /// One pass, or a part of it, and what is written after it.
+    fn advance(&mut self, should_suspend: ShouldSuspend<'_>) {
         let Some(render) = &mut self.current.render else { return };
-        let took = match render.advance(&self.cancels.work) {
-            Ok(took) => took,
-            Err(PassError::Cancelled(_)) => return,
+        let took = match render.advance(should_suspend) {
+            Ok(Some(took)) => took,
+            Ok(None) => {
+                // The window shows how far the pass is.
+                self.published.unseen = true;
+                return;
+            }
+            Err(PassError::Cancelled(_) | PassError::Suspended(_)) => return,
             Err(PassError::Panicked(panic)) => {
                 // The picture of the passes before is still there to be saved; where it is not, the last frame stays.
                 if !panic.leaves_the_image_whole() {
@@ -165,8 +208,9 @@ impl Worker {
             return;
         }
         self.current.last_pass = took;
+        let was_owed = std::mem::take(&mut self.current.owes_a_pass);
         if let Flow::Steps(left) = &mut self.plan.flow {
-            *left = left.saturating_sub(1);
+            *left = left.saturating_sub(u64::from(!was_owed));
         }
         let due = render.render().passes().is_power_of_two();
         self.update_checkpoint();
@@ -181,11 +225,24 @@ impl Worker {
         self.current.refused = true;
         self.event(Event::Failed(message));
     }
+}
 
-    /// Why the whole render is refused, if it would take too much memory.
-    fn beyond_memory(&self, scene: &Scene) -> Option<String> {
-        let estimate = Session::estimate_memory(scene, &self.plan.settings, self.plan.threads);
-        let refusal = estimate.refusal(self.setup.memory_limit)?;
-        Some(format!("{refusal}. Fewer eye samples or photons a pass need less"))
+/// A render that started, `None` where that was cancelled, or why it cannot.
+fn started(outcome: Result<LevelRender, StartError>) -> Result<Option<LevelRender>, String> {
+    match outcome {
+        Ok(render) => Ok(Some(render)),
+        Err(StartError::Panicked(panic)) => Err(panic.to_string()),
+        Err(_) => Ok(None),
     }
+}
+
+/// Why the whole render is refused, if it would take too much memory.
+fn beyond_memory(
+    scene: &Scene,
+    settings: &RenderSettings,
+    threads: Option<usize>,
+    limit: Option<f64>,
+) -> Option<String> {
+    let refusal = Session::estimate_memory(scene, settings, threads).refusal(limit)?;
+    Some(format!("{refusal}. Fewer eye samples or photons a pass need less"))
 }

@@ -1,0 +1,94 @@
+//! A pass under way: how far it is and what it has counted, so that it can be left anywhere and gone on with.
+
+use foton_transport::Omissions;
+use foton_transport::light_paths::Batch;
+
+use super::counts::Counts;
+use super::settings::Alpha;
+use super::tally::Tally;
+
+/// What is to be done next in a batch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum NextStep {
+    /// Nothing has been done yet.
+    Begin,
+    /// Some photons have been traced.
+    Trace,
+    /// All of them have.
+    Sort,
+    /// They lie in the map; some hit points may have gathered them.
+    Gather,
+}
+
+/// A pass under way.
+pub(crate) struct UnderWay {
+    pub(super) counts: Counts,
+    /// That of the whole pass: a change takes effect with the next one.
+    pub(super) alpha: Alpha,
+    batches: Vec<Batch>,
+    /// Batches that are done.
+    done: usize,
+    pub(super) next: NextStep,
+    /// By block of packets, of those that have gathered the batch.
+    pub(super) tallies: Vec<Option<Tally>>,
+    /// By block of slots, rays and what they left out, of those that have direct light by shadow rays.
+    pub(super) shadow_rays: Vec<Option<(u64, Omissions)>>,
+    /// Whether shadow rays are done.
+    pub(super) is_lit: bool,
+}
+
+impl UnderWay {
+    /// At its very beginning.
+    pub(super) fn new(counts: Counts, alpha: Alpha, batches: Vec<Batch>) -> Self {
+        Self {
+            counts,
+            alpha,
+            batches,
+            done: 0,
+            next: NextStep::Begin,
+            tallies: Vec::new(),
+            shadow_rays: Vec::new(),
+            is_lit: false,
+        }
+    }
+
+    /// Photons of the pass.
+    pub(super) const fn photons(&self) -> u64 {
+        self.counts.photons
+    }
+
+    /// The batch that is to be worked on; `None` once all are done.
+    pub(super) fn batch(&self) -> Option<Batch> {
+        self.batches.get(self.done).copied()
+    }
+
+    /// The batch is done.
+    pub(super) fn end_batch(&mut self) {
+        self.done += 1;
+        self.next = NextStep::Begin;
+    }
+
+    /// Whether hit points have been refined, some or all: what they know then is of this pass, not of the one before.
+    pub(super) fn has_refined(&self) -> bool {
+        match self.batch() {
+            None => true,
+            Some(batch) => batch.is_last() && self.tallies.iter().any(Option::is_some),
+        }
+    }
+
+    /// How much of the pass is done, from 0 to 1, by batches, where `traced` is the share of the batch's photons that have been traced. Of a
+    /// batch, tracing counts for three quarters.
+    pub(super) fn share(&self, traced: f64) -> f64 {
+        let of_batch = match self.next {
+            _ if self.batch().is_none() => 0.0,
+            NextStep::Begin => 0.0,
+            NextStep::Trace => 0.75 * traced,
+            NextStep::Sort => 0.75,
+            NextStep::Gather => {
+                let done = self.tallies.iter().filter(|tally| tally.is_some()).count();
+                0.8 + 0.2 * done as f64 / self.tallies.len().max(1) as f64
+            }
+        };
+        (self.done as f64 + of_batch) / self.batches.len() as f64
+    }
+}
