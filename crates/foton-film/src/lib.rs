@@ -48,6 +48,6 @@ pub use exr_read::{decode_exr, read_exr, read_exr_within};
 pub use exr_write::write_exr;
 pub use image::{Image, Layer, LayerData, Plane};
 pub use metadata::{Metadata, MetadataError};
-pub use png_read::{read_png, read_png_within};
+pub use png_read::{decode_png, read_png, read_png_within};
 pub use png_write::write_png;
 pub use tone_map::ToneMap;

@@ -36,12 +36,19 @@ pub fn read_png(path: &Path) -> Result<Image, ReadError> {
 /// # Errors
 /// As [`read_png`], and where the file or its pixels would take more.
 pub fn read_png_within(path: &Path, memory: Option<u64>) -> Result<Image, ReadError> {
+    decode_png(path, &input::read(path, memory)?, memory)
+}
+
+/// [`read_png_within`] of a file's bytes; `path` names it in messages.
+///
+/// # Errors
+/// As [`read_png_within`].
+pub fn decode_png(path: &Path, bytes: &[u8], memory: Option<u64>) -> Result<Image, ReadError> {
     let malformed = |reason: String| ReadError::malformed(path, "PNG", &reason);
-    let bytes = input::read(path, memory)?;
     if !bytes.starts_with(b"\x89PNG") {
         return Err(malformed("it does not begin as one".into()));
     }
-    let mut decoder = Decoder::new_with_limits(Cursor::new(&bytes), Limits { bytes: MAX_BESIDE });
+    let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: MAX_BESIDE });
     decoder.set_transformations(Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(|cause| malformed(cause.to_string()))?;
     let (width, height) = (reader.info().width, reader.info().height);

@@ -13,4 +13,5 @@ mod present;
 mod state;
 mod window;
 
+pub use state::BuiltIn;
 pub use window::{Close, Options, WindowError, run};

@@ -1,9 +1,12 @@
 //! What is remembered from one time to the next: a small JSON file in the user's configuration folder. Never a reason to fail.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use foton_input::{Limit, Named, read_file};
 use serde_json::{Value, json};
+
+/// Scene files that are remembered at most.
+const MAX_RECENT: usize = 10;
 
 /// What is remembered.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +21,10 @@ pub(crate) struct Preferences {
     /// Where file dialogs begin.
     pub(crate) scene_folder: PathBuf,
     pub(crate) show_plots: bool,
+    /// Scene files that were opened, the last one first.
+    pub(crate) recent: Vec<PathBuf>,
+    /// How often the window was opened.
+    pub(crate) starts: u32,
 }
 
 impl Default for Preferences {
@@ -29,6 +36,8 @@ impl Default for Preferences {
             png_as_shown: true,
             scene_folder: PathBuf::from("."),
             show_plots: true,
+            recent: Vec::new(),
+            starts: 0,
         }
     }
 }
@@ -69,7 +78,19 @@ impl Preferences {
             png_as_shown: value["png_as_shown"].as_bool().unwrap_or(default.png_as_shown),
             scene_folder: folder("scene_folder", &default.scene_folder),
             show_plots: value["show_plots"].as_bool().unwrap_or(default.show_plots),
+            recent: value["recent"].as_array().map_or_else(Vec::new, |files| {
+                let files = files.iter().filter_map(|file| file.as_str().map(PathBuf::from));
+                files.filter(|file| file.is_absolute()).take(MAX_RECENT).collect()
+            }),
+            starts: value["starts"].as_u64().map_or(default.starts, |n| n.min(u32::MAX.into()) as u32),
         }
+    }
+
+    /// Puts a scene's file first among those that were opened.
+    pub(crate) fn remember(&mut self, file: &Path) {
+        self.recent.retain(|other| other != file);
+        self.recent.insert(0, file.to_owned());
+        self.recent.truncate(MAX_RECENT);
     }
 
     fn text(&self) -> String {
@@ -80,6 +101,8 @@ impl Preferences {
             "png_as_shown": self.png_as_shown,
             "scene_folder": self.scene_folder.to_string_lossy(),
             "show_plots": self.show_plots,
+            "recent": self.recent.iter().filter_map(|file| file.to_str()).collect::<Vec<_>>(),
+            "starts": self.starts,
         });
         format!("{value:#}\n")
     }
@@ -107,6 +130,8 @@ mod tests {
             dark: false,
             png_as_shown: false,
             snapshot_folder,
+            recent: vec!["/scenes/a.xml".into(), "/scenes/b.xml".into()],
+            starts: 3,
             ..Preferences::default()
         };
         assert_eq!(Preferences::parse(&preferences.text()), preferences);
@@ -119,5 +144,19 @@ mod tests {
         ] {
             assert_eq!(Preferences::parse(bad), Preferences::default(), "{bad}");
         }
+    }
+
+    #[test]
+    fn scenes_are_remembered_once_the_last_one_first() {
+        let mut preferences = Preferences::default();
+        for n in [1, 2, 3, 1] {
+            preferences.remember(Path::new(&format!("/scenes/{n}.xml")));
+        }
+        assert_eq!(
+            preferences.recent,
+            ["/scenes/1.xml", "/scenes/3.xml", "/scenes/2.xml"].map(PathBuf::from)
+        );
+        (0..40).for_each(|n| preferences.remember(Path::new(&format!("/scenes/{n}.xml"))));
+        assert_eq!(preferences.recent.len(), MAX_RECENT);
     }
 }

@@ -104,6 +104,25 @@ pub(crate) struct Choosing {
     pub(crate) to: [f64; 2],
 }
 
+/// A scene that ships with the program.
+#[derive(Clone, Debug)]
+pub struct BuiltIn {
+    /// Its name.
+    pub name: String,
+    /// A picture of it, as a PNG.
+    pub thumbnail: &'static [u8],
+}
+
+/// A picture of a scene in a menu.
+pub(crate) struct ScenePicture {
+    /// What it is of.
+    pub(crate) key: PathBuf,
+    /// When its file was written, if it has one.
+    pub(crate) written: Option<std::time::SystemTime>,
+    /// `None` where it cannot be read.
+    pub(crate) texture: Option<egui::TextureHandle>,
+}
+
 /// A value over time.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Trace {
@@ -186,7 +205,11 @@ pub(crate) struct State {
     pub(crate) traced: Traced,
     /// The scene's file changed on the disk.
     pub(crate) changed_on_disk: bool,
-    pub(crate) built_in: Vec<String>,
+    pub(crate) built_in: Vec<BuiltIn>,
+    /// Pictures of scenes in menus.
+    pub(crate) scene_pictures: Vec<ScenePicture>,
+    /// When the first hint was drawn, in seconds of the window's clock.
+    pub(crate) hinted: Option<f64>,
     /// Where controls are, in points, by name: for scripts that drive the window.
     pub(crate) places: Vec<(&'static str, egui::Rect)>,
     /// What there is to say of the adapter.
@@ -200,7 +223,7 @@ pub(crate) struct State {
 }
 
 impl State {
-    pub(crate) fn new(preferences: Preferences, built_in: Vec<String>) -> Self {
+    pub(crate) fn new(preferences: Preferences, built_in: Vec<BuiltIn>) -> Self {
         Self {
             frame: None,
             outbox: Vec::new(),
@@ -237,6 +260,8 @@ impl State {
             traced: Traced::default(),
             changed_on_disk: false,
             built_in,
+            scene_pictures: Vec::new(),
+            hinted: None,
             places: Vec::new(),
             adapter: String::new(),
             largest_texture: 8192,

@@ -21,6 +21,17 @@ pub fn cache() -> Option<PathBuf> {
     cache_of(|name| std::env::var_os(name).filter(|value| !value.is_empty()))
 }
 
+/// Where the small picture of a scene's file is kept; `None` without a home.
+#[must_use]
+pub fn thumbnail(scene: &Path) -> Option<PathBuf> {
+    // FNV-1a, 64 bits.
+    let bytes = scene.as_os_str().as_encoded_bytes();
+    let hash = bytes
+        .iter()
+        .fold(0xcbf2_9ce4_8422_2325_u64, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3));
+    Some(cache()?.join("thumbnails").join(format!("{hash:016x}.png")))
+}
+
 fn home_of(variable: &impl Fn(&str) -> Option<OsString>) -> Option<PathBuf> {
     let home = variable("HOME").or_else(|| variable("USERPROFILE")).map(PathBuf::from)?;
     home.is_absolute().then_some(home)

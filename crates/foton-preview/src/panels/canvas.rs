@@ -66,6 +66,7 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
             egui::Color32::WHITE,
         );
     }
+    super::hint::draw(ui, state, rect);
     if let Some(scale) = scale {
         legend::draw(&painter, rect, &scale);
     }

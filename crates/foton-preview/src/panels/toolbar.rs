@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use foton_film::ToneMap;
-use foton_session::engine::{Activity, BuildProgress, Command, ErrorPart, Source, ViewMode};
+use foton_session::engine::{Activity, BuildProgress, Command, ErrorPart, ViewMode};
 
-use super::{exposure, region};
+use super::{exposure, gallery, region};
 use crate::files::{CHECKPOINTS, FileDialog, SCENES};
 use crate::state::{DialogPurpose, Pinned, Placement, State};
 
@@ -30,13 +30,8 @@ fn scene_menu(ui: &mut egui::Ui, state: &mut State) {
         if ui.button("Open…").clicked() {
             open_dialog(state);
         }
-        ui.menu_button("Built in", |ui| {
-            for name in state.built_in.clone() {
-                if ui.button(&name).clicked() {
-                    state.ask(Command::Open(Source::BuiltIn(name)));
-                }
-            }
-        });
+        ui.menu_button("Open recent", |ui| gallery::recent(ui, state));
+        ui.menu_button("Gallery", |ui| gallery::built_in(ui, state));
         if ui.button("Save edited scene…").clicked() {
             save_dialog(state);
         }

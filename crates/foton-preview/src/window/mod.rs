@@ -7,6 +7,7 @@ mod event;
 mod frame_log;
 mod live;
 mod pace;
+mod recent;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -22,7 +23,7 @@ use event::UserEvent;
 use frame_log::FrameLog;
 
 use crate::preferences::Preferences;
-use crate::state::State;
+use crate::state::{BuiltIn, State};
 
 /// What to open, and with what.
 pub struct Options {
@@ -30,8 +31,8 @@ pub struct Options {
     pub scene: Source,
     /// How scenes are opened and saved.
     pub loader: Arc<dyn Loader>,
-    /// Names of the scenes that ship with the program.
-    pub built_in: Vec<String>,
+    /// Scenes that ship with the program.
+    pub built_in: Vec<BuiltIn>,
     /// Renders beyond this many bytes are refused.
     pub memory_limit: Option<f64>,
     /// Where to write a line for each frame drawn.
@@ -64,7 +65,9 @@ pub fn run(options: Options) -> Result<(), WindowError> {
     }));
     let engine = Engine::spawn(setup).map_err(|cause| WindowError::NoDisplay(cause.to_string()))?;
     engine.send(Command::Open(options.scene));
-    let state = State::new(Preferences::load(), options.built_in);
+    let mut preferences = Preferences::load();
+    preferences.starts = preferences.starts.saturating_add(1);
+    let state = State::new(preferences, options.built_in);
     let mut app = App::new(engine, proxy, state, log);
     let ended = events.run_app(&mut app);
     app.finish();

@@ -36,7 +36,7 @@ pub use frame::{
     Activity, BuildProgress, Dot, Frame, Picture, Probe, RenderStats, SceneFacts, Selection, SensorFacts,
     SurfaceNames,
 };
-pub use history::{HistoryEntry, Thumbnail};
+pub use history::{HistoryEntry, Thumbnail, shrunk};
 pub use loader::{Loaded, Loader};
 pub use setup::Setup;
 

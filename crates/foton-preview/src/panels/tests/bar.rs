@@ -6,8 +6,9 @@ use super::*;
 fn lists_choose_the_view_and_the_tone_map() {
     let mut harness = window(|_| ());
     choose(&mut harness, "Tone", ToneMap::AgX.name());
-    assert_eq!(asked(&mut harness), [""; 0], "nothing is rendered again");
-    assert_eq!(harness.state().tone_map, ToneMap::AgX);
+    let look = Look { tone_map: ToneMap::AgX, exposure_stops: 0.0 };
+    assert_asked(&mut harness, &Command::SetLook(look));
+    assert_eq!(harness.state().tone_map, ToneMap::AgX, "nothing is rendered again");
     choose(&mut harness, "Show", "Radius");
     assert_asked(&mut harness, &Command::SetView(ViewMode::Radius));
     assert!(harness.query_by_role_and_label(Role::Slider, "Exposure").is_none(), "measures are not exposed");
@@ -44,7 +45,7 @@ fn the_bar_pauses_steps_restarts_saves_and_opens() {
         assert_asked(&mut harness, &command);
     }
     click(&mut harness, Role::Button, "Scene");
-    click(&mut harness, Role::Button, "Built in");
+    click(&mut harness, Role::Button, "Gallery");
     click(&mut harness, Role::Button, "ring");
     assert_asked(&mut harness, &Command::Open(Source::BuiltIn("ring".into())));
     click(&mut harness, Role::Button, "Pin");
@@ -171,4 +172,24 @@ fn notices_go_and_errors_stay_until_they_are_closed() {
     assert_eq!(harness.state().messages.len(), 1);
     click(&mut harness, Role::Button, "Dismiss");
     assert!(harness.state().messages.is_empty());
+}
+
+#[test]
+fn scenes_of_before_are_offered_again() {
+    let menu = || {
+        let mut harness = window(|state| {
+            state.preferences.recent = vec!["/scenes/kitchen/scene.xml".into(), "/scenes/lamp.xml".into()];
+        });
+        click(&mut harness, Role::Button, "Scene");
+        click(&mut harness, Role::Button, "Open recent");
+        harness
+    };
+    let mut harness = menu();
+    assert!(harness.query_by_role_and_label(Role::Button, "lamp").is_some());
+    // A file that is just called scene goes by its folder.
+    click(&mut harness, Role::Button, "kitchen");
+    assert_asked(&mut harness, &Command::Open(Source::File("/scenes/kitchen/scene.xml".into())));
+    let mut harness = menu();
+    click(&mut harness, Role::Button, "Forget these");
+    assert!(harness.state().preferences.recent.is_empty());
 }

@@ -14,6 +14,7 @@ fn turn_wheel(harness: &mut Harness<'_, State>, at: egui::Pos2, by: f32) {
         delta: vec2(0.0, by),
         modifiers: Modifiers::NONE,
         phase: TouchPhase::Move,
+        source: egui::MouseWheelSource::Wheel,
     });
     harness.run_steps(30);
 }
@@ -179,4 +180,26 @@ fn the_dots_of_photons_have_a_legend() {
         area.map(&at).filter(|c| *c == [255, 215, 70]).count()
     };
     assert!(white(true) > 20 && white(false) == 0);
+}
+
+#[test]
+fn the_first_times_a_line_says_what_to_do_and_fades() {
+    let mut harness = window(|state| state.preferences.starts = 1);
+    let since = harness.state().hinted.expect("it was drawn");
+    let drawn = |starts, later: f64| {
+        let (at, canvas) = picture::drawn(|state| {
+            state.preferences.starts = starts;
+            state.hinted = Some(-later);
+        });
+        let row = canvas.bottom() - 44.0;
+        (0..300)
+            .map(|x| at(pos2(canvas.center().x - 150.0 + x as f32, row)))
+            .collect::<std::collections::BTreeSet<_>>()
+            .len()
+    };
+    assert!(drawn(1, 0.0) > 4, "words");
+    assert_eq!(drawn(1, 30.0), 1, "they are gone after a while");
+    assert_eq!(drawn(99, 0.0), 1, "and are not for those who know");
+    settle(&mut harness);
+    assert_eq!(harness.state().hinted, Some(since));
 }

@@ -31,7 +31,7 @@ use foton_session::{
 use foton_session::snapshot::Look;
 
 use crate::preferences::Preferences;
-use crate::state::State;
+use crate::state::{BuiltIn, State};
 
 /// Width and height of the image in pixels.
 const SIZE: [u32; 2] = [60, 40];
@@ -130,10 +130,17 @@ fn selection() -> Selection {
     }
 }
 
+/// Two scenes, of which one has a picture.
+fn built_in() -> Vec<BuiltIn> {
+    let scene = |name: &str, thumbnail| BuiltIn { name: name.into(), thumbnail };
+    let picture = include_bytes!("../../../../../assets/ring/thumbnail.png");
+    vec![scene("pool", &[]), scene("ring", picture)]
+}
+
 /// A window of 1280 × 800 points.
 fn window(change: impl FnOnce(&mut State)) -> Harness<'static, State> {
     // The picker of colours has a sign that no font here knows.
-    let mut state = State::new(Preferences::default(), vec!["pool".into(), "ring".into()]);
+    let mut state = State::new(Preferences::default(), built_in());
     state.frame = Some(frame());
     change(&mut state);
     let mut harness = Harness::builder()

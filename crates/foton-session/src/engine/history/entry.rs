@@ -27,17 +27,19 @@ impl Thumbnail {
     /// Of a picture, through exposure and tone map.
     #[must_use]
     pub fn of(image: &Image, look: Look) -> Self {
-        let shrink = (image.width.max(image.height)).div_ceil(SIDE).max(1);
-        let size = [image.width, image.height].map(|side| side.div_ceil(shrink));
-        let mut rgb = Vec::with_capacity(3 * size[0] as usize * size[1] as usize);
-        for y in 0..size[1] {
-            for x in 0..size[0] {
-                let c = mean(image, [x * shrink, y * shrink], shrink);
-                rgb.extend(tone_map::display(c, look.tone_map, look.exposure_stops));
-            }
-        }
-        Self { size, rgb }
+        let small = shrunk(image);
+        let shown = |&c: &Rgb| tone_map::display(c, look.tone_map, look.exposure_stops);
+        Self { size: [small.width, small.height], rgb: small.pixels.iter().flat_map(shown).collect() }
     }
+}
+
+/// A picture made small: means of squares of its pixels.
+#[must_use]
+pub fn shrunk(image: &Image) -> Image {
+    let shrink = (image.width.max(image.height)).div_ceil(SIDE).max(1);
+    let [width, height] = [image.width, image.height].map(|side| side.div_ceil(shrink));
+    let places = (0..height).flat_map(|y| (0..width).map(move |x| [x * shrink, y * shrink]));
+    Image { width, height, pixels: places.map(|at| mean(image, at, shrink)).collect() }
 }
 
 /// The mean of a square of pixels, as far as it is inside; pixels that are not finite count as black.

@@ -10,6 +10,6 @@ mod rooms;
 mod store;
 mod turntable;
 
-pub use entry::{HistoryEntry, Thumbnail};
+pub use entry::{HistoryEntry, Thumbnail, shrunk};
 pub(super) use store::History;
 pub(super) use turntable::Turntable;
