@@ -1,7 +1,7 @@
 //! `cargo xtask monkey`: random clicks, drags, wheels and keys in the real window for some minutes. Fails on an error in the
 //! log, on an end that nobody asked for, and on memory that grows.
 //!
-//! Not touched are the controls that ask for more memory (photons a pass, hit points a pixel), files and the end.
+//! Not touched are the controls that ask for more memory (photons/pass, samples/pixel), files and the end.
 #![allow(clippy::print_stdout, reason = "it talks to the person who started it")]
 
 use std::env;

@@ -118,6 +118,9 @@ fn the_image_is_the_mean_of_the_passes_weighted_by_photons_while_settings_change
     let mut sum = vec![0.0f64; 48 * 48];
     for pass in 0..6u32 {
         if pass == 2 {
+            // A slider on its way, and one that goes back to where it was.
+            render.change(SettingChange::Alpha(Alpha::new(0.3).expect("in range")));
+            render.change(SettingChange::PhotonsPerPass(NonZeroU32::new(90_000).expect("above 0")));
             render.change(SettingChange::Alpha(Alpha::new(0.9).expect("in range")));
             render.change(SettingChange::PhotonsPerPass(NonZeroU32::new(70_000).expect("above 0")));
         }
@@ -127,7 +130,14 @@ fn the_image_is_the_mean_of_the_passes_weighted_by_photons_while_settings_change
             *sum += f64::from(p.g) * report.photons_in_pass as f64;
         }
     }
-    assert_eq!(render.changes().iter().map(|(pass, _)| *pass).collect::<Vec<_>>(), [2, 2]);
+    let effective = [(2, "alpha=0.9".to_owned()), (2, "photons=70000".to_owned())];
+    assert_eq!(
+        render.changes().iter().map(|(pass, c)| (*pass, c.to_string())).collect::<Vec<_>>(),
+        effective
+    );
+    render.change(SettingChange::Alpha(Alpha::new(0.5).expect("in range")));
+    render.change(SettingChange::Alpha(Alpha::new(0.9).expect("in range")));
+    assert_eq!(render.changes().len(), 2, "what leads back is no change");
     let Some(foton_film::LayerData::Rgb(emission)) = render.layer(LayerKind::Emission).map(|l| l.channels)
     else {
         panic!("emission is colour")

@@ -232,14 +232,14 @@ fn what_is_saved_is_what_is_rendered(driver: &mut Driver, foton: &Path, scene: &
 }
 
 fn passes_go_on_while_alpha_moves(driver: &mut Driver) {
-    let [x, y, _, height] = driver.window.place("alpha");
+    let [x, y, width, height] = driver.window.place("alpha");
     let before = driver.window.frame("a frame", |f| Some((number(&f["pass"]), number(&f["render"]))));
-    driver.display.hand(&format!("mousemove {:.0} {:.0} mousedown 1", x + 66.0, y + height / 2.0));
+    driver.display.hand(&format!("mousemove {:.0} {:.0} mousedown 1", x + 0.66 * width, y + height / 2.0));
     let mut alphas = Vec::new();
     for step in 1..=5 {
         driver.display.hand(&format!(
             "mousemove {:.0} {:.0}",
-            x + 66.0 - 9.0 * f64::from(step),
+            x + (0.66 - 0.1 * f64::from(step)) * width,
             y + height / 2.0
         ));
         let last = alphas.last().copied().unwrap_or(1.0);

@@ -11,6 +11,7 @@ mod panels;
 mod preferences;
 mod present;
 mod state;
+mod themes;
 mod window;
 
 pub use state::BuiltIn;

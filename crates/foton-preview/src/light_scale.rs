@@ -16,12 +16,6 @@ pub(crate) const BARS: usize = (STOPS.end - STOPS.start) as usize * PER_STOP;
 /// Pixels that are looked at, at most: of larger pictures each n-th.
 const PIXELS: usize = 1 << 18;
 
-/// The share of the pixels that may be brighter than [`BRIGHT`] once the exposure is found.
-const BRIGHTER: f32 = 0.03;
-
-/// As what the brightest of the rest is exposed.
-const BRIGHT: f32 = 0.8;
-
 /// The histogram of a picture's luminance.
 #[derive(Clone)]
 pub(crate) struct LightScale {
@@ -57,28 +51,6 @@ impl LightScale {
         Arc::ptr_eq(&self.picture, picture)
     }
 
-    /// The luminance in stops that a share of the lit pixels exceeds; `None` in the dark.
-    fn exceeded_by(&self, share: f32) -> Option<f32> {
-        let lit = self.bars.iter().sum::<f32>() + self.beyond[1];
-        let mut above = self.beyond[1];
-        if lit <= 0.0 || above > share * lit {
-            return (lit > 0.0).then_some(STOPS.end as f32);
-        }
-        for (i, bar) in self.bars.iter().enumerate().rev() {
-            above += bar;
-            if above > share * lit {
-                return Some(STOPS.start as f32 + (i as f32 + 1.0) / PER_STOP as f32);
-            }
-        }
-        None
-    }
-
-    /// The exposure at which all but a few lit pixels keep below white, in tenths of stops; `None` in the dark.
-    pub(crate) fn exposure(&self) -> Option<f32> {
-        let bright = self.exceeded_by(BRIGHTER)?;
-        Some(((BRIGHT.log2() - bright) * 10.0).round() / 10.0)
-    }
-
     /// The share of the pixels above white at an exposure.
     pub(crate) fn above_white(&self, stops: f32) -> f32 {
         let white = |i: usize| STOPS.start as f32 + i as f32 / PER_STOP as f32 >= -stops;
@@ -106,20 +78,5 @@ mod tests {
         assert!(
             (scale.above_white(0.0) - 0.625).abs() < 1e-6 && (scale.above_white(-1.5) - 0.25).abs() < 1e-6
         );
-    }
-
-    #[test]
-    fn the_exposure_that_is_found_brings_light_below_white() {
-        let mut values = vec![64.0; 1000];
-        values.extend([1e6; 20]);
-        let stops = LightScale::of(&picture(&values)).exposure().expect("it is lit");
-        let shown = 64.0 * stops.exp2();
-        assert!(shown > 0.6 && shown < 0.85, "{stops}: {shown}");
-        assert_eq!(LightScale::of(&picture(&[0.0; 9])).exposure(), None);
-        // Black around what is lit does not count.
-        let mut small = vec![0.0; 5000];
-        small.extend([0.25; 50]);
-        let stops = LightScale::of(&picture(&small)).exposure().expect("it is lit");
-        assert!(0.25 * stops.exp2() < 0.85 && 0.25 * stops.exp2() > 0.6);
     }
 }

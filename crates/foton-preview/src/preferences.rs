@@ -20,7 +20,6 @@ pub(crate) struct Preferences {
     pub(crate) png_as_shown: bool,
     /// Where file dialogs begin.
     pub(crate) scene_folder: PathBuf,
-    pub(crate) show_plots: bool,
     /// Scene files that were opened, the last one first.
     pub(crate) recent: Vec<PathBuf>,
     /// How often the window was opened.
@@ -35,7 +34,6 @@ impl Default for Preferences {
             snapshot_folder: foton_session::folders::pictures(),
             png_as_shown: true,
             scene_folder: PathBuf::from("."),
-            show_plots: true,
             recent: Vec::new(),
             starts: 0,
         }
@@ -77,7 +75,6 @@ impl Preferences {
             snapshot_folder: folder("snapshot_folder", &default.snapshot_folder),
             png_as_shown: value["png_as_shown"].as_bool().unwrap_or(default.png_as_shown),
             scene_folder: folder("scene_folder", &default.scene_folder),
-            show_plots: value["show_plots"].as_bool().unwrap_or(default.show_plots),
             recent: value["recent"].as_array().map_or_else(Vec::new, |files| {
                 let files = files.iter().filter_map(|file| file.as_str().map(PathBuf::from));
                 files.filter(|file| file.is_absolute()).take(MAX_RECENT).collect()
@@ -100,7 +97,6 @@ impl Preferences {
             "snapshot_folder": self.snapshot_folder.to_string_lossy(),
             "png_as_shown": self.png_as_shown,
             "scene_folder": self.scene_folder.to_string_lossy(),
-            "show_plots": self.show_plots,
             "recent": self.recent.iter().filter_map(|file| file.to_str()).collect::<Vec<_>>(),
             "starts": self.starts,
         });

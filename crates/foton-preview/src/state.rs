@@ -197,10 +197,11 @@ pub(crate) struct State {
     pub(crate) moved_at: Option<f64>,
     /// The pixel under the pointer, as last told to the engine.
     pub(crate) probed: Option<[u32; 2]>,
-    pub(crate) rate: Trace,
-    pub(crate) radius: Trace,
-    /// Total error in per cent.
+    /// Total error in per cent, the upper end of its interval, and its parts.
     pub(crate) error: Trace,
+    pub(crate) upper_error: Trace,
+    pub(crate) noise: Trace,
+    pub(crate) bias: Trace,
     /// Where the traces end.
     pub(crate) traced: Traced,
     /// The scene's file changed on the disk.
@@ -218,8 +219,18 @@ pub(crate) struct State {
     pub(crate) largest_texture: u32,
     /// Someone asked for the end.
     pub(crate) wants_to_close: bool,
-    /// A configuration that is being edited and was not sent yet.
-    pub(crate) draft: Option<Configuration>,
+    /// A configuration that was not applied yet, and the one that it was made from.
+    pub(crate) draft: Option<(Configuration, Configuration)>,
+    /// The numbers of stop rules that are off: passes, seconds, per cent.
+    pub(crate) stop_values: [f64; 3],
+    /// Whether the picture has the window to itself.
+    pub(crate) hides_panels: bool,
+    /// Whether someone typed into a field in the last frame.
+    pub(crate) is_typing: bool,
+    /// Whether a control, and not the picture, had the keyboard's focus in the last frame.
+    pub(crate) has_focused_control: bool,
+    /// The widget that is the picture.
+    pub(crate) canvas: Option<egui::Id>,
 }
 
 impl State {
@@ -254,9 +265,10 @@ impl State {
             grip: Grip::None,
             moved_at: None,
             probed: None,
-            rate: Trace::default(),
-            radius: Trace::default(),
             error: Trace::default(),
+            upper_error: Trace::default(),
+            noise: Trace::default(),
+            bias: Trace::default(),
             traced: Traced::default(),
             changed_on_disk: false,
             built_in,
@@ -267,23 +279,26 @@ impl State {
             largest_texture: 8192,
             wants_to_close: false,
             draft: None,
+            stop_values: [64.0, 60.0, 2.0],
+            hides_panels: false,
+            is_typing: false,
+            has_focused_control: false,
+            canvas: None,
         }
     }
 
     /// Takes the newest frame.
     pub(crate) fn show(&mut self, frame: Frame) {
         let now = Traced { render: frame.render, pass: frame.stats.passes };
+        let traces = [&mut self.error, &mut self.upper_error, &mut self.noise, &mut self.bias];
         if frame.render != self.traced.render {
-            self.rate = Trace::default();
-            self.radius = Trace::default();
-            self.error = Trace::default();
-        }
-        if now != self.traced && frame.stats.passes > 1 {
+            traces.into_iter().for_each(|trace| *trace = Trace::default());
+        } else if now != self.traced
+            && let Some(e) = &frame.stats.error
+        {
             let seconds = frame.stats.elapsed.as_secs_f64();
-            self.rate.push(seconds, frame.stats.photons_per_s / 1e6);
-            self.radius.push(seconds, frame.stats.radii.median);
-            if let Some(error) = frame.stats.error {
-                self.error.push(seconds, 100.0 * error.total);
+            for (trace, share) in traces.into_iter().zip([e.total, e.high, e.noise, e.bias]) {
+                trace.push(seconds, 100.0 * share);
             }
         }
         self.traced = now;

@@ -1,4 +1,4 @@
-//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `versus`, `assets`, `pictures`, `bench`, `monkey`, `soak`, `kills`,
+//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `versus`, `assets`, `pictures`, `screenshots`, `bench`, `monkey`, `soak`, `kills`,
 //! `limits`, `loaded`, `mutations`, `miri`.
 //!
 //! Nothing here is part of the program; what a task does is in the module of its name.
@@ -30,6 +30,7 @@ cargo xtask calibrate [WHAT]        whether the live error can be believed; stop
                                     rules: what adaptive radii gain; floors: what the smallest radius costs; kernels: how other kernels compare with the box (many minutes)
 cargo xtask assets                  writes the generated meshes in assets/ again
 cargo xtask pictures [--window]     renders every scene in assets/ to docs/pictures, and the window (some minutes); or it alone
+cargo xtask screenshots [FOLDER]    the window in each state of its panels, both themes and several sizes (target/screenshots), to look at
 cargo xtask bench [WHAT]            how fast, on a quiet machine: whole (the benchmark box, stage by stage), parts (by criterion), scaling,
                                     wide, accuracy (error a processor second), census (what leaving parts out saves)
 cargo xtask monkey [--minutes N]    random clicks and keys in the window for N (10) minutes: no error, no memory that grows
@@ -61,6 +62,8 @@ fn main() -> ExitCode {
             .map_err(|cause| Trouble::Failed(cause.to_string())),
         ["pictures"] => pictures::render_all(),
         ["pictures", "--window"] => pictures::of_window(),
+        ["screenshots"] => program::screenshots(&tools::target_dir().join("screenshots")),
+        ["screenshots", folder] => program::screenshots(folder.as_ref()),
         ["monkey"] => program::monkey("10"),
         ["monkey", "--minutes", minutes] => program::monkey(minutes),
         ["kills"] => program::kills("200"),

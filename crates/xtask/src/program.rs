@@ -49,6 +49,15 @@ pub(crate) fn pictures(foton: &Path, folder: &Path) -> Result<(), Trouble> {
     example("window_pictures", foton, folder.as_os_str())
 }
 
+/// Pictures of each state of the window, drawn by the program at `foton`.
+///
+/// # Errors
+/// What could not be built, opened or written.
+pub(crate) fn screenshots(folder: &Path) -> Result<(), Trouble> {
+    tools::run(&mut tools::cargo(&["build", "--release", "--package", "foton"]))?;
+    example("screenshots", &foton("release"), folder.as_os_str())
+}
+
 /// The program of a profile.
 pub(crate) fn foton(profile: &str) -> PathBuf {
     tools::target_dir().join(profile).join(format!("foton{}", std::env::consts::EXE_SUFFIX))

@@ -125,6 +125,15 @@ impl Window {
     /// If the program cannot be started, or shows nothing.
     #[must_use]
     pub fn open(display: &Display, opening: &Opening<'_>) -> Self {
+        Self::open_scaled(display, opening, 1.0)
+    }
+
+    /// The same on a display with so many pixels a point along each side.
+    ///
+    /// # Panics
+    /// If the program cannot be started, or shows nothing.
+    #[must_use]
+    pub fn open_scaled(display: &Display, opening: &Opening<'_>, scale: f64) -> Self {
         let folder = opening.folder;
         let settings = folder.join("config/foton");
         fs::create_dir_all(&settings).expect("a folder");
@@ -137,6 +146,7 @@ impl Window {
         command.env("DISPLAY", &display.name).env_remove("WAYLAND_DISPLAY");
         command.env("XDG_CONFIG_HOME", folder.join("config")).env("XDG_CACHE_HOME", folder.join("cache"));
         command.env("HOME", folder);
+        command.env("WINIT_X11_SCALE_FACTOR", scale.to_string());
         command.envs(opening.fault.map(|fault| ("FOTON_FAULT", fault)));
         command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(errors);
         let process = command.spawn().unwrap_or_else(|e| panic!("{}: {e}", opening.foton.display()));

@@ -24,6 +24,7 @@ const STILL: f64 = 0.25;
 pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     state.place("canvas", &response);
+    state.canvas = Some(response.id);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Rendered image"));
     let Some(frame) = state.frame.clone() else {
         hint(ui, rect, "Open a scene, or drop a file here");

@@ -1,134 +1,81 @@
-//! Exposure: a slider that the wheel moves too, what suits the picture, and the histogram that shows why.
+//! The exposure: a view's own, in stops, set by hand or from the picture.
 
-use std::sync::Arc;
-
-use egui::{Color32, Rect, Sense, Vec2};
-use foton_film::Image;
+use egui::Ui;
 use foton_session::engine::Picture;
 
-use crate::light_scale::{BARS, LightScale, PER_STOP, STOPS};
+use super::icons::Icon;
+use super::number::{Change, Digits, Number};
+use super::slider::Slider;
+use super::{histogram, widgets};
 use crate::state::State;
 
-/// Points of the wheel for a stop.
-const WHEEL: f32 = 200.0;
+/// Stops either way that can be set.
+const MOST: f64 = 16.0;
 
-/// Width and height of the histogram.
-const SIZE: Vec2 = Vec2::new(256.0, 84.0);
+/// Stops either way that the slider reaches.
+const SLIDER: f64 = 8.0;
 
-/// Exposures that can be reached.
-const LIMIT: f32 = 30.0;
+/// The luminance that the middle of a picture's luminances, as the eye weighs them, is brought to.
+const MIDDLE_GREY: f64 = 0.18;
 
-/// The slider with its button.
-pub(super) fn control(ui: &mut egui::Ui, state: &mut State) {
-    let label = ui.label("Exposure");
-    let slider = egui::Slider::new(&mut state.exposure_stops, -8.0..=8.0)
-        .suffix(" stops")
-        .step_by(0.1)
-        .clamping(egui::SliderClamping::Never);
-    let slider = ui.add(slider).labelled_by(label.id);
-    state.place("exposure", &slider);
-    turn(ui, state, &slider);
-    slider.on_hover_text(
+pub(super) fn show(ui: &mut Ui, state: &mut State, has_slider: bool) {
+    widgets::icon(ui, Icon::Exposure, "Exposure");
+    let stops = f64::from(state.exposure_stops);
+    let number = Number::new("Exposure", -MOST..=MOST).unit("EV").digits(Digits::Decimals(1)).speed(0.05);
+    let number = number.width(64.0);
+    let (response, change) = if has_slider {
+        let ([slider, field], change) =
+            Slider::new("Exposure", -SLIDER..=SLIDER).width(80.0).show(ui, number, stops);
+        (slider | field, change)
+    } else {
+        number.show(ui, stops)
+    };
+    state.place("exposure", &response);
+    if response.enabled() {
+        histogram::turn(ui, state, &response);
+    }
+    response.on_hover_text(
         "Each stop doubles the light on the screen; nothing is rendered again. The wheel changes it too",
     );
-    let auto = ui.button("Auto").on_hover_text("The exposure at which all but a few pixels keep below white");
-    if auto.clicked() {
-        set_auto(state);
+    if let Some(Change::Moving(stops) | Change::Done(stops)) = change {
+        state.exposure_stops = ((stops * 10.0).round() / 10.0) as f32;
+    }
+    let auto = ui
+        .button("Auto")
+        .on_hover_text("Sets the exposure so that the picture is neither dark nor burnt out");
+    if auto.clicked()
+        && let Some(Picture::Colour(image)) = state.frame.as_ref().and_then(|f| f.picture.as_ref())
+        && let Some(stops) = automatic(image.pixels.iter().map(|c| f64::from(c.luminance())))
+    {
+        state.exposure_stops = stops;
     }
 }
 
-/// Sets the exposure that suits the picture.
-pub(super) fn set_auto(state: &mut State) {
-    match radiance(state).and_then(|image| scale(state, &image).exposure()) {
-        Some(stops) => state.exposure_stops = stops,
-        None => state.notice("There is no light in the picture to expose for"),
+/// The stops that bring the geometric mean of luminances to middle grey; `None` where all is black.
+fn automatic(luminances: impl Iterator<Item = f64>) -> Option<f32> {
+    let (mut sum, mut count) = (0.0, 0_u64);
+    for luminance in luminances.filter(|l| *l > 1e-9 && l.is_finite()) {
+        sum += luminance.log2();
+        count += 1;
     }
+    let mean = (count > 0).then(|| sum / count as f64)?;
+    let stops = (MIDDLE_GREY.log2() - mean).clamp(-MOST, MOST);
+    Some(((stops * 10.0).round() / 10.0) as f32)
 }
 
-/// The wheel over a control changes the exposure, by tenths of stops.
-fn turn(ui: &egui::Ui, state: &mut State, response: &egui::Response) {
-    if !response.contains_pointer() {
-        return;
-    }
-    let scroll = ui.input_mut(|i| std::mem::take(&mut i.smooth_scroll_delta)).y;
-    if scroll != 0.0 {
-        state.turned += scroll / WHEEL;
-        let tenths = (state.turned * 10.0).trunc();
-        state.turned -= tenths / 10.0;
-        change(state, tenths / 10.0);
-    }
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-fn change(state: &mut State, by: f32) {
-    let stops = ((state.exposure_stops + by) * 10.0).round() / 10.0;
-    state.exposure_stops = stops.clamp(-LIMIT, LIMIT);
-}
-
-/// The radiance on the screen, if it is that.
-fn radiance(state: &State) -> Option<Arc<Image>> {
-    match state.frame.as_ref()?.picture.as_ref()? {
-        Picture::Colour(image) => Some(Arc::clone(image)),
-        Picture::Measure { .. } => None,
-    }
-}
-
-/// How bright a picture is, worked out once.
-fn scale<'a>(state: &'a mut State, image: &Arc<Image>) -> &'a LightScale {
-    let known = state.light_scale.take().filter(|scale| scale.is_of(image));
-    state.light_scale.insert(known.unwrap_or_else(|| LightScale::of(image)))
-}
-
-/// The histogram over a corner of the picture, if it is wanted. Dragging it changes the exposure.
-pub(super) fn histogram(ctx: &egui::Context, state: &mut State, canvas: Rect) {
-    if !state.show_histogram {
-        return;
-    }
-    let Some(image) = radiance(state) else { return };
-    let area = egui::Area::new(egui::Id::unique("histogram")).constrain_to(canvas);
-    area.fixed_pos(canvas.left_top() + Vec2::splat(10.0)).show(ctx, |ui| {
-        egui::Frame::popup(ui.style()).show(ui, |ui| draw(ui, state, &image));
-    });
-}
-
-fn draw(ui: &mut egui::Ui, state: &mut State, image: &Arc<Image>) {
-    let (rect, response) = ui.allocate_exact_size(SIZE, Sense::drag());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Histogram"));
-    let per_point = (STOPS.end - STOPS.start) as f32 / rect.width();
-    if response.dragged() {
-        // What is held goes with the hand.
-        state.turned += response.drag_delta().x * per_point;
-        let tenths = (state.turned * 10.0).trunc();
-        state.turned -= tenths / 10.0;
-        change(state, tenths / 10.0);
-    }
-    turn(ui, state, &response);
-    let stops = state.exposure_stops;
-    let scale = scale(state, image);
-    let painter = ui.painter_at(rect);
-    let colour = ui.visuals().text_color();
-    // The scale is that of the screen: white stays where it is, and light moves under it.
-    let x = |of_light: f32| rect.left() + (of_light + stops - STOPS.start as f32) / per_point;
-    let white = rect.left() + (0.0 - STOPS.start as f32) / per_point;
-    painter.rect_filled(rect.with_min_x(white), 0.0, Color32::from_rgba_unmultiplied(255, 60, 60, 40));
-    let most = scale.bars.iter().copied().fold(1e-6, f32::max);
-    for (i, share) in scale.bars.iter().enumerate().filter(|(_, share)| **share > 0.0) {
-        let left = x(STOPS.start as f32 + i as f32 / PER_STOP as f32);
-        let width = rect.width() / BARS as f32;
-        let height = (share / most).sqrt() * rect.height();
-        let bar = Rect::from_min_max(
-            egui::pos2(left, rect.bottom() - height),
-            egui::pos2(left + width, rect.bottom()),
+    #[test]
+    fn an_automatic_exposure_brings_the_picture_to_middle_grey() {
+        assert_eq!(automatic([0.18, 0.18].into_iter()), Some(0.0));
+        assert_eq!(automatic([0.045, 0.18, 0.72].into_iter()), Some(0.0));
+        assert_eq!(
+            automatic([0.0225, 0.0, f64::NAN].into_iter()),
+            Some(3.0),
+            "what is black or no number does not count"
         );
-        painter.rect_filled(bar, 0.0, colour.gamma_multiply(0.75));
+        assert_eq!(automatic([0.0].into_iter()), None);
     }
-    for stop in (STOPS.start + 2..STOPS.end).step_by(2) {
-        let at = rect.left() + (stop - STOPS.start) as f32 / per_point;
-        let height = if stop == 0 { rect.height() } else { 4.0 };
-        painter.vline(at, rect.bottom() - height..=rect.bottom(), egui::Stroke::new(1.0, colour));
-    }
-    let (clipped, dark) = (100.0 * scale.above_white(stops), 100.0 * scale.beyond[0]);
-    ui.label(format!("{clipped:.1} % above white, {dark:.1} % without light")).on_hover_text(
-        "Pixels by luminance in stops, the line at the luminance that the screen shows as white without a tone map. Drag or turn \
-         the wheel to change the exposure",
-    );
 }

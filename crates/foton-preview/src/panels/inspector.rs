@@ -3,25 +3,34 @@
 use foton_edit::{Control, Field, Value};
 use foton_session::engine::{Command, SceneEdit};
 
-use super::widgets::{heading, slider};
+use super::number::{Change, Number};
+use super::slider::Slider;
 use crate::state::State;
 
 pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
-    let Some(selection) = state.frame.as_ref().and_then(|f| f.selection.clone()) else { return };
+    let Some(selection) = state.frame.as_ref().and_then(|f| f.selection.clone()) else {
+        if state.frame.is_some() {
+            ui.weak("Nothing selected. Click a shape or a light to edit it.");
+        }
+        return;
+    };
     let inspection = &selection.inspection;
     ui.add_space(6.0);
     ui.horizontal(|ui| {
-        ui.label(egui::RichText::new(&inspection.title).strong().size(16.0));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if ui.button("Close").on_hover_text("Nothing selected (Esc)").clicked() {
+            if ui.button("Deselect").on_hover_text("Esc").clicked() {
                 state.ask(Command::Choose(None));
             }
+            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                let title = egui::RichText::new(&inspection.title).strong().size(16.0);
+                ui.add(egui::Label::new(title).truncate());
+            });
         });
     });
-    ui.weak(&inspection.kind);
+    ui.add(egui::Label::new(egui::RichText::new(&inspection.kind).weak()).truncate());
     if let Some(material) = &inspection.material {
         ui.horizontal_wrapped(|ui| {
-            ui.label(format!("Material {}", material.name));
+            ui.add(egui::Label::new(format!("Material {}", material.name)).truncate());
             if material.shapes > 1 {
                 ui.weak(format!("shared by {} shapes", material.shapes));
                 let own = ui.button("Make its own").on_hover_text("Edits then change this shape alone");
@@ -31,11 +40,11 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
             }
         });
     }
-    heading(ui, "Properties");
-    ui.spacing_mut().slider_width = 64.0;
-    egui::Grid::new("fields").num_columns(2).min_col_width(112.0).show(ui, |ui| {
+    egui::Grid::new("fields").num_columns(2).min_col_width(96.0).show(ui, |ui| {
         for field in &inspection.fields {
-            show_field(ui, state, field);
+            // A text under edit belongs to what is selected, and to nothing that is selected later.
+            let salt = egui::Id::unique((format!("{:?}", selection.target), field.id)).value();
+            show_field(ui, state, field, salt);
             ui.end_row();
         }
     });
@@ -64,34 +73,17 @@ fn history(ui: &mut egui::Ui, state: &mut State) {
 }
 
 /// A row: the label, then the control that it names.
-fn show_field(ui: &mut egui::Ui, state: &mut State, field: &Field) {
+fn show_field(ui: &mut egui::Ui, state: &mut State, field: &Field, salt: u64) {
     let label = ui.label(field.label).on_hover_text(field.help).id;
     let mut set = |value: Value, done: bool| {
         state.ask(Command::Edit(SceneEdit::SetField { field: field.id, value, done }));
     };
     match (&field.control, field.value) {
         (Control::Number { min, max, logarithmic }, Value::Number(value)) => {
-            // What is nothing but rounding is no negative number.
-            let mut number = if value.abs() < 1e-12 { 0.0 } else { value };
-            let has_slider = *logarithmic || max - min <= 1000.0;
-            let response = ui.horizontal(|ui| {
-                let range = *min..=*max;
-                let track = has_slider.then(|| {
-                    let track = slider(&mut number, range.clone()).logarithmic(*logarithmic);
-                    ui.add(track.show_value(false)).labelled_by(label)
-                });
-                let speed = if has_slider { (max - min) * 1e-3 } else { (value.abs() * 0.005).max(1e-4) };
-                let speed = if *logarithmic { (value.abs() * 0.005).max(1e-6) } else { speed };
-                let unit = if field.unit.is_empty() { String::new() } else { format!(" {}", field.unit) };
-                let typed = egui::DragValue::new(&mut number).range(range).clamp_existing_to_range(false);
-                let typed = ui.add(typed.speed(speed).suffix(unit)).labelled_by(label);
-                track.map_or(typed.clone(), |track| track | typed)
-            });
-            let response = response.inner.on_hover_text(field.help);
-            if response.changed() && number.is_finite() {
-                set(Value::Number(number.clamp(*min, *max)), !response.dragged());
-            } else if response.drag_stopped() {
-                set(Value::Number(value), true);
+            match show_number(ui, field, salt, value, (*min, *max, *logarithmic)) {
+                Some(Change::Moving(number)) => set(Value::Number(number), false),
+                Some(Change::Done(number)) => set(Value::Number(number), true),
+                None => {}
             }
         }
         (Control::Colour, Value::Colour(colour)) => {
@@ -121,4 +113,32 @@ fn show_field(ui: &mut egui::Ui, state: &mut State, field: &Field) {
         }
         _ => {}
     }
+}
+
+/// A slider where the range is of use, and a field.
+fn show_number(
+    ui: &mut egui::Ui,
+    field: &Field,
+    salt: u64,
+    value: f64,
+    (min, max, logarithmic): (f64, f64, bool),
+) -> Option<Change> {
+    // What is nothing but rounding is no negative number.
+    let value = if value.abs() < 1e-12 { 0.0 } else { value };
+    let has_slider = logarithmic || max - min <= 1000.0;
+    let speed = if has_slider && !logarithmic { (max - min) * 1e-3 } else { (value.abs() * 0.005).max(1e-4) };
+    let number = Number::new(field.label, min..=max).salt(salt).unit(field.unit).speed(speed);
+    let (response, change) = ui
+        .horizontal(|ui| {
+            if has_slider {
+                let slider = Slider::new(field.label, min..=max).logarithmic(logarithmic);
+                let ([slider, field], change) = slider.salt(salt).width(56.0).show(ui, number, value);
+                (slider | field, change)
+            } else {
+                number.width(140.0).show(ui, value)
+            }
+        })
+        .inner;
+    response.on_hover_text(field.help);
+    change
 }

@@ -1,11 +1,12 @@
-//! Keyboard shortcuts. They rest while someone types.
+//! Keyboard shortcuts. They rest while someone types, and while a list, a menu or a dialog is open.
 
-use egui::{Key, Modifiers};
+use egui::{FocusDirection, Key, Modifiers};
 use foton_edit::DragMode;
-use foton_session::engine::{Activity, Command, Gesture, SceneEdit};
+use foton_session::engine::{Command, Gesture, SceneEdit};
 
-use super::toolbar::{PICTURES, open_dialog, save_dialog};
-use crate::state::{Grip, Pinned, Placement, State};
+use super::views::VIEWS;
+use super::{actions, typing};
+use crate::state::{Placement, State};
 
 /// What a key does.
 type Act = fn(&mut State);
@@ -13,89 +14,100 @@ type Act = fn(&mut State);
 /// How far a key flies, as a share of the distance to what the camera looks at.
 const STEP: f64 = 0.03;
 
+/// Keys with Ctrl that mean nothing in a text, and so work everywhere.
+const ANYWHERE: [(Key, Act); 4] = [
+    (Key::R, |s| s.ask(Command::Restart)),
+    (Key::O, actions::open_dialog),
+    (Key::S, actions::save_dialog),
+    (Key::Q, |s| s.wants_to_close = true),
+];
+
+/// Keys that are letters or signs.
+const LETTERS: [(Key, Act); 10] = [
+    (Key::Period, |s| s.ask(Command::Step)),
+    (Key::F, |s| s.placement = Placement::FIT),
+    (Key::H, |s| s.ask(Command::ResetCamera)),
+    (Key::P, actions::snapshot),
+    (Key::O, actions::toggle_photons),
+    (Key::K, actions::toggle_pin),
+    (Key::L, |s| s.show_histogram = !s.show_histogram),
+    (Key::C, |s| s.marks_clipping = !s.marks_clipping),
+    (Key::N, |s| s.ask(Command::Remember)),
+    (Key::T, |s| s.show_history = !s.show_history),
+];
+
+const DIGITS: [Key; 5] = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5];
+
 pub(super) fn obey(ui: &egui::Ui, state: &mut State) {
-    if state.dialog.is_some() || ui.ctx().egui_wants_keyboard_input() {
+    let is_typing = typing::is_under_way(ui.ctx(), state);
+    let is_modal = ui.memory(|m| m.top_modal_layer().is_some());
+    if state.dialog.is_some() || is_modal || egui::Popup::is_any_open(ui.ctx()) {
         return;
     }
     let pressed = |modifiers: Modifiers, key: Key| ui.input_mut(|i| i.consume_key(modifiers, key));
-    if pressed(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z) || pressed(Modifiers::COMMAND, Key::Y) {
-        state.ask(Command::Edit(SceneEdit::Redo));
-    }
-    let with_command: [(Key, Act); 5] = [
-        (Key::Z, |s| s.ask(Command::Edit(SceneEdit::Undo))),
-        (Key::R, |s| s.ask(Command::Restart)),
-        (Key::O, open_dialog),
-        (Key::S, save_dialog),
-        (Key::Q, |s| s.wants_to_close = true),
-    ];
-    for (key, act) in with_command {
+    for (key, act) in ANYWHERE {
         if pressed(Modifiers::COMMAND, key) {
             act(state);
         }
     }
+    if is_typing {
+        return;
+    }
+    if pressed(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z) || pressed(Modifiers::COMMAND, Key::Y) {
+        state.ask(Command::Edit(SceneEdit::Redo));
+    }
+    if pressed(Modifiers::COMMAND, Key::Z) {
+        state.ask(Command::Edit(SceneEdit::Undo));
+    }
     if ui.input(|i| i.events.iter().any(|e| matches!(e, egui::Event::Text(t) if t == "?"))) {
         state.show_help = !state.show_help;
     }
-    let plain: [(Key, Act); 12] = [
-        (Key::Space, toggle_pause),
-        (Key::Period, |s| s.ask(Command::Step)),
-        (Key::F, |s| s.placement = Placement::FIT),
-        (Key::H, |s| s.ask(Command::ResetCamera)),
-        (Key::P, |s| {
-            let folder = s.snapshot_folder();
-            s.ask(Command::Snapshot(folder));
-        }),
-        (Key::O, |s| {
-            s.show_photons = !s.show_photons;
-            s.ask(Command::ShowPhotons(s.show_photons));
-        }),
-        (Key::K, toggle_pin),
-        (Key::N, |s| s.ask(Command::Remember)),
-        (Key::T, |s| s.show_history = !s.show_history),
-        (Key::L, |s| s.show_histogram = !s.show_histogram),
-        (Key::C, |s| s.marks_clipping = !s.marks_clipping),
-        (Key::Escape, escape),
-    ];
-    for (key, act) in plain {
+    for (key, act) in LETTERS {
         if pressed(Modifiers::NONE, key) {
             act(state);
         }
     }
-    for (key, (_, view)) in [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5].into_iter().zip(PICTURES)
-    {
+    for (key, (_, view)) in DIGITS.into_iter().zip(VIEWS) {
         if pressed(Modifiers::NONE, key) {
             state.choose_view(view);
         }
     }
-    nudge(ui, state);
     fly(ui, state);
-}
-
-fn toggle_pause(state: &mut State) {
-    let waits = state.frame.as_ref().is_some_and(|f| matches!(f.activity, Activity::Paused | Activity::Done));
-    state.ask(if waits { Command::Resume } else { Command::Pause });
-}
-
-fn toggle_pin(state: &mut State) {
-    if state.pinned.take().is_some() {
+    // A control that has the focus needs the rest: Space presses it, arrows set it, Tab and Esc leave it.
+    let focused = ui.memory(|m| m.focused());
+    if state.has_focused_control || focused.is_some_and(|id| Some(id) != state.canvas) {
+        if pressed(Modifiers::NONE, Key::F6)
+            && let Some(canvas) = state.canvas
+        {
+            ui.memory_mut(|m| m.request_focus(canvas));
+        }
         return;
     }
-    let Some(frame) = &state.frame else { return };
-    let label = format!("pass {}", frame.stats.passes);
-    state.pinned = frame.picture.clone().map(|picture| Pinned { picture, label, entry: None });
+    without_focus(ui, state);
 }
 
-fn escape(state: &mut State) {
-    if state.show_help {
-        state.show_help = false;
-    } else if state.choosing_region.take().is_some() {
-        // That was to be given up.
-    } else if state.grip == Grip::Object {
-        state.grip = Grip::None;
-        state.ask(Command::Edit(SceneEdit::CancelDrag));
-    } else {
-        state.ask(Command::Choose(None));
+/// Keys that belong to a control, if one has the focus.
+fn without_focus(ui: &egui::Ui, state: &mut State) {
+    let pressed = |key: Key| ui.input_mut(|i| i.consume_key(Modifiers::NONE, key));
+    if pressed(Key::Space) {
+        actions::toggle_pause(state);
     }
+    if pressed(Key::Escape) {
+        actions::escape(state);
+    }
+    if pressed(Key::Tab) {
+        ui.memory_mut(|m| m.move_focus(FocusDirection::None));
+        state.hides_panels = !state.hides_panels;
+    }
+    if pressed(Key::F6) {
+        // Nothing has the focus then, and the first control takes it.
+        ui.memory_mut(|m| {
+            m.stop_text_input();
+            m.move_focus(FocusDirection::Next);
+        });
+        state.hides_panels = false;
+    }
+    nudge(ui, state);
 }
 
 fn nudge(ui: &egui::Ui, state: &mut State) {
@@ -112,6 +124,8 @@ fn nudge(ui: &egui::Ui, state: &mut State) {
     ];
     for (key, steps, mode) in steps {
         if ui.input_mut(|i| i.consume_key(Modifiers::NONE, key)) {
+            // The picture keeps the focus.
+            ui.memory_mut(|m| m.move_focus(FocusDirection::None));
             state.ask(Command::Edit(SceneEdit::Nudge { steps, mode }));
         }
     }

@@ -1,27 +1,40 @@
 //! The panels: pure functions of the window's state. What they ask for goes into its outbox.
 
+mod actions;
+mod camera;
 mod canvas;
-mod controls;
+mod convergence;
+mod diagnostics;
 mod dot_legend;
 mod dropping;
-mod error;
 mod exposure;
+mod figures;
 mod film_place;
 mod gallery;
 mod help;
 mod hint;
+mod histogram;
 mod history;
+mod icons;
 mod inspector;
 mod keys;
 mod legend;
+mod live;
+mod menu;
 mod messages;
+mod number;
+mod opening;
 mod output;
 mod overlay;
 mod pixel_values;
 mod region;
-mod stats;
+mod setup;
+mod slider;
+mod status;
 mod text;
 mod toolbar;
+mod typing;
+mod views;
 mod widgets;
 
 #[cfg(test)]
@@ -31,6 +44,28 @@ use foton_session::engine::Command;
 
 use crate::files::Outcome;
 use crate::state::{DialogPurpose, State};
+use widgets::{section, within};
+
+/// Height of the menu bar in points.
+const MENU: f32 = 26.0;
+
+/// Height of the toolbar in points.
+const TOOLBAR: f32 = 30.0;
+
+/// Height of the line at the bottom in points.
+const STATUS: f32 = 26.0;
+
+/// Height of the strip of kept passes in points.
+const HISTORY: f32 = 148.0;
+
+/// Widths of the panels at the sides in points, left and right; they go by the window alone.
+const WIDTHS: [f32; 2] = [264.0, 272.0];
+
+/// The same in a window of less than [`NARROW`].
+const NARROW_WIDTHS: [f32; 2] = [236.0, 236.0];
+
+/// Width of a window in points.
+const NARROW: f32 = 880.0;
 
 /// What the window is cleared to before [`show`] is drawn over it.
 pub(crate) fn ground(visuals: &egui::Visuals) -> egui::Color32 {
@@ -47,31 +82,73 @@ pub(crate) fn show(ui: &mut egui::Ui, state: &mut State) {
     // The window is cleared to the panels' colour (see `ground`), so that they need not be filled: on a software adapter egui's
     // shader takes some 60 ns of a core for each pixel, which makes fills the most of a frame.
     let frame = egui::Frame::side_top_panel(ui.style()).fill(egui::Color32::TRANSPARENT);
-    egui::Panel::top("toolbar").frame(frame).show(ui, |ui| toolbar::show(ui, state));
-    egui::Panel::bottom("status").frame(frame).show(ui, |ui| stats::status(ui, state));
-    if state.show_history {
-        egui::Panel::bottom("history").frame(frame).show(ui, |ui| history::show(ui, state));
+    let bar = frame.inner_margin(egui::Margin::symmetric(8, 2));
+    egui::Panel::top("menu")
+        .frame(bar)
+        .exact_size(MENU)
+        .show(ui, |ui| within(ui, |ui| menu::show(ui, state)));
+    egui::Panel::top("toolbar")
+        .frame(bar)
+        .exact_size(TOOLBAR)
+        .show(ui, |ui| within(ui, |ui| toolbar::show(ui, state)));
+    egui::Panel::bottom("status")
+        .frame(bar)
+        .exact_size(STATUS)
+        .show(ui, |ui| within(ui, |ui| status::show(ui, state)));
+    if state.show_history && !state.hides_panels {
+        let strip = egui::Panel::bottom("history").frame(frame).resizable(false).exact_size(HISTORY);
+        strip.show(ui, |ui| within(ui, |ui| history::show(ui, state)));
     }
-    let controls = egui::Panel::left("controls").frame(frame);
-    controls.default_size(300.0).size_range(260.0..=440.0).show(ui, |ui| {
-        egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            controls::show(ui, state);
-            stats::show(ui, state);
-        });
-    });
-    if state.frame.as_ref().is_some_and(|f| f.selection.is_some()) {
-        let inspector = egui::Panel::right("inspector").frame(frame);
-        inspector.default_size(280.0).size_range(240.0..=440.0).show(ui, |ui| {
-            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| inspector::show(ui, state));
-        });
+    if !state.hides_panels {
+        // Of constant width: the picture stays where it is, whatever they show.
+        let widths = if ui.available_width() < NARROW { NARROW_WIDTHS } else { WIDTHS };
+        let side = |panel: egui::Panel, width: f32| panel.frame(frame).resizable(false).exact_size(width);
+        side(egui::Panel::left("left"), widths[0]).show(ui, |ui| within(ui, |ui| left(ui, state)));
+        side(egui::Panel::right("right"), widths[1]).show(ui, |ui| within(ui, |ui| right(ui, state)));
     }
     let canvas =
         egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| canvas::show(ui, state));
-    exposure::histogram(ui.ctx(), state, canvas.response.rect);
+    histogram::show(ui.ctx(), state, canvas.response.rect);
     messages::show(ui.ctx(), state);
     help::show(ui.ctx(), state);
     dialog(ui.ctx(), state);
     dropping::show(ui.ctx(), canvas.response.rect);
+    state.is_typing = ui.ctx().text_edit_focused();
+    state.has_focused_control = ui.memory(|m| m.focused()).is_some_and(|id| Some(id) != state.canvas);
+}
+
+/// The panel at the left: what is in the scene, and the settings.
+fn left(ui: &mut egui::Ui, state: &mut State) {
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        if state.frame.is_none() {
+            ui.label("No scene yet: open one, or drop a file here.");
+            return;
+        }
+        section(ui, "Live", true, |ui| live::show(ui, state));
+        section(ui, "Camera", true, |ui| camera::show(ui, state));
+        section(ui, "Settings (restart)", true, |ui| setup::show(ui, state));
+        section(ui, "Output", true, |ui| output::show(ui, state));
+    });
+}
+
+/// The panel at the right: the selection, and below it how the render does.
+fn right(ui: &mut egui::Ui, state: &mut State) {
+    let most = ui.available_height() * 0.6;
+    let below = egui::Panel::bottom("progress").frame(egui::Frame::NONE);
+    below.show(ui, |ui| {
+        egui::ScrollArea::vertical().id_salt("progress").max_height(most).auto_shrink([false, true]).show(
+            ui,
+            |ui| {
+                section(ui, "Convergence", true, |ui| convergence::show(ui, state));
+                let header = section(ui, "Diagnostics", false, |ui| diagnostics::show(ui, state));
+                state.place("diagnostics", &header);
+            },
+        );
+    });
+    egui::ScrollArea::vertical()
+        .id_salt("selection")
+        .auto_shrink(false)
+        .show(ui, |ui| inspector::show(ui, state));
 }
 
 fn dialog(ctx: &egui::Context, state: &mut State) {

@@ -11,23 +11,19 @@ const LEAST: u32 = 4;
 
 const EDGE: Color32 = Color32::from_rgb(120, 220, 255);
 
-/// The button that begins or ends it.
-pub(super) fn button(ui: &mut egui::Ui, state: &mut State) {
-    let is_chosen = state.frame.as_ref().is_some_and(|f| f.region.is_some());
-    if is_chosen {
-        let whole = ui.button("Whole image").on_hover_text("Renders all of the image again (restart)");
-        if whole.clicked() {
-            configure(state, None);
-        }
-        return;
-    }
-    let mut is_choosing = state.choosing_region.is_some();
-    let region = ui.toggle_value(&mut is_choosing, "Region").on_hover_text(
-        "Drag out a part of the image, which is then rendered alone (restart), as `foton render --region` does",
+/// The entry of a menu that begins it, or renders all of the image again.
+pub(super) fn entry(ui: &mut egui::Ui, state: &mut State) {
+    let frame = state.frame.as_ref();
+    let is_chosen = frame.is_some_and(|f| f.region.is_some());
+    let label = if is_chosen { "Render the whole image" } else { "Render a region…" };
+    let entry = ui.add_enabled(frame.is_some(), egui::Button::new(label)).on_hover_text(
+        "A part of the image, dragged out over the picture, is rendered alone, as `foton render --region` does. Restarts the render",
     );
-    state.place("region", &region);
-    if region.changed() {
-        state.choosing_region = is_choosing.then(Choosing::default);
+    if entry.clicked() && is_chosen {
+        configure(state, None);
+    } else if entry.clicked() {
+        state.choosing_region = Some(Choosing::default());
+        state.notice("Drag out the part of the image to render; Esc gives up");
     }
 }
 

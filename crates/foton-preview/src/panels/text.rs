@@ -25,9 +25,33 @@ pub(super) fn short(x: f64) -> String {
     }
 }
 
+/// "3.1 %".
+pub(super) fn percent(share: f64) -> String {
+    let digits = if share < 0.1 { 2 } else { 1 };
+    format!("{:.digits$} %", 100.0 * share)
+}
+
+/// A name of at most so many characters, its middle left out where it has more: names often differ at their ends.
+pub(super) fn shortened(name: &str, most: usize) -> String {
+    let count = name.chars().count();
+    if count <= most {
+        return name.to_owned();
+    }
+    let end = (most - 1) / 2;
+    let begin = most - 1 - end;
+    name.chars().take(begin).chain(['…']).chain(name.chars().skip(count - end)).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn long_names_lose_their_middles() {
+        assert_eq!(shortened("ring", 9), "ring");
+        assert_eq!(shortened("glass-and-ring-edited", 9), "glas…ited");
+        assert_eq!(shortened("größer als überall", 9).chars().count(), 9);
+    }
 
     #[test]
     fn numbers_are_short_and_grouped() {

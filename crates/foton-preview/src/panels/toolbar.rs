@@ -1,239 +1,138 @@
-//! The bar on top: scene, run, snapshot, view.
+//! The toolbar: what is used all the time, as icons with labels. It has one line, whatever is shown.
 
-use std::path::PathBuf;
-
+use egui::Ui;
 use foton_film::ToneMap;
-use foton_session::engine::{Activity, BuildProgress, Command, ErrorPart, ViewMode};
+use foton_session::engine::Command;
 
-use super::{exposure, gallery, region};
-use crate::files::{CHECKPOINTS, FileDialog, SCENES};
-use crate::state::{DialogPurpose, Pinned, Placement, State};
+use super::icons::Icon;
+use super::widgets::{self, Tool};
+use super::{actions, exposure, views};
+use crate::state::State;
 
-pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
-    ui.horizontal_wrapped(|ui| {
-        scene_menu(ui, state);
-        ui.separator();
-        run(ui, state);
-        ui.separator();
-        view(ui, state);
-        ui.separator();
-        compare(ui, state);
-        let help = ui.button("?").on_hover_text("Keys and gestures (?)");
-        if help.clicked() {
-            state.show_help = !state.show_help;
-        }
+/// How much there is room for.
+#[derive(Clone, Copy)]
+struct Room {
+    /// Labels of what runs the render.
+    main_labels: bool,
+    /// Labels of what is looked at.
+    view_labels: bool,
+    /// A slider of the exposure.
+    slider: bool,
+}
+
+impl Room {
+    /// In so many points.
+    fn in_width(width: f32) -> Self {
+        Self { main_labels: width >= 840.0, view_labels: width >= 1040.0, slider: width >= 1140.0 }
+    }
+}
+
+pub(super) fn show(ui: &mut Ui, state: &mut State) {
+    let room = Room::in_width(ui.available_width());
+    egui::ScrollArea::horizontal().auto_shrink([false, true]).show(ui, |ui| {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 4.0;
+            run(ui, state, room);
+            ui.separator();
+            view(ui, state, room);
+            light(ui, state, room);
+            ui.separator();
+            pin(ui, state, room);
+        });
     });
 }
 
-fn scene_menu(ui: &mut egui::Ui, state: &mut State) {
-    ui.menu_button("Scene", |ui| {
-        if ui.button("Open…").clicked() {
-            open_dialog(state);
-        }
-        ui.menu_button("Open recent", |ui| gallery::recent(ui, state));
-        ui.menu_button("Gallery", |ui| gallery::built_in(ui, state));
-        if ui.button("Save edited scene…").clicked() {
-            save_dialog(state);
-        }
-        checkpoints(ui, state);
-        let xml =
-            state.frame.as_ref().and_then(|f| f.scene.sensors.get(f.settings.sensor)).map(|s| s.xml.clone());
-        let copy = ui.add_enabled(xml.is_some(), egui::Button::new("Copy camera as XML"));
-        if let Some(xml) = xml.filter(|_| copy.clicked()) {
-            ui.ctx().copy_text(xml);
-            state.notice("The camera is on the clipboard, as Mitsuba XML");
-        }
-        ui.separator();
-        ui.checkbox(&mut state.preferences.dark, "Dark colours");
-    });
-    if state.changed_on_disk
-        && ui.button("Reload").on_hover_text("The scene's file has changed on the disk").clicked()
-    {
-        state.changed_on_disk = false;
-        state.reloads = true;
-        if let Some(file) = state.frame.as_ref().and_then(|f| f.scene.file.clone()) {
-            state.open(file);
-        }
-    }
-    let opening = state.frame.as_ref().and_then(|f| f.opening.clone().map(|name| (name, f.building)));
-    if let Some((name, building)) = opening {
-        ui.spinner();
-        ui.label(format!("Opening {name}"));
-        if let Some(BuildProgress { step, share }) = building {
-            ui.add(egui::ProgressBar::new(share as f32).desired_width(160.0).text(step.text()));
-        }
-        if ui.button("Cancel").clicked() {
-            state.ask(Command::CancelOpen);
-        }
-    }
-}
-
-pub(super) fn open_dialog(state: &mut State) {
-    state.dialog =
-        Some((DialogPurpose::OpenScene, FileDialog::open(&state.preferences.scene_folder, SCENES)));
-}
-
-pub(super) fn save_dialog(state: &mut State) {
-    let path = beside_the_scene(state, "-edited.xml");
-    state.dialog = Some((DialogPurpose::SaveScene, FileDialog::save(&path, &["xml"])));
-}
-
-/// Where what belongs to the scene is looked for first: its own folder if it has one.
-fn beside_the_scene(state: &State, ending: &str) -> PathBuf {
-    let scene = state.frame.as_ref().map(|f| &f.scene);
-    let name = scene.map_or("scene", |s| s.name.as_str());
-    let stem = name.strip_suffix(".xml").unwrap_or(name);
-    let file = scene.and_then(|s| s.file.as_ref());
-    let folder = file.and_then(|f| f.parent()).unwrap_or(&state.preferences.scene_folder);
-    folder.join(format!("{stem}{ending}"))
-}
-
-fn checkpoints(ui: &mut egui::Ui, state: &mut State) {
-    let keep = ui.button("Keep a checkpoint…").on_hover_text(
-        "The state of this render in a file, brought up to date every 30 s and at the end, until it restarts; \
-         `foton render --resume` reads it too",
-    );
-    if keep.clicked() {
-        let path = beside_the_scene(state, ".checkpoint");
-        state.dialog = Some((DialogPurpose::KeepCheckpoint, FileDialog::save(&path, CHECKPOINTS)));
-    }
-    let resume_in = ui.button("Resume a checkpoint…").on_hover_text(
-        "The checkpoint must have this scene, radius, direct light, eye samples per pixel and seed; the result is bit-identical to an uninterrupted render",
-    );
-    if resume_in.clicked() {
-        let dialog =
-            FileDialog::open(beside_the_scene(state, "").parent().unwrap_or("".as_ref()), CHECKPOINTS);
-        state.dialog = Some((DialogPurpose::ResumeCheckpoint, dialog));
-    }
-}
-
-fn run(ui: &mut egui::Ui, state: &mut State) {
-    let activity = state.frame.as_ref().map_or(Activity::Empty, |f| f.activity);
-    let waits = matches!(activity, Activity::Paused | Activity::Done);
-    let (label, command) = if waits { ("Resume", Command::Resume) } else { ("Pause", Command::Pause) };
-    let there = activity != Activity::Empty;
-    let pause =
-        ui.add_enabled(there, egui::Button::new(label)).on_hover_text("After the pass under way (space)");
+fn run(ui: &mut Ui, state: &mut State, room: Room) {
+    let tool = |icon, label| Tool { is_short: !room.main_labels, ..Tool::new(icon, label) };
+    let (there, waits) = (actions::has_scene(state), actions::waits(state));
+    let (icon, label) = if waits { (Icon::Play, "Resume") } else { (Icon::Pause, "Pause") };
+    let pause = Tool { widest: "Resume", ..tool(icon, label) };
+    let pause = ui
+        .add_enabled_ui(there, |ui| pause.show(ui))
+        .inner
+        .on_hover_text("Pauses or resumes the render (Space)");
     state.place("pause", &pause);
     if pause.clicked() {
-        state.ask(command);
+        actions::toggle_pause(state);
     }
-    let step = ui.add_enabled(there && waits, egui::Button::new("Step")).on_hover_text("One pass (.)");
-    if step.clicked() {
+    let step = ui.add_enabled_ui(there && waits, |ui| tool(Icon::Step, "Step").show(ui)).inner;
+    if step.on_hover_text("Renders one pass (.)").clicked() {
         state.ask(Command::Step);
     }
-    let restart =
-        ui.add_enabled(there, egui::Button::new("Restart")).on_hover_text("From the first pass on (Ctrl+R)");
-    if restart.clicked() {
+    let restart = ui.add_enabled_ui(there, |ui| tool(Icon::Restart, "Restart").show(ui)).inner;
+    if restart.on_hover_text("Restarts the render from its first pass (Ctrl+R)").clicked() {
         state.ask(Command::Restart);
     }
-    let snapshot = ui
-        .add_enabled(there, egui::Button::new("Snapshot"))
-        .on_hover_text("Saves this pass as EXR and PNG (P)");
+    let snapshot = ui.add_enabled_ui(there, |ui| tool(Icon::Snapshot, "Snapshot").show(ui)).inner;
+    let snapshot = snapshot.on_hover_text("Saves this pass as EXR and PNG, and keeps it in the history (P)");
     state.place("snapshot", &snapshot);
     if snapshot.clicked() {
-        let folder = state.snapshot_folder();
-        state.ask(Command::Snapshot(folder));
+        actions::snapshot(state);
     }
 }
 
-/// Views, by name.
-pub(super) const PICTURES: [(&str, ViewMode); 8] = [
-    ("Radiance", ViewMode::Radiance),
-    ("Luminance", ViewMode::Luminance),
-    ("Radius", ViewMode::Radius),
-    ("Photons found", ViewMode::PhotonCount),
-    ("No photon yet", ViewMode::Unknown),
-    ("Error", ViewMode::Error(ErrorPart::Total)),
-    ("Noise", ViewMode::Error(ErrorPart::Noise)),
-    ("Bias", ViewMode::Error(ErrorPart::Bias)),
-];
-
-fn view(ui: &mut egui::Ui, state: &mut State) {
-    let now = PICTURES.iter().find(|(_, view)| *view == state.view).map_or("Light by kind", |(name, _)| name);
-    let label = ui.label("Show");
-    let list = egui::ComboBox::from_id_salt("picture").selected_text(now).show_ui(ui, |ui| {
-        for (name, view) in PICTURES {
-            if ui.selectable_label(state.view == view, name).clicked() {
-                state.choose_view(view);
-            }
-        }
-    });
-    list.response.labelled_by(label.id);
-    if matches!(state.view, ViewMode::Radiance | ViewMode::Classes { .. }) {
-        exposure::control(ui, state);
-        let label = ui.label("Tone");
-        let list =
-            egui::ComboBox::from_id_salt("tone").selected_text(state.tone_map.name()).show_ui(ui, |ui| {
-                for map in ToneMap::ALL {
-                    ui.selectable_value(&mut state.tone_map, map, map.name());
-                }
-            });
-        list.response.labelled_by(label.id);
-        ui.menu_button("Light", |ui| classes(ui, state))
-            .response
-            .on_hover_text("Which kinds of light the view has");
-    }
-    let photons = ui.toggle_value(&mut state.show_photons, "Photons");
+fn view(ui: &mut Ui, state: &mut State, room: Room) {
+    widgets::icon(ui, Icon::View, "What the picture shows");
+    let list = egui::ComboBox::from_id_salt("view")
+        .truncate()
+        .width(if room.view_labels { 104.0 } else { 88.0 })
+        .selected_text(views::name(state.view));
+    let list = list.show_ui(ui, |ui| views::choices(ui, state)).response;
+    name(&list, "View", views::name(state.view));
+    state.place("view list", &list);
+    let is_short = !room.view_labels;
+    let photons = Tool { is_on: Some(state.show_photons), is_short, ..Tool::new(Icon::Photons, "Photons") };
+    let photons = photons.show(ui);
     state.place("photons", &photons);
-    if photons
-        .on_hover_text("The last pass's photons as dots (O): direct yellow, caustic white, indirect blue")
-        .changed()
-    {
-        state.ask(Command::ShowPhotons(state.show_photons));
-    }
-    ui.menu_button("Looking", |ui| looking(ui, state))
-        .response
-        .on_hover_text("What is drawn over the picture");
-    region::button(ui, state);
-    let history = ui.toggle_value(&mut state.show_history, "History");
-    state.place("history", &history);
-    history.on_hover_text("Passes that were kept, to compare with and to return to; films (T)");
-    if ui.button("Fit").on_hover_text("The whole image (F)").clicked() {
-        state.placement = Placement::FIT;
+    let help = "The last pass's photons as dots (O): direct yellow, caustic white, indirect blue";
+    if photons.on_hover_text(help).clicked() {
+        actions::toggle_photons(state);
     }
 }
 
-fn looking(ui: &mut egui::Ui, state: &mut State) {
-    ui.checkbox(&mut state.show_histogram, "Histogram").on_hover_text("How bright the pixels are (L)");
-    ui.checkbox(&mut state.marks_clipping, "Clipping").on_hover_text(
-        "Stripes over pixels that are 255 in a channel, blue over black ones: what a PNG would clip (C)",
-    );
+/// Light paths, exposure and tone map: disabled over measures, which have none.
+fn light(ui: &mut Ui, state: &mut State, room: Room) {
+    let button = Tool::new(Icon::LightPaths, "Light paths")
+        .show(ui)
+        .on_hover_text("Which kinds of light the view shows");
+    let menu = egui::Popup::menu(&button).close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
+    menu.show(|ui| views::light_paths(ui, state));
+    let is_light = views::is_light(state.view);
+    ui.add_enabled_ui(is_light, |ui| {
+        exposure::show(ui, state, room.slider);
+        widgets::icon(ui, Icon::ToneMap, "Tone map");
+        let list = egui::ComboBox::from_id_salt("tone map")
+            .truncate()
+            .width(88.0)
+            .selected_text(state.tone_map.name());
+        let list = list.show_ui(ui, |ui| {
+            for map in ToneMap::ALL {
+                ui.selectable_value(&mut state.tone_map, map, map.name());
+            }
+        });
+        name(&list.response, "Tone map", state.tone_map.name());
+    });
 }
 
-fn classes(ui: &mut egui::Ui, state: &mut State) {
-    let (mut reflected, mut emission) = match state.view {
-        ViewMode::Classes { reflected, emission } => (reflected, emission),
-        _ => ([true; 3], true),
-    };
-    let before = (reflected, emission);
-    let names = ["Direct", "Caustic", "Indirect"];
-    for (on, name) in reflected.iter_mut().zip(names) {
-        ui.checkbox(on, name);
-    }
-    ui.checkbox(&mut emission, "Emitters");
-    if (reflected, emission) == before {
-        return;
-    }
-    if reflected == [true; 3] && emission {
-        state.choose_view(ViewMode::Radiance);
-        return;
-    }
-    state.choose_view(ViewMode::Classes { reflected, emission });
+/// Names a list for screen readers.
+fn name(list: &egui::Response, name: &str, value: &str) {
+    list.ctx.accesskit_node_builder(list.id, |node| {
+        node.set_label(name.to_owned());
+        node.set_value(value.to_owned());
+    });
 }
 
-fn compare(ui: &mut egui::Ui, state: &mut State) {
-    let picture = state.frame.as_ref().and_then(|f| f.picture.clone().map(|p| (p, f.stats.passes)));
-    if state.pinned.is_some() {
-        if ui.button("Unpin").on_hover_text("Ends the comparison (K)").clicked() {
-            state.pinned = None;
-        }
-    } else if let Some((picture, passes)) = picture {
-        let pin = ui.button("Pin").on_hover_text(
-            "Keeps this picture to the right of a line that can be dragged, to compare with (K)",
-        );
-        if pin.clicked() {
-            state.pinned = Some(Pinned { picture, label: format!("pass {passes}"), entry: None });
-        }
+fn pin(ui: &mut Ui, state: &mut State, room: Room) {
+    let is_short = !room.view_labels;
+    let is_pinned = state.pinned.is_some();
+    let has_picture = state.frame.as_ref().is_some_and(|f| f.picture.is_some());
+    let label = if is_pinned { "Unpin" } else { "Pin" };
+    let tool = Tool { widest: "Unpin", is_on: Some(is_pinned), is_short, ..Tool::new(Icon::Pin, label) };
+    let pin = ui
+        .add_enabled_ui(is_pinned || has_picture, |ui| tool.show(ui))
+        .inner
+        .on_hover_text("Keeps this picture to the right of a line that can be dragged, to compare with (K)");
+    if pin.clicked() {
+        actions::toggle_pin(state);
     }
 }

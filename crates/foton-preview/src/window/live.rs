@@ -13,6 +13,7 @@ use super::error::{WindowError, reason};
 use super::event::UserEvent;
 use crate::panels;
 use crate::state::State;
+use crate::themes;
 
 pub(super) struct Live {
     pub(super) window: Arc<Window>,
@@ -49,6 +50,7 @@ impl Live {
         let window = event_loop.create_window(attributes);
         let window = Arc::new(window.map_err(|cause| WindowError::NoDisplay(reason(&cause)))?);
         let context = egui::Context::default();
+        themes::dress(&context);
         let adapter = Adapter::open(0, &context, &window, proxy)?;
         let mut egui = egui_winit::State::new(
             context.clone(),

@@ -89,9 +89,9 @@ impl SettingNames {
 
     /// Controls of the window. It has none for the longest path, which the scene file sets.
     pub const CONTROLS: Self = Self {
-        radius: "first radius",
+        radius: "First radius",
         radius_floor: "Smallest radius",
-        eye_samples: "hit points a pixel",
-        max_depth: "max_depth in the scene file",
+        eye_samples: "Samples/pixel",
+        max_depth: "Max depth",
     };
 }

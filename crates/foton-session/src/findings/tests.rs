@@ -29,7 +29,7 @@ fn findings_name_settings_as_their_reader_knows_them() {
     let mut render = Render::start(scene, settings, &mut |_| {}, &cancel).expect("not cancelled");
     render.advance(&mut |_| {}, &cancel).expect("not cancelled");
     for (names, radius) in
-        [(SettingNames::OPTIONS, "--radius is"), (SettingNames::CONTROLS, "first radius is")]
+        [(SettingNames::OPTIONS, "--radius is"), (SettingNames::CONTROLS, "First radius is")]
     {
         let found = of_render(&render, &names);
         let text = |kind| found.iter().find(|f| f.kind == kind).map(|f| f.text.as_str());

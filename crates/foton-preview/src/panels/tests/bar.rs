@@ -5,19 +5,20 @@ use super::*;
 #[test]
 fn lists_choose_the_view_and_the_tone_map() {
     let mut harness = window(|_| ());
-    choose(&mut harness, "Tone", ToneMap::AgX.name());
+    choose(&mut harness, "Tone map", ToneMap::AgX.name());
     let look = Look { tone_map: ToneMap::AgX, exposure_stops: 0.0 };
     assert_asked(&mut harness, &Command::SetLook(look));
     assert_eq!(harness.state().tone_map, ToneMap::AgX, "nothing is rendered again");
-    choose(&mut harness, "Show", "Radius");
+    choose(&mut harness, "View", "Radius");
     assert_asked(&mut harness, &Command::SetView(ViewMode::Radius));
-    assert!(harness.query_by_role_and_label(Role::Slider, "Exposure").is_none(), "measures are not exposed");
+    let exposure = find(&harness, Role::SpinButton, "Exposure").accesskit_node();
+    assert!(exposure.is_disabled(), "measures are not exposed");
 }
 
 #[test]
 fn kinds_of_light_are_a_view_that_restarts_nothing() {
     let mut harness = window(|_| ());
-    click(&mut harness, Role::Button, "Light");
+    click(&mut harness, Role::Button, "Light paths");
     click(&mut harness, Role::CheckBox, "Caustic");
     let view = ViewMode::Classes { reflected: [true, false, true], emission: true };
     assert_asked(&mut harness, &Command::SetView(view));
@@ -44,7 +45,7 @@ fn the_bar_pauses_steps_restarts_saves_and_opens() {
         click(&mut harness, Role::Button, label);
         assert_asked(&mut harness, &command);
     }
-    click(&mut harness, Role::Button, "Scene");
+    click(&mut harness, Role::Button, "File");
     click(&mut harness, Role::Button, "Gallery");
     click(&mut harness, Role::Button, "ring");
     assert_asked(&mut harness, &Command::Open(Source::BuiltIn("ring".into())));
@@ -54,60 +55,20 @@ fn the_bar_pauses_steps_restarts_saves_and_opens() {
     assert!(harness.state().pinned.is_none());
     click(&mut harness, Role::Button, "Reset camera");
     assert_asked(&mut harness, &Command::ResetCamera);
-    click(&mut harness, Role::CheckBox, "at passes 1, 2, 4, 8, …");
+    click(&mut harness, Role::CheckBox, "Snapshots at passes 1, 2, 4, 8, …");
     assert_asked(&mut harness, &Command::AutoSnapshots(Some("/pictures".into())));
 }
 
 #[test]
-fn the_engine_is_told_how_the_screen_shows_radiance_unless_pngs_are_plain() {
-    let mut harness = window(|state| state.preferences.snapshot_folder = "/pictures".into());
-    harness.state_mut().exposure_stops = 1.5;
-    choose(&mut harness, "Tone", ToneMap::AgX.name());
-    harness.key_press(egui::Key::P);
-    let look =
-        |tone_map, exposure_stops| format!("{:?}", Command::SetLook(Look { tone_map, exposure_stops }));
-    let told = asked(&mut harness);
-    let snapshot = format!("{:?}", Command::Snapshot("/pictures".into()));
-    let default = ToneMap::default();
-    assert_eq!(told, [look(default, 1.5), look(ToneMap::AgX, 1.5), snapshot]);
-    click(&mut harness, Role::CheckBox, "PNG as shown");
-    assert_eq!(asked(&mut harness), [look(default, 0.0)]);
-    click(&mut harness, Role::CheckBox, "PNG as shown");
-    assert_eq!(asked(&mut harness), [look(ToneMap::AgX, 1.5)]);
-}
-
-#[test]
-fn exposure_and_kinds_of_light_are_those_of_one_scene() {
-    let caustics = ViewMode::Classes { reflected: [false, true, false], emission: false };
-    let change = |state: &mut State| {
-        state.exposure_stops = 3.0;
-        state.tone_map = ToneMap::Linear;
-        state.view = caustics;
-    };
-    let opened = || Event::Opened { name: "pool".into(), warnings: Vec::new() };
-    let mut harness = window(change);
-    asked(&mut harness);
-    harness.state_mut().hear(opened());
-    let (state, view) = (harness.state(), ViewMode::Radiance);
-    assert_eq!((state.exposure_stops, state.tone_map, state.view), (0.0, ToneMap::default(), view));
-    assert!(asked(&mut harness).contains(&format!("{:?}", Command::SetView(view))));
-    // The same scene, read again.
-    let mut harness = window(change);
-    harness.state_mut().changed_on_disk = true;
-    settle(&mut harness);
-    click(&mut harness, Role::Button, "Reload");
-    harness.state_mut().hear(opened());
-    assert_eq!((harness.state().exposure_stops, harness.state().view), (3.0, caustics));
-}
-
-#[test]
-fn where_the_light_went_stands_among_the_statistics() {
-    let harness = window(|_| ());
-    for text in ["absorbed, escaped", "75.00 %, 23.75 %", "cut off, dropped", "1.25 %, 0"] {
+fn where_the_light_went_stands_among_the_diagnostics() {
+    let mut harness = window(|_| ());
+    click(&mut harness, Role::DisclosureTriangle, "Diagnostics");
+    for text in ["Absorbed: 75.00 %", "Escaped: 23.75 %", "Truncated (max depth): 1.25 %", "Invalid: 0"] {
         assert!(harness.query_by_label(text).is_some(), "{text}");
     }
-    let dark = window(|state| state.frame.as_mut().expect("there").stats.ledger = Ledger::default());
-    assert!(dark.query_by_label("absorbed, escaped").is_none(), "nothing was emitted");
+    let mut dark = window(|state| state.frame.as_mut().expect("there").stats.ledger = Ledger::default());
+    click(&mut dark, Role::DisclosureTriangle, "Diagnostics");
+    assert!(dark.query_by_label_contains("Absorbed").is_none(), "nothing was emitted");
 }
 
 #[test]
@@ -122,14 +83,12 @@ fn checkpoints_are_written_and_resumed_by_the_file_dialog() {
     let mut harness = window(beside);
     let stem = harness.state().frame.as_ref().expect("there").scene.name.replace(".xml", "");
     let path = folder.join(format!("{stem}.checkpoint"));
-    click(&mut harness, Role::Button, "Scene");
-    click(&mut harness, Role::Button, "Keep a checkpoint…");
+    click(&mut harness, Role::Button, "Keep checkpoint…");
     click(&mut harness, Role::Button, "Save");
     assert_asked(&mut harness, &Command::KeepCheckpoint(path.clone()));
     std::fs::write(&path, "").expect("written");
     let mut harness = window(beside);
-    click(&mut harness, Role::Button, "Scene");
-    click(&mut harness, Role::Button, "Resume a checkpoint…");
+    click(&mut harness, Role::Button, "Resume checkpoint…");
     find(&harness, Role::TextInput, "Name").focus();
     settle(&mut harness);
     harness.event(egui::Event::Text(path.display().to_string()));
@@ -175,12 +134,55 @@ fn notices_go_and_errors_stay_until_they_are_closed() {
 }
 
 #[test]
+fn the_engine_is_told_how_the_screen_shows_radiance_unless_pngs_are_plain() {
+    let mut harness = window(|state| state.preferences.snapshot_folder = "/pictures".into());
+    harness.state_mut().exposure_stops = 1.5;
+    choose(&mut harness, "Tone map", ToneMap::AgX.name());
+    settle(&mut harness);
+    click(&mut harness, Role::Button, "Snapshot");
+    let look =
+        |tone_map, exposure_stops| format!("{:?}", Command::SetLook(Look { tone_map, exposure_stops }));
+    let told = asked(&mut harness);
+    let snapshot = format!("{:?}", Command::Snapshot("/pictures".into()));
+    let default = ToneMap::default();
+    assert_eq!(told, [look(default, 1.5), look(ToneMap::AgX, 1.5), snapshot]);
+    click(&mut harness, Role::CheckBox, "PNG as shown");
+    assert_eq!(asked(&mut harness), [look(default, 0.0)]);
+    click(&mut harness, Role::CheckBox, "PNG as shown");
+    assert_eq!(asked(&mut harness), [look(ToneMap::AgX, 1.5)]);
+}
+
+#[test]
+fn exposure_and_kinds_of_light_are_those_of_one_scene() {
+    let caustics = ViewMode::Classes { reflected: [false, true, false], emission: false };
+    let change = |state: &mut State| {
+        state.exposure_stops = 3.0;
+        state.tone_map = ToneMap::Linear;
+        state.view = caustics;
+    };
+    let opened = || Event::Opened { name: "pool".into(), warnings: Vec::new() };
+    let mut harness = window(change);
+    asked(&mut harness);
+    harness.state_mut().hear(opened());
+    let (state, view) = (harness.state(), ViewMode::Radiance);
+    assert_eq!((state.exposure_stops, state.tone_map, state.view), (0.0, ToneMap::default(), view));
+    assert!(asked(&mut harness).contains(&format!("{:?}", Command::SetView(view))));
+    // The same scene, read again.
+    let mut harness = window(change);
+    harness.state_mut().changed_on_disk = true;
+    settle(&mut harness);
+    click(&mut harness, Role::Button, "Reload");
+    harness.state_mut().hear(opened());
+    assert_eq!((harness.state().exposure_stops, harness.state().view), (3.0, caustics));
+}
+
+#[test]
 fn scenes_of_before_are_offered_again() {
     let menu = || {
         let mut harness = window(|state| {
             state.preferences.recent = vec!["/scenes/kitchen/scene.xml".into(), "/scenes/lamp.xml".into()];
         });
-        click(&mut harness, Role::Button, "Scene");
+        click(&mut harness, Role::Button, "File");
         click(&mut harness, Role::Button, "Open recent");
         harness
     };

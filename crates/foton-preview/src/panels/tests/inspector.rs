@@ -27,7 +27,7 @@ fn it_says_what_is_chosen_and_who_shares_its_material() {
     click(&mut harness, Role::Button, "Undo");
     assert_asked(&mut harness, &Command::Edit(SceneEdit::Undo));
     assert!(find(&harness, Role::Button, "Redo").accesskit_node().is_disabled());
-    click(&mut harness, Role::Button, "Close");
+    click(&mut harness, Role::Button, "Deselect");
     assert_asked(&mut harness, &Command::Choose(None));
 }
 
@@ -77,5 +77,6 @@ fn choices_switches_and_colours_are_set() {
 #[test]
 fn without_a_choice_there_is_no_inspector() {
     let harness = window(|_| ());
-    assert!(harness.query_by_label("Close").is_none());
+    assert!(harness.query_by_label("Deselect").is_none());
+    assert!(harness.query_by_label_contains("Nothing selected").is_some());
 }

@@ -57,8 +57,12 @@ fn flying_goes_on_while_a_key_is_held_and_ends_with_the_whole_picture() {
 #[test]
 fn the_overlay_opens_and_closes_by_key_and_button() {
     let mut harness = window(|_| ());
-    let is_open = |harness: &Harness<'_, State>| harness.query_by_label_contains("turn the camera").is_some();
-    click(&mut harness, Role::Button, "?");
+    let is_open =
+        |harness: &Harness<'_, State>| harness.query_by_label_contains("orbit the camera").is_some();
+    click(&mut harness, Role::Button, "Help");
+    // By the pointer, which closes the menu.
+    find(&harness, Role::Button, "Keys and gestures").click();
+    settle(&mut harness);
     assert!(is_open(&harness));
     harness.key_press(Key::Escape);
     assert_eq!(asked(&mut harness), [""; 0], "the overlay takes the key");
@@ -90,4 +94,118 @@ fn a_dialog_opens_by_key_and_takes_the_keys() {
     assert!(harness.state().dialog.is_some());
     harness.key_press(Key::H);
     assert_eq!(asked(&mut harness), [""; 0]);
+}
+
+/// The accessible way to click: the pointer goes there, and the button down and up.
+fn click_at(harness: &mut Harness<'_, State>, at: egui::Pos2) {
+    harness.hover_at(at);
+    harness.run_steps(2);
+    harness.drag_at(at);
+    harness.run_steps(2);
+    harness.drop_at(at);
+    settle(harness);
+}
+
+fn canvas(harness: &Harness<'_, State>) -> egui::Rect {
+    harness.state().places.iter().find(|(name, _)| *name == "canvas").expect("a canvas").1
+}
+
+#[test]
+fn keys_work_after_a_click_in_the_picture() {
+    let mut harness = window(|state| state.frame.as_mut().expect("there").selection = Some(selection()));
+    let middle = canvas(&harness).center();
+    click_at(&mut harness, middle);
+    harness.state_mut().outbox.clear();
+    let nudge = Command::Edit(SceneEdit::Nudge { steps: [1.0, 0.0], mode: DragMode::Horizontal });
+    for (key, command) in [
+        (Key::Space, Command::Pause),
+        (Key::H, Command::ResetCamera),
+        (Key::ArrowRight, nudge.clone()),
+        (Key::ArrowRight, nudge),
+        (Key::Num3, Command::SetView(ViewMode::Radius)),
+        (Key::Escape, Command::Choose(None)),
+    ] {
+        harness.key_press(key);
+        assert_eq!(asked(&mut harness), [format!("{command:?}")], "{key:?}");
+    }
+}
+
+#[test]
+fn escape_with_a_list_or_menu_open_closes_that_alone() {
+    let mut harness = window(|state| state.frame.as_mut().expect("there").selection = Some(selection()));
+    for (role, name, inside) in [
+        (Role::ComboBox, "View", "Noise"),
+        (Role::ComboBox, "Direct light", "Shadow rays"),
+        (Role::Button, "File", "Quit"),
+        (Role::Button, "Light paths", "Caustic"),
+    ] {
+        click(&mut harness, role, name);
+        let is_open = |harness: &Harness<'_, State>| harness.query_all_by_label_contains(inside).count() > 0;
+        assert!(is_open(&harness), "{name}");
+        harness.key_press(Key::Escape);
+        assert_eq!(asked(&mut harness), [""; 0], "{name}: nothing is deselected");
+        assert!(!is_open(&harness), "{name}");
+    }
+    harness.key_press(Key::Escape);
+    assert_eq!(asked(&mut harness), [format!("{:?}", Command::Choose(None))]);
+}
+
+#[test]
+fn digits_typed_at_a_field_switch_no_view() {
+    let mut harness = window(|_| ());
+    // A disabled one: measures have no exposure.
+    harness.state_mut().choose_view(ViewMode::Radius);
+    settle(&mut harness);
+    harness.state_mut().outbox.clear();
+    let at = find(&harness, Role::SpinButton, "Exposure").rect().center();
+    click_at(&mut harness, at);
+    for key in [Key::Num4, Key::Num2, Key::P] {
+        harness.key_press(key);
+    }
+    let asked_for: Vec<String> =
+        asked(&mut harness).into_iter().filter(|a| !a.starts_with("Probe")).collect();
+    assert_eq!(asked_for, [""; 0]);
+    harness.key_press(Key::Escape);
+    assert_eq!(asked(&mut harness), [""; 0], "it ends that");
+    // One under edit.
+    find(&harness, Role::SpinButton, "Photons/pass").focus();
+    settle(&mut harness);
+    harness.key_press(Key::Num4);
+    assert_eq!(asked(&mut harness), [""; 0]);
+    harness.key_press(Key::Escape);
+    assert_eq!(asked(&mut harness), [""; 0], "it gives the text up");
+    harness.key_press(Key::Num4);
+    assert_asked(&mut harness, &Command::SetView(ViewMode::PhotonCount));
+}
+
+#[test]
+fn tab_hides_the_panels_unless_a_control_has_the_focus() {
+    let mut harness = window(|_| ());
+    let narrow = canvas(&harness);
+    harness.key_press(Key::Tab);
+    settle(&mut harness);
+    assert!(harness.state().hides_panels && canvas(&harness).width() > narrow.width() + 400.0);
+    harness.key_press(Key::Tab);
+    settle(&mut harness);
+    assert_eq!(canvas(&harness), narrow);
+    find(&harness, Role::Button, "Restart").focus();
+    settle(&mut harness);
+    harness.key_press(Key::Tab);
+    settle(&mut harness);
+    assert!(!harness.state().hides_panels, "the next control has the focus");
+    harness.key_press(Key::Space);
+    assert_ne!(asked(&mut harness), ["Pause"], "it presses the control");
+}
+
+#[test]
+fn the_controls_are_reached_from_the_picture_and_left_again_by_a_key() {
+    let mut harness = window(|_| ());
+    harness.key_press(Key::F6);
+    settle(&mut harness);
+    assert!(harness.state().has_focused_control);
+    harness.key_press(Key::F6);
+    settle(&mut harness);
+    assert!(!harness.state().has_focused_control);
+    harness.key_press(Key::Space);
+    assert_asked(&mut harness, &Command::Pause);
 }

@@ -33,21 +33,6 @@ fn the_wheel_over_the_exposure_changes_it_and_nothing_else() {
 }
 
 #[test]
-fn auto_exposes_for_the_light_that_there_is() {
-    let mut harness = window(|_| ());
-    click(&mut harness, Role::Button, "Auto");
-    let stops = harness.state().exposure_stops;
-    let shown = Rgb::new(0.5, 0.25, 0.125).luminance() * stops.exp2();
-    assert!(shown > 0.5 && shown < 1.0, "{stops} stops: {shown}");
-    let mut dark = window(|state| {
-        let black = Image::black(SIZE[0], SIZE[1]);
-        state.frame.as_mut().expect("there").picture = Some(Picture::Colour(Arc::new(black)));
-    });
-    click(&mut dark, Role::Button, "Auto");
-    assert!(dark.query_by_label_contains("no light in the picture").is_some());
-}
-
-#[test]
 fn the_histogram_says_what_is_above_white_and_is_dragged_to_expose() {
     let mut harness = window(|_| ());
     harness.key_press(Key::L);
@@ -73,7 +58,16 @@ fn canvas(harness: &Harness<'_, State>) -> egui::Rect {
 #[test]
 fn a_region_is_dragged_out_and_given_back() {
     let mut harness = window(|_| ());
-    click(&mut harness, Role::Button, "Region");
+    let region_entry = |harness: &mut Harness<'_, State>, name: &str| {
+        // A screen reader's click leaves the menu open.
+        if harness.query_by_role_and_label(Role::Button, name).is_none() {
+            click(harness, Role::Button, "View");
+        }
+        click(harness, Role::Button, name);
+        harness.key_press(Key::Escape);
+        settle(harness);
+    };
+    region_entry(&mut harness, "Render a region…");
     let canvas = canvas(&harness);
     let scale = (canvas.width() / SIZE[0] as f32).min(canvas.height() / SIZE[1] as f32);
     let at =
@@ -106,16 +100,16 @@ fn a_region_is_dragged_out_and_given_back() {
     // Once the engine renders it, the way back is there.
     harness.state_mut().frame.as_mut().expect("there").region = Some(region);
     settle(&mut harness);
-    click(&mut harness, Role::Button, "Whole image");
+    region_entry(&mut harness, "Render the whole image");
     assert!(asked(&mut harness).contains(&configure(None)));
     // Escape gives it up, and a slip of the hand is none.
     harness.state_mut().frame.as_mut().expect("there").region = None;
     settle(&mut harness);
-    click(&mut harness, Role::Button, "Region");
+    region_entry(&mut harness, "Render a region…");
     harness.key_press(Key::Escape);
     settle(&mut harness);
     assert!(harness.state().choosing_region.is_none());
-    click(&mut harness, Role::Button, "Region");
+    region_entry(&mut harness, "Render a region…");
     drag(&mut harness, at(20.2, 20.2), at(21.5, 20.4));
     let commands = asked(&mut harness);
     assert!(commands.iter().all(|c| !c.starts_with("Configure")), "{commands:?}");
@@ -126,6 +120,7 @@ fn a_region_other_settings_keep() {
     let region = Region { x: 10, y: 12, width: 31, height: 19 };
     let mut harness = window(|state| state.frame.as_mut().expect("there").region = Some(region));
     type_number(&mut harness, "Seed", "9");
+    click(&mut harness, Role::Button, "Apply and restart");
     let now = Configuration { seed: 9, ..Configuration::of(&RenderSettings::default(), None, Some(region)) };
     assert!(asked(&mut harness).contains(&format!("{:?}", Command::Configure(now))));
 }

@@ -1,11 +1,14 @@
 //! The panels driven as a person drives them, by accessible labels, pointer and keys; what they ask for is in the outbox.
 
 mod bar;
+mod contrast;
 mod controls;
 mod history;
 mod inspector;
 mod keys;
+mod layout;
 mod looking;
+mod numbers;
 mod picture;
 mod pointer;
 mod stats;
@@ -147,6 +150,7 @@ fn window(change: impl FnOnce(&mut State)) -> Harness<'static, State> {
         .with_size(egui::vec2(1280.0, 800.0))
         .allow_missing_glyphs()
         .build_ui_state(super::show, state);
+    crate::themes::dress(&harness.ctx);
     settle(&mut harness);
     harness
 }
@@ -257,10 +261,10 @@ fn controls_say_what_they_do_to_speed_and_accuracy() {
     let mut harness = window(|_| ());
     for (role, label, help) in [
         (Role::Slider, "α", "Share of new photons"),
-        (Role::Slider, "photons a pass", "answers sooner"),
-        (Role::Slider, "hit points a pixel", "Memory and gathering grow"),
-        (Role::Button, "shadow rays", "sharp shadows at once"),
-        (Role::CheckBox, "first radius", "pixel's footprint"),
+        (Role::Slider, "Photons/pass", "answers sooner"),
+        (Role::Slider, "Samples/pixel", "Memory and gathering grow"),
+        (Role::ComboBox, "Direct light", "How direct light is estimated"),
+        (Role::CheckBox, "First radius", "pixel's footprint"),
         (Role::SpinButton, "Seed", "the same light"),
         (Role::Button, "Snapshot", "EXR and PNG"),
         (Role::Button, "Pin", "to compare with"),

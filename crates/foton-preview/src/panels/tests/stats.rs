@@ -22,10 +22,13 @@ fn findings_in_the_render_are_displayed() {
 #[test]
 fn controls_that_findings_name_are_there() {
     let harness = window(|_| ());
-    let SettingNames { radius, radius_floor, eye_samples, .. } = SettingNames::CONTROLS;
-    for (role, name) in
-        [(Role::CheckBox, radius), (Role::SpinButton, radius_floor), (Role::Slider, eye_samples)]
-    {
+    let SettingNames { radius, radius_floor, eye_samples, max_depth } = SettingNames::CONTROLS;
+    for (role, name) in [
+        (Role::CheckBox, radius),
+        (Role::SpinButton, radius_floor),
+        (Role::Slider, eye_samples),
+        (Role::CheckBox, max_depth),
+    ] {
         assert!(harness.query_by_role_and_label(role, name).is_some(), "{name}");
     }
 }

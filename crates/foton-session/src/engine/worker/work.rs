@@ -244,5 +244,5 @@ fn beyond_memory(
     limit: Option<f64>,
 ) -> Option<String> {
     let refusal = Session::estimate_memory(scene, settings, threads).refusal(limit)?;
-    Some(format!("{refusal}. Fewer eye samples or photons a pass need less"))
+    Some(format!("{refusal}. Fewer samples/pixel or photons/pass need less"))
 }

@@ -1,0 +1,31 @@
+//! The camera: its field of view, and the way back.
+
+use egui::Ui;
+use foton_session::engine::{Command, Gesture};
+
+use super::number::{Change, Digits, Number};
+use super::slider::Slider;
+use super::widgets::row;
+use crate::state::State;
+
+const HELP: &str = "Angle of view along the camera's own axis, 1° to 170°";
+
+pub(super) fn show(ui: &mut Ui, state: &mut State) {
+    let sensor = state.frame.as_ref().and_then(|f| f.scene.sensors.get(f.settings.sensor));
+    let Some(degrees) = sensor.map(|s| s.fov_degrees) else { return };
+    row(ui, "Field of view", HELP, |ui, _| {
+        let number =
+            Number::new("Field of view", 1.0..=170.0).unit("°").digits(Digits::Decimals(1)).speed(0.2);
+        let ([slider, field], change) = Slider::new("Field of view", 1.0..=170.0).show(ui, number, degrees);
+        (slider | field).on_hover_text(HELP);
+        let turn = |degrees, moving| Command::Camera { gesture: Gesture::FieldOfView(degrees), moving };
+        match change {
+            Some(Change::Moving(degrees)) => state.ask(turn(degrees, true)),
+            Some(Change::Done(degrees)) => state.ask(turn(degrees, false)),
+            None => {}
+        }
+    });
+    if ui.button("Reset camera").on_hover_text("Back to where the scene's file has it (H)").clicked() {
+        state.ask(Command::ResetCamera);
+    }
+}

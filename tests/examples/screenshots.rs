@@ -1,0 +1,107 @@
+//! `cargo xtask screenshots`: a picture of each state of the panels, in both themes and several sizes, to be looked at.
+
+use std::env;
+use std::path::{Path, PathBuf};
+
+use foton_tests::window::{Display, Opening, Window};
+
+/// Width and height of the window in points, and pixels a point.
+const SIZES: [([u32; 2], f64); 3] = [([900, 600], 1.0), ([1280, 800], 1.0), ([720, 450], 2.0)];
+
+/// Passes before the first picture.
+const PASSES: f64 = 12.0;
+
+/// What is done before a picture, in words of [`Shots::act`], and the picture's name.
+const STATES: [(&str, &[&str]); 13] = [
+    ("01-start", &[]),
+    ("02-selection", &["choose"]),
+    ("03-photons-as-dots", &["key Escape", "key o"]),
+    ("04-unlit", &["key o", "key 5"]),
+    ("05-radius", &["key 3"]),
+    ("06-paused-pinned", &["key 1", "key space", "key k"]),
+    ("07-draft", &["key k", "key space", "click seed", "key 7", "key Return"]),
+    ("08-wrong-number", &["click alpha field", "type 7x", "key Return"]),
+    ("09-menu", &["click file menu"]),
+    ("10-view-list", &["key Escape", "click view list"]),
+    ("11-diagnostics", &["key Escape", "click diagnostics"]),
+    ("12-keys", &["canvas", "key question"]),
+    ("13-open", &["key Escape", "key ctrl+o"]),
+];
+
+struct Shots {
+    display: Display,
+    window: Window,
+    scale: f64,
+}
+
+fn main() {
+    let arguments: Vec<PathBuf> = env::args_os().skip(1).map(PathBuf::from).collect();
+    let [foton, target] = arguments.as_slice() else { panic!("usage: screenshots FOTON FOLDER") };
+    std::fs::create_dir_all(target).expect("a folder");
+    for (size, scale) in SIZES {
+        for is_dark in [true, false] {
+            shoot(foton, target, size, scale, is_dark);
+        }
+    }
+}
+
+fn shoot(foton: &Path, target: &Path, size: [u32; 2], scale: f64, is_dark: bool) {
+    let folder = env::temp_dir().join(format!("foton-screenshots-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let pixels = size.map(|v| (f64::from(v) * scale) as u32);
+    let display = Display::start(pixels);
+    let opening = Opening { foton, scene: None, folder: &folder, size, is_dark, fault: None };
+    let window = Window::open_scaled(&display, &opening, scale);
+    let mut shots = Shots { display, window, scale };
+    shots
+        .window
+        .frame("passes", |f| (f["pass"].as_f64()? >= PASSES && f["activity"] == "rendering").then_some(()));
+    let theme = if is_dark { "dark" } else { "light" };
+    for (name, acts) in STATES {
+        acts.iter().for_each(|act| shots.act(act));
+        shots.settle();
+        let _ =
+            shots.display.picture(&target.join(format!("{}x{}-{theme}-{name}.png", pixels[0], pixels[1])));
+    }
+    drop(shots);
+    std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+impl Shots {
+    fn act(&mut self, act: &str) {
+        match act.split_once(' ').unwrap_or((act, "")) {
+            ("click", place) => {
+                let at = self.share_of(place, [0.5, 0.5]);
+                self.display.hand(&format!("mousemove {at} click 1"));
+            }
+            // The ring of the scene that ships with the program.
+            ("choose", _) => {
+                let at = self.share_of("canvas", [0.806, 0.82]);
+                self.display.hand(&format!("mousemove {at} click 1"));
+                self.window.frame("a choice", |f| f.get("chosen").map(|_| ()));
+            }
+            ("canvas", _) => {
+                let at = self.share_of("canvas", [0.02, 0.02]);
+                self.display.hand(&format!("mousemove {at}"));
+            }
+            _ => self.display.hand(act),
+        }
+        self.settle();
+    }
+
+    /// Some frames, so that what was asked for is on the screen.
+    fn settle(&mut self) {
+        self.window.log.skip();
+        for _ in 0..3 {
+            // What stands still is drawn when the pointer moves.
+            self.display.hand("mousemove_relative -- 1 0 mousemove_relative -- -1 0");
+            self.window.wait("a frame", |line| (line["event"] == "drawn").then_some(()));
+        }
+    }
+
+    /// A position within a control, in pixels.
+    fn share_of(&mut self, place: &str, share: [f64; 2]) -> String {
+        let [left, top, width, height] = self.window.place(place).map(|v| v * self.scale);
+        format!("{:.0} {:.0}", left + share[0] * width, top + share[1] * height)
+    }
+}
