@@ -7,6 +7,7 @@
 mod difference;
 mod files;
 mod light_scale;
+mod looking;
 mod panels;
 mod preferences;
 mod present;
@@ -14,5 +15,5 @@ mod state;
 mod themes;
 mod window;
 
-pub use state::BuiltIn;
+pub use looking::BuiltIn;
 pub use window::{Close, Options, WindowError, run};

@@ -9,9 +9,8 @@ use foton_session::SettingChange;
 use foton_session::engine::{Command, Configuration, Event, Frame, Picture, Source, ViewMode};
 use foton_session::snapshot::Look;
 
-use crate::difference::Difference;
 use crate::files::FileDialog;
-use crate::light_scale::LightScale;
+use crate::looking::{BuiltIn, Looking};
 use crate::preferences::Preferences;
 
 /// Points of a plot at most; older ones are thinned.
@@ -45,16 +44,6 @@ pub(crate) struct Pinned {
     pub(crate) label: String,
     /// The number of the pass in the history, if it is from there.
     pub(crate) entry: Option<u64>,
-}
-
-/// How two pictures are compared.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Compare {
-    /// One beside the other, with a line between them that can be dragged.
-    #[default]
-    Wipe,
-    /// How far they are apart.
-    Difference,
 }
 
 /// How the image lies in the window.
@@ -94,33 +83,6 @@ pub(crate) enum Grip {
     Object,
     /// Moving the line of the wipe.
     Wipe,
-}
-
-/// A region that is being dragged out.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Choosing {
-    /// Where the drag began, in pixels of the image.
-    pub(crate) from: Option<[f64; 2]>,
-    pub(crate) to: [f64; 2],
-}
-
-/// A scene that ships with the program.
-#[derive(Clone, Debug)]
-pub struct BuiltIn {
-    /// Its name.
-    pub name: String,
-    /// A picture of it, as a PNG.
-    pub thumbnail: &'static [u8],
-}
-
-/// A picture of a scene in a menu.
-pub(crate) struct ScenePicture {
-    /// What it is of.
-    pub(crate) key: PathBuf,
-    /// When its file was written, if it has one.
-    pub(crate) written: Option<std::time::SystemTime>,
-    /// `None` where it cannot be read.
-    pub(crate) texture: Option<egui::TextureHandle>,
 }
 
 /// A value over time.
@@ -169,25 +131,9 @@ pub(crate) struct State {
     pub(crate) reloads: bool,
     pub(crate) view: ViewMode,
     pub(crate) show_photons: bool,
-    pub(crate) show_histogram: bool,
-    /// How bright the last picture is.
-    pub(crate) light_scale: Option<LightScale>,
-    /// What the wheel has turned of a tenth of a stop.
-    pub(crate) turned: f32,
-    /// Whether pixels are marked that are black or as bright as they get.
-    pub(crate) marks_clipping: bool,
-    /// The region that is being dragged out.
-    pub(crate) choosing_region: Option<Choosing>,
     pub(crate) auto_snapshots: bool,
     pub(crate) pinned: Option<Pinned>,
-    pub(crate) compare: Compare,
-    /// The difference that was shown last.
-    pub(crate) difference: Option<Difference>,
-    pub(crate) show_history: bool,
-    /// Pictures of the history, by their numbers.
-    pub(crate) thumbnails: Vec<(u64, egui::TextureHandle)>,
-    /// Steps of a turntable, and passes of each.
-    pub(crate) turntable: [u64; 2],
+    pub(crate) looking: Looking,
     /// Where the wipe's line is, as a share of the view's width.
     pub(crate) wipe: f32,
     pub(crate) show_help: bool,
@@ -207,10 +153,6 @@ pub(crate) struct State {
     /// The scene's file changed on the disk.
     pub(crate) changed_on_disk: bool,
     pub(crate) built_in: Vec<BuiltIn>,
-    /// Pictures of scenes in menus.
-    pub(crate) scene_pictures: Vec<ScenePicture>,
-    /// When the first hint was drawn, in seconds of the window's clock.
-    pub(crate) hinted: Option<f64>,
     /// Where controls are, in points, by name: for scripts that drive the window.
     pub(crate) places: Vec<(&'static str, egui::Rect)>,
     /// What there is to say of the adapter.
@@ -247,18 +189,9 @@ impl State {
             reloads: false,
             view: ViewMode::Radiance,
             show_photons: false,
-            show_histogram: false,
-            light_scale: None,
-            turned: 0.0,
-            marks_clipping: false,
-            choosing_region: None,
             auto_snapshots: false,
             pinned: None,
-            compare: Compare::Wipe,
-            difference: None,
-            show_history: false,
-            thumbnails: Vec::new(),
-            turntable: [24, 16],
+            looking: Looking::default(),
             wipe: 0.5,
             show_help: false,
             dialog: None,
@@ -272,8 +205,6 @@ impl State {
             traced: Traced::default(),
             changed_on_disk: false,
             built_in,
-            scene_pictures: Vec::new(),
-            hinted: None,
             places: Vec::new(),
             adapter: String::new(),
             largest_texture: 8192,

@@ -135,9 +135,8 @@ impl Radiance {
         Ok(())
     }
 
-    /// Sums by class come last in a state, which another render may leave unread.
+    /// Sums by class, where there are any: they come last in a state, so that one without them is the same but for these.
     pub(crate) fn write_classes(&self, out: &mut Writer) {
-        out.u64(u64::from(self.classes.is_some()));
         if let Some(ClassSums { sums, photons }) = &self.classes {
             out.u64(*photons);
             sums.iter().flatten().flatten().for_each(|&sum| out.f64(sum));
@@ -147,21 +146,12 @@ impl Radiance {
     /// Takes sums by class back. Where only the state or only this render has them, it goes on without those of the state.
     pub(crate) fn read_classes(&mut self, input: &mut Reader<'_>) -> Result<(), StateError> {
         let pixels = self.sums.len();
-        let mut read = ClassSums { sums: Vec::new(), photons: 0 };
-        match input.u64()? {
-            0 => read.sums = vec![[[0.0; 3]; CLASSES]; pixels],
-            1 => {
-                read.photons = input.count()?;
-                read.sums.reserve_exact(pixels);
-                for _ in 0..pixels {
-                    let mut sums = [[0.0; 3]; CLASSES];
-                    for sum in sums.iter_mut().flatten() {
-                        *sum = input.finite()?;
-                    }
-                    read.sums.push(sums);
-                }
+        let mut read = ClassSums { sums: vec![[[0.0; 3]; CLASSES]; pixels], photons: 0 };
+        if !input.is_at_end() {
+            read.photons = input.count()?;
+            for sum in read.sums.iter_mut().flatten().flatten() {
+                *sum = input.finite()?;
             }
-            _ => return Err(StateError::Impossible),
         }
         if let Some(classes) = &mut self.classes {
             *classes = read;

@@ -46,7 +46,7 @@ pub(super) fn toggle_pin(state: &mut State) {
 pub(super) fn escape(state: &mut State) {
     if state.show_help {
         state.show_help = false;
-    } else if state.choosing_region.take().is_some() {
+    } else if state.looking.choosing_region.take().is_some() {
         // That was to be given up.
     } else if state.grip == Grip::Object {
         state.grip = Grip::None;

@@ -9,8 +9,9 @@ use foton_session::engine::{Command, Gesture, Picture as EnginePicture, SceneEdi
 use super::film_place::{Film, place};
 use super::{dot_legend, legend, overlay, pixel_values, region};
 use crate::difference::Difference;
+use crate::looking::Compare;
 use crate::present::{self, Mode, PresentCallback, View};
-use crate::state::{Compare, Grip, Placement, State};
+use crate::state::{Grip, Placement, State};
 
 /// Radians that the camera turns for each point that the pointer moves.
 const TURN: f64 = 0.006;
@@ -88,14 +89,14 @@ fn hint(ui: &egui::Ui, rect: Rect, text: &str) {
 fn difference(state: &mut State, picture: &EnginePicture) -> Option<EnginePicture> {
     let EnginePicture::Colour(pinned) = &state.pinned.as_ref()?.picture else { return None };
     let EnginePicture::Colour(image) = picture else { return None };
-    if state.compare != Compare::Difference {
+    if state.looking.compare != Compare::Difference {
         return None;
     }
-    let known = state.difference.take().filter(|known| known.is_of(image, pinned));
+    let known = state.looking.difference.take().filter(|known| known.is_of(image, pinned));
     // While things move, the picture is of fewer pixels: the last difference stays away until it can be told again.
     let difference = known.or_else(|| Difference::new(image, pinned))?;
     let plane = Arc::clone(&difference.plane);
-    state.difference = Some(difference);
+    state.looking.difference = Some(difference);
     Some(EnginePicture::Measure { label: "difference (W/m²/sr)", plane })
 }
 
@@ -124,9 +125,9 @@ fn paint(ui: &egui::Ui, state: &State, rect: Rect, image: Rect, picture: &Engine
         exposure_stops: state.exposure_stops,
         tone_map: state.tone_map,
         mode,
-        marks_clipping: state.marks_clipping,
+        marks_clipping: state.looking.marks_clipping,
         image_rect: Rect::from_min_max(image.min * to_pixels, image.max * to_pixels),
-        wipe: state.pinned.as_ref().filter(|_| state.compare == Compare::Wipe).map(|_| state.wipe),
+        wipe: state.pinned.as_ref().filter(|_| state.looking.compare == Compare::Wipe).map(|_| state.wipe),
         // White around a picture would make it look darker than it is.
         background: if ui.visuals().dark_mode {
             ui.visuals().extreme_bg_color
@@ -218,7 +219,7 @@ fn begin(state: &mut State, response: &egui::Response, film: Film, at: Pos2, mod
         state.frame.as_ref().and_then(|f| f.selection.as_ref()).is_some_and(|s| {
             overlay::handle(&s.outline).is_some_and(|h| film.to_points(h).distance(at) < 12.0)
         });
-    let wipes = state.pinned.is_some() && state.compare == Compare::Wipe;
+    let wipes = state.pinned.is_some() && state.looking.compare == Compare::Wipe;
     state.grip = if wipes && (at.x - wipe).abs() < WIPE_REACH {
         Grip::Wipe
     } else if modifiers.command || response.dragged_by(egui::PointerButton::Middle) {

@@ -86,7 +86,7 @@ fn texture(
     written: Option<SystemTime>,
     read: impl FnOnce() -> Option<Image>,
 ) -> Option<TextureHandle> {
-    if let Some(known) = state.scene_pictures.iter().find(|p| p.key == key && p.written == written) {
+    if let Some(known) = state.looking.scene_pictures.iter().find(|p| p.key == key && p.written == written) {
         return known.texture.clone();
     }
     let texture = read().map(|image| {
@@ -95,8 +95,8 @@ fn texture(
         let rgb: Vec<u8> = image.pixels.iter().flat_map(shown).collect();
         ctx.load_texture(key.to_string_lossy(), ColorImage::from_rgb(size, &rgb), TextureOptions::LINEAR)
     });
-    state.scene_pictures.retain(|p| p.key != key);
-    state.scene_pictures.push(crate::state::ScenePicture {
+    state.looking.scene_pictures.retain(|p| p.key != key);
+    state.looking.scene_pictures.push(crate::looking::ScenePicture {
         key: key.to_owned(),
         written,
         texture: texture.clone(),

@@ -19,7 +19,7 @@ pub(super) fn draw(ui: &egui::Ui, state: &mut State, view: Rect) {
         return;
     }
     let now = ui.input(|i| i.time);
-    let since = now - *state.hinted.get_or_insert(now);
+    let since = now - *state.looking.hinted.get_or_insert(now);
     let left = (STAYS + FADES - since) / FADES;
     if left <= 0.0 {
         return;

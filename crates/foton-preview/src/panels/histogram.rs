@@ -25,9 +25,9 @@ pub(super) fn turn(ui: &egui::Ui, state: &mut State, response: &egui::Response) 
     }
     let scroll = ui.input_mut(|i| std::mem::take(&mut i.smooth_scroll_delta)).y;
     if scroll != 0.0 {
-        state.turned += scroll / WHEEL;
-        let tenths = (state.turned * 10.0).trunc();
-        state.turned -= tenths / 10.0;
+        state.looking.turned += scroll / WHEEL;
+        let tenths = (state.looking.turned * 10.0).trunc();
+        state.looking.turned -= tenths / 10.0;
         change(state, tenths / 10.0);
     }
 }
@@ -47,13 +47,13 @@ fn radiance(state: &State) -> Option<Arc<Image>> {
 
 /// How bright a picture is, worked out once.
 fn scale<'a>(state: &'a mut State, image: &Arc<Image>) -> &'a LightScale {
-    let known = state.light_scale.take().filter(|scale| scale.is_of(image));
-    state.light_scale.insert(known.unwrap_or_else(|| LightScale::of(image)))
+    let known = state.looking.light_scale.take().filter(|scale| scale.is_of(image));
+    state.looking.light_scale.insert(known.unwrap_or_else(|| LightScale::of(image)))
 }
 
 /// The histogram over a corner of the picture, if it is wanted. Dragging it changes the exposure.
 pub(super) fn show(ctx: &egui::Context, state: &mut State, canvas: Rect) {
-    if !state.show_histogram {
+    if !state.looking.show_histogram {
         return;
     }
     let Some(image) = radiance(state) else { return };
@@ -69,9 +69,9 @@ fn draw(ui: &mut egui::Ui, state: &mut State, image: &Arc<Image>) {
     let per_point = (STOPS.end - STOPS.start) as f32 / rect.width();
     if response.dragged() {
         // What is held goes with the hand.
-        state.turned += response.drag_delta().x * per_point;
-        let tenths = (state.turned * 10.0).trunc();
-        state.turned -= tenths / 10.0;
+        state.looking.turned += response.drag_delta().x * per_point;
+        let tenths = (state.looking.turned * 10.0).trunc();
+        state.looking.turned -= tenths / 10.0;
         change(state, tenths / 10.0);
     }
     turn(ui, state, &response);

@@ -6,7 +6,8 @@ use egui::{Color32, ColorImage, Sense, Stroke, StrokeKind, TextureOptions, Vec2}
 use foton_film::read_exr;
 use foton_session::engine::{Command, HistoryEntry, Picture};
 
-use crate::state::{Compare, Pinned, State};
+use crate::looking::Compare;
+use crate::state::{Pinned, State};
 
 /// Height of a thumbnail in points.
 const HEIGHT: f32 = 72.0;
@@ -28,7 +29,7 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
         ui.label("Snapshots appear here, and passes that you keep: compare with them, or go on from them.");
         return;
     }
-    state.thumbnails.retain(|(id, _)| entries.iter().any(|entry| entry.id == *id));
+    state.looking.thumbnails.retain(|(id, _)| entries.iter().any(|entry| entry.id == *id));
     egui::ScrollArea::horizontal().id_salt("strip").stick_to_right(true).show(ui, |ui| {
         ui.horizontal(|ui| entries.iter().for_each(|entry| card(ui, state, entry)));
     });
@@ -61,7 +62,7 @@ fn buttons(ui: &mut egui::Ui, state: &mut State, last: Option<&HistoryEntry>) {
         ),
         (Compare::Difference, "difference", "How far the luminance of the two is apart, in false colours"),
     ] {
-        ui.selectable_value(&mut state.compare, compare, name).on_hover_text(help);
+        ui.selectable_value(&mut state.looking.compare, compare, name).on_hover_text(help);
     }
 }
 
@@ -77,13 +78,13 @@ fn turntable(ui: &mut egui::Ui, state: &mut State, turning: Option<[u32; 2]>) {
         "Turns the camera once around what it looks at, and writes a PNG of each step into a new folder among the snapshots; an \
          MP4 too where ffmpeg is installed. Moving the camera or an edit ends it",
     );
-    let [steps, passes] = &mut state.turntable;
+    let [steps, passes] = &mut state.looking.turntable;
     let label = ui.label("steps");
     ui.add(egui::DragValue::new(steps).range(STEPS)).labelled_by(label.id);
     let label = ui.label("passes each");
     ui.add(egui::DragValue::new(passes).range(PASSES)).labelled_by(label.id);
     if begin.clicked() {
-        let [steps, passes] = state.turntable;
+        let [steps, passes] = state.looking.turntable;
         let steps = u32::try_from(steps).ok().and_then(NonZeroU32::new).unwrap_or(NonZeroU32::MIN);
         let folder = state.snapshot_folder();
         state.ask(Command::Turntable { steps, passes, folder });
@@ -135,13 +136,13 @@ fn in_words(entry: &HistoryEntry) -> String {
 
 /// The texture of an entry's picture, made once.
 fn thumbnail(ctx: &egui::Context, state: &mut State, entry: &HistoryEntry) -> egui::TextureId {
-    if let Some((_, texture)) = state.thumbnails.iter().find(|(id, _)| *id == entry.id) {
+    if let Some((_, texture)) = state.looking.thumbnails.iter().find(|(id, _)| *id == entry.id) {
         return texture.id();
     }
     let image = ColorImage::from_rgb(entry.thumbnail.size.map(|side| side as usize), &entry.thumbnail.rgb);
     let texture = ctx.load_texture(format!("history {}", entry.id), image, TextureOptions::LINEAR);
     let id = texture.id();
-    state.thumbnails.push((entry.id, texture));
+    state.looking.thumbnails.push((entry.id, texture));
     id
 }
 

@@ -30,10 +30,10 @@ const LETTERS: [(Key, Act); 10] = [
     (Key::P, actions::snapshot),
     (Key::O, actions::toggle_photons),
     (Key::K, actions::toggle_pin),
-    (Key::L, |s| s.show_histogram = !s.show_histogram),
-    (Key::C, |s| s.marks_clipping = !s.marks_clipping),
+    (Key::L, |s| s.looking.show_histogram = !s.looking.show_histogram),
+    (Key::C, |s| s.looking.marks_clipping = !s.looking.marks_clipping),
     (Key::N, |s| s.ask(Command::Remember)),
-    (Key::T, |s| s.show_history = !s.show_history),
+    (Key::T, |s| s.looking.show_history = !s.looking.show_history),
 ];
 
 const DIGITS: [Key; 5] = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5];

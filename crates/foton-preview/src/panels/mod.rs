@@ -35,6 +35,7 @@ mod text;
 mod toolbar;
 mod typing;
 mod views;
+mod warnings;
 mod widgets;
 
 #[cfg(test)]
@@ -95,7 +96,7 @@ pub(crate) fn show(ui: &mut egui::Ui, state: &mut State) {
         .frame(bar)
         .exact_size(STATUS)
         .show(ui, |ui| within(ui, |ui| status::show(ui, state)));
-    if state.show_history && !state.hides_panels {
+    if state.looking.show_history && !state.hides_panels {
         let strip = egui::Panel::bottom("history").frame(frame).resizable(false).exact_size(HISTORY);
         strip.show(ui, |ui| within(ui, |ui| history::show(ui, state)));
     }

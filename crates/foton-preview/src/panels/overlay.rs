@@ -6,7 +6,8 @@ use foton_session::engine::{Dot, Frame};
 
 use super::dot_legend;
 use super::film_place::Film;
-use crate::state::{Compare, State};
+use crate::looking::Compare;
+use crate::state::State;
 
 const CHOSEN: Color32 = Color32::from_rgb(255, 170, 40);
 const LIGHT: Color32 = Color32::from_rgb(255, 225, 120);
@@ -39,7 +40,7 @@ pub(super) fn draw(painter: &egui::Painter, state: &State, frame: &Frame, film: 
         }
         dots(painter, &probe.photons, film, 1.6);
     }
-    if let Some(pinned) = state.pinned.as_ref().filter(|_| state.compare == Compare::Wipe) {
+    if let Some(pinned) = state.pinned.as_ref().filter(|_| state.looking.compare == Compare::Wipe) {
         let x = film.rect.left() + film.rect.width() * state.wipe;
         let font = egui::FontId::proportional(12.0);
         let at = Pos2::new(x + 8.0, film.rect.bottom() - 10.0);

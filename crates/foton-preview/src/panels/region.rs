@@ -4,7 +4,8 @@ use egui::{Align2, Color32, FontId, Pos2, Rect, Stroke, StrokeKind};
 use foton_session::engine::{Command, Configuration, Region};
 
 use super::film_place::Film;
-use crate::state::{Choosing, State};
+use crate::looking::Choosing;
+use crate::state::State;
 
 /// A part of fewer pixels a side was a slip of the hand.
 const LEAST: u32 = 4;
@@ -22,14 +23,14 @@ pub(super) fn entry(ui: &mut egui::Ui, state: &mut State) {
     if entry.clicked() && is_chosen {
         configure(state, None);
     } else if entry.clicked() {
-        state.choosing_region = Some(Choosing::default());
+        state.looking.choosing_region = Some(Choosing::default());
         state.notice("Drag out the part of the image to render; Esc gives up");
     }
 }
 
 /// Takes the pointer while a region is being chosen. Whether it did.
 pub(super) fn drag(ui: &egui::Ui, state: &mut State, response: &egui::Response, film: Film) -> bool {
-    let Some(mut choosing) = state.choosing_region else { return false };
+    let Some(mut choosing) = state.looking.choosing_region else { return false };
     ui.ctx().set_cursor_icon(egui::CursorIcon::Crosshair);
     if response.drag_started()
         && let Some(at) = ui.input(|i| i.pointer.press_origin())
@@ -39,11 +40,11 @@ pub(super) fn drag(ui: &egui::Ui, state: &mut State, response: &egui::Response, 
     if let Some(at) = response.interact_pointer_pos() {
         choosing.to = film.to_film(at);
     }
-    state.choosing_region = Some(choosing);
+    state.looking.choosing_region = Some(choosing);
     if response.drag_stopped()
         && let Some(from) = choosing.from
     {
-        state.choosing_region = None;
+        state.looking.choosing_region = None;
         match between(from, choosing.to, film) {
             Some(region) => configure(state, Some(region)),
             None => state.notice(format!("A region has at least {LEAST} x {LEAST} pixels")),
@@ -72,7 +73,7 @@ fn configure(state: &mut State, region: Option<Region>) {
 /// Draws what is dragged out, and the frame of what is rendered where that is not all of the image.
 pub(super) fn draw(painter: &egui::Painter, state: &State, film: Film) {
     let stroke = Stroke::new(1.5, EDGE);
-    if let Some(Choosing { from: Some(from), to }) = state.choosing_region {
+    if let Some(Choosing { from: Some(from), to }) = state.looking.choosing_region {
         let corner = |at: [f64; 2]| film.to_points(at.map(|v| v as f32));
         let rect = Rect::from_two_pos(corner(from), corner(to)).intersect(film.image);
         painter.rect_filled(rect, 0.0, EDGE.gamma_multiply(0.12));

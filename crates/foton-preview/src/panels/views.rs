@@ -60,11 +60,11 @@ pub(super) fn light_paths(ui: &mut Ui, state: &mut State) {
 
 /// A switch for each thing that is drawn over the picture.
 pub(super) fn over_the_picture(ui: &mut Ui, state: &mut State) {
-    ui.checkbox(&mut state.show_histogram, "Histogram (L)")
+    ui.checkbox(&mut state.looking.show_histogram, "Histogram (L)")
         .on_hover_text("How bright the pixels are, in stops");
-    ui.checkbox(&mut state.marks_clipping, "Mark clipping (C)").on_hover_text(
+    ui.checkbox(&mut state.looking.marks_clipping, "Mark clipping (C)").on_hover_text(
         "Red stripes over pixels that are 255 in a channel, blue over black ones: what a PNG clips",
     );
-    ui.checkbox(&mut state.show_history, "History (T)")
+    ui.checkbox(&mut state.looking.show_history, "History (T)")
         .on_hover_text("The passes that were kept: to compare with, to return to, and to make films of");
 }

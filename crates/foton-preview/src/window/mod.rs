@@ -22,8 +22,9 @@ use error::reason;
 use event::UserEvent;
 use frame_log::FrameLog;
 
+use crate::looking::BuiltIn;
 use crate::preferences::Preferences;
-use crate::state::{BuiltIn, State};
+use crate::state::State;
 
 /// What to open, and with what.
 pub struct Options {

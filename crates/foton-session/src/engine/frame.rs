@@ -149,6 +149,8 @@ pub struct SceneFacts {
     pub shapes: usize,
     /// Whether the scene differs from its file.
     pub is_edited: bool,
+    /// What its file says without effect, and what else a person should know of it, as when it was opened.
+    pub warnings: Arc<Vec<String>>,
     /// What undoing would take back.
     pub undo: Option<String>,
     /// What redoing would make again.

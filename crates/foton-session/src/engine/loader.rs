@@ -68,6 +68,14 @@ pub(super) struct Ready {
     pub(super) findings: Vec<Finding>,
 }
 
+impl Ready {
+    /// What a person should know of the scene and its file, in words.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let findings = self.findings.iter().map(|finding| finding.text.clone());
+        self.loaded.warnings.iter().cloned().chain(findings).collect()
+    }
+}
+
 /// A scene that is being opened; dropped it is given up.
 pub(super) struct Opening {
     pub(super) name: String,

@@ -14,6 +14,7 @@ use std::time::Duration;
 use foton_film::ToneMap;
 use foton_integrator::PpmSettings;
 use foton_session::engine::{Activity, Command, Configuration, Event, Picture, SurfaceNames, ViewMode};
+use foton_session::findings::{self, FindingKind};
 use foton_session::snapshot::{self, Format, Look};
 use foton_session::{Alpha, DirectLight, RenderSettings, SettingChange, StopRule};
 use rig::{Folder, Rig, SIZE, headless, identity, image, settings};
@@ -256,6 +257,27 @@ fn an_image_of_32768_by_32768_is_refused_with_the_numbers() {
     rig.send(Command::StopAt(StopRule::passes(1)));
     rig.open("room");
     rig.done(1);
+}
+
+/// Light that is cut off, a light that nothing seen gets, a goal beyond reach: frames carry what the console prints.
+#[test]
+fn frames_carry_what_the_console_warns_of() {
+    let (rig, before) = Rig::at_pass(2);
+    assert_eq!(before.scene.warnings[0], "room.xml:1:1: a warning");
+    let now = Configuration::of(&before.settings, before.threads, None);
+    rig.send(Command::Configure(Configuration { max_depth: Some(2), radius: Some(1e6), ..now }));
+    let frame = rig.until("less depth", |f| f.activity == Activity::Done && f.settings.max_depth == Some(2));
+    let headless = headless(2, frame.settings.clone(), |_, _| ());
+    let names = &findings::SettingNames::CONTROLS;
+    let mut console = findings::of_settings(headless.render().scene(), &frame.settings, names);
+    console.extend(findings::of_ledger(headless.render(), names));
+    console.extend(findings::of_emitters(headless.render()));
+    assert_eq!(*frame.stats.findings, console);
+    let kinds: Vec<FindingKind> = console.iter().map(|finding| finding.kind).collect();
+    assert!(
+        kinds.contains(&FindingKind::PowerCutOff) && kinds.contains(&FindingKind::RadiusBeyondScene),
+        "{kinds:?}"
+    );
 }
 
 #[test]

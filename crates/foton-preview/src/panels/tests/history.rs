@@ -3,7 +3,7 @@
 use foton_session::engine::{HistoryEntry, Region, Thumbnail};
 
 use super::*;
-use crate::state::Compare;
+use crate::looking::Compare;
 
 /// An entry whose picture is in a file of its own.
 fn entry(id: u64, passes: u64) -> HistoryEntry {
@@ -28,7 +28,7 @@ fn entry(id: u64, passes: u64) -> HistoryEntry {
 
 fn strip(entries: Vec<HistoryEntry>) -> Harness<'static, State> {
     window(|state| {
-        state.show_history = true;
+        state.looking.show_history = true;
         state.preferences.snapshot_folder = "/pictures".into();
         state.frame.as_mut().expect("there").history = Arc::new(entries);
     })
@@ -74,8 +74,8 @@ fn a_pass_is_compared_with_by_wipe_and_by_difference() {
         harness.state().pinned.as_ref().is_some_and(|p| p.entry == Some(5) && p.label.contains("pass 2"))
     );
     click(&mut harness, Role::Button, "difference");
-    assert_eq!(harness.state().compare, Compare::Difference);
-    let apart = harness.state().difference.as_ref().map(|d| d.plane.values[0]);
+    assert_eq!(harness.state().looking.compare, Compare::Difference);
+    let apart = harness.state().looking.difference.as_ref().map(|d| d.plane.values[0]);
     let expected = (Rgb::new(0.5, 0.25, 0.125).luminance() - 0.25).abs();
     assert!(apart.is_some_and(|d| (d - expected).abs() < 1e-6), "{apart:?}");
     click(&mut harness, Role::Button, "room pass 1");

@@ -108,7 +108,7 @@ fn a_region_is_dragged_out_and_given_back() {
     region_entry(&mut harness, "Render a region…");
     harness.key_press(Key::Escape);
     settle(&mut harness);
-    assert!(harness.state().choosing_region.is_none());
+    assert!(harness.state().looking.choosing_region.is_none());
     region_entry(&mut harness, "Render a region…");
     drag(&mut harness, at(20.2, 20.2), at(21.5, 20.4));
     let commands = asked(&mut harness);
@@ -145,7 +145,7 @@ fn clipped_pixels_are_marked_in_the_picture() {
     let (at, canvas) = picture::drawn(|state| {
         state.exposure_stops = 12.0;
         state.tone_map = ToneMap::Linear;
-        state.marks_clipping = true;
+        state.looking.marks_clipping = true;
     });
     let row: Vec<_> = (0..16).map(|x| at(canvas.center() + vec2(x as f32, 0.0))).collect();
     assert!(row.contains(&[255, 0, 0]) && row.contains(&[255, 255, 255]), "{row:?}");
@@ -180,11 +180,11 @@ fn the_dots_of_photons_have_a_legend() {
 #[test]
 fn the_first_times_a_line_says_what_to_do_and_fades() {
     let mut harness = window(|state| state.preferences.starts = 1);
-    let since = harness.state().hinted.expect("it was drawn");
+    let since = harness.state().looking.hinted.expect("it was drawn");
     let drawn = |starts, later: f64| {
         let (at, canvas) = picture::drawn(|state| {
             state.preferences.starts = starts;
-            state.hinted = Some(-later);
+            state.looking.hinted = Some(-later);
         });
         let row = canvas.bottom() - 44.0;
         (0..300)
@@ -196,5 +196,5 @@ fn the_first_times_a_line_says_what_to_do_and_fades() {
     assert_eq!(drawn(1, 30.0), 1, "they are gone after a while");
     assert_eq!(drawn(99, 0.0), 1, "and are not for those who know");
     settle(&mut harness);
-    assert_eq!(harness.state().hinted, Some(since));
+    assert_eq!(harness.state().looking.hinted, Some(since));
 }

@@ -33,8 +33,9 @@ use foton_session::{
 
 use foton_session::snapshot::Look;
 
+use crate::looking::BuiltIn;
 use crate::preferences::Preferences;
-use crate::state::{BuiltIn, State};
+use crate::state::State;
 
 /// Width and height of the image in pixels.
 const SIZE: [u32; 2] = [60, 40];

@@ -85,11 +85,13 @@ pub(super) struct EditableScene {
     /// Whether the scene is older than the description.
     is_stale: bool,
     cancels: Cancels,
+    warnings: Arc<Vec<String>>,
     facts: Arc<SceneFacts>,
 }
 
 impl EditableScene {
     pub(super) fn new(ready: Ready, cancels: Cancels) -> Self {
+        let warnings = Arc::new(ready.warnings());
         let Ready { source, loaded, scene, .. } = ready;
         let description = Arc::new(loaded.description);
         let sensors = description.sensors.clone();
@@ -110,6 +112,7 @@ impl EditableScene {
             built: Arc::clone(&description),
             is_stale: false,
             cancels,
+            warnings,
             facts: Arc::default(),
         };
         new.refresh_facts();
@@ -256,6 +259,7 @@ impl EditableScene {
             sensors: self.sensors.iter().map(sensor).collect(),
             shapes: self.description.shapes.len(),
             is_edited: self.is_edited(),
+            warnings: Arc::clone(&self.warnings),
             undo: self.history.undo_name().map(str::to_owned),
             redo: self.history.redo_name().map(str::to_owned),
         });

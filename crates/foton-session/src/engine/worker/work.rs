@@ -34,9 +34,7 @@ impl Worker {
     /// Makes a scene that was opened the one to render.
     fn show(&mut self, ready: Ready) {
         let loaded = &ready.loaded;
-        let findings = ready.findings.iter().map(|finding| finding.text.clone());
-        let warnings = loaded.warnings.iter().cloned().chain(findings).collect();
-        self.event(Event::Opened { name: loaded.identity.name.clone(), warnings });
+        self.event(Event::Opened { name: loaded.identity.name.clone(), warnings: ready.warnings() });
         // Light by path class changes no bit of the whole, and a person may look at it at any time.
         self.plan.settings = RenderSettings { layers: true, ..loaded.settings.clone() };
         self.scene = Some(EditableScene::new(ready, self.cancels.clone()));
