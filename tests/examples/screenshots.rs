@@ -76,8 +76,8 @@ impl Shots {
             }
             // The ring of the scene that ships with the program.
             ("choose", _) => {
-                let at = self.share_of("canvas", [0.806, 0.82]);
-                self.display.hand(&format!("mousemove {at} click 1"));
+                let [x, y] = self.window.on_film([0.8145, 0.843]).map(|v| v * self.scale);
+                self.display.hand(&format!("mousemove {x:.0} {y:.0} click 1"));
                 self.window.frame("a choice", |f| f.get("chosen").map(|_| ()));
             }
             ("canvas", _) => {

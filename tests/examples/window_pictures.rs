@@ -14,7 +14,8 @@ fn main() {
     let arguments: Vec<PathBuf> = env::args_os().skip(1).map(PathBuf::from).collect();
     let [foton, target] = arguments.as_slice() else { panic!("usage: window_pictures FOTON FOLDER") };
     let folder = env::temp_dir().join(format!("foton-pictures-{}", std::process::id()));
-    for (name, is_dark, click) in [("window", true, None), ("window-inspector", true, Some([0.806, 0.82]))] {
+    for (name, is_dark, click) in [("window", true, None), ("window-inspector", true, Some([0.8145, 0.843]))]
+    {
         std::fs::create_dir_all(&folder).expect("a folder");
         let display = Display::start(WINDOW);
         let opening = Opening { foton, scene: None, folder: &folder, size: WINDOW, is_dark, fault: None };
@@ -25,12 +26,8 @@ fn main() {
             (f["pass"].as_f64()? >= PASSES && f["activity"] == "rendering").then_some(())
         });
         if let Some(at) = click {
-            let [left, top, width, height] = window.place("canvas");
-            display.hand(&format!(
-                "mousemove {:.0} {:.0} click 1",
-                left + at[0] * width,
-                top + at[1] * height
-            ));
+            let [x, y] = window.on_film(at);
+            display.hand(&format!("mousemove {x:.0} {y:.0} click 1"));
             window.frame("a choice", |f| f.get("chosen").map(|_| ()));
             display.hand("mousemove 1279 799");
             window.frame("a frame", |f| f.get("chosen").map(|_| ()));

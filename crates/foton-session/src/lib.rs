@@ -37,8 +37,8 @@ pub mod threads;
 pub use clock::StageTimes;
 pub use engine::Engine;
 pub use foton_integrator::{
-    Alpha, DirectLight, ErrorEstimate, Ledger, PathClass, Radii, RadiusFloor, RadiusRule, RadiusScale,
-    RenderSettings, SettingChange, Stage,
+    Alpha, ClassError, DirectLight, ErrorEstimate, Ledger, PathClass, Radii, RadiusFloor, RadiusRule,
+    RadiusScale, RenderSettings, SettingChange, Stage,
 };
 pub use interrupt::Interrupt;
 pub use metadata::SceneIdentity;

@@ -197,6 +197,20 @@ impl Window {
         place.unwrap_or_else(|| panic!("no place of {name}\n{}", self.log.tail()))
     }
 
+    /// Where a share of the image, across and down, is on the canvas, in points, while the whole image is shown.
+    ///
+    /// # Panics
+    /// If the log does not say.
+    #[track_caller]
+    #[must_use]
+    pub fn on_film(&mut self, share: [f64; 2]) -> [f64; 2] {
+        let size = self.frame("a size", |f| Some([f["size"][0].as_f64()?, f["size"][1].as_f64()?]));
+        let [left, top, width, height] = self.place("canvas");
+        let scale = (width / size[0]).min(height / size[1]);
+        let along = |i: usize, from: f64, room: f64| from + 0.5 * room + (share[i] - 0.5) * size[i] * scale;
+        [along(0, left, width), along(1, top, height)]
+    }
+
     /// The memory that the process holds, in bytes, as the system counts it.
     #[must_use]
     pub fn memory(&self) -> Option<u64> {

@@ -132,10 +132,10 @@ fn show_number(
         .horizontal(|ui| {
             if has_slider {
                 let slider = Slider::new(field.label, min..=max).logarithmic(logarithmic);
-                let ([slider, field], change) = slider.salt(salt).width(56.0).show(ui, number, value);
+                let ([slider, field], change) = slider.salt(salt).show(ui, number, value);
                 (slider | field, change)
             } else {
-                number.width(140.0).show(ui, value)
+                number.wide().show(ui, value)
             }
         })
         .inner;

@@ -65,6 +65,12 @@ const WIDTHS: [f32; 2] = [264.0, 272.0];
 /// The same in a window of less than [`NARROW`].
 const NARROW_WIDTHS: [f32; 2] = [236.0, 236.0];
 
+/// Share of the right panel's height that convergence and diagnostics take at most.
+const LOWER: f32 = 0.65;
+
+/// Points between the two parts of the right panel.
+const GAP: f32 = 8.0;
+
 /// Width of a window in points.
 const NARROW: f32 = 880.0;
 
@@ -134,22 +140,28 @@ fn left(ui: &mut egui::Ui, state: &mut State) {
 
 /// The panel at the right: the selection, and below it how the render does.
 fn right(ui: &mut egui::Ui, state: &mut State) {
-    let most = ui.available_height() * 0.6;
-    let below = egui::Panel::bottom("progress").frame(egui::Frame::NONE);
-    below.show(ui, |ui| {
-        egui::ScrollArea::vertical().id_salt("progress").max_height(most).auto_shrink([false, true]).show(
-            ui,
-            |ui| {
-                section(ui, "Convergence", true, |ui| convergence::show(ui, state));
-                let header = section(ui, "Diagnostics", false, |ui| diagnostics::show(ui, state));
-                state.place("diagnostics", &header);
-            },
-        );
-    });
+    let all = ui.available_rect_before_wrap();
+    // As high as what is in it was in the last frame, if that leaves room for the selection.
+    let id = egui::Id::unique("height of the convergence panel");
+    let height: f32 = ui.data(|d| d.get_temp(id)).unwrap_or(all.height() * LOWER);
+    let split = all.bottom() - height.min(all.height() * LOWER);
+    let upper = egui::UiBuilder::new().max_rect(all.with_max_y(split - GAP));
     egui::ScrollArea::vertical()
         .id_salt("selection")
         .auto_shrink(false)
-        .show(ui, |ui| inspector::show(ui, state));
+        .show(&mut ui.new_child(upper), |ui| inspector::show(ui, state));
+    ui.painter().hline(all.x_range(), split - 0.5 * GAP, ui.visuals().widgets.noninteractive.bg_stroke);
+    let lower = egui::UiBuilder::new().max_rect(all.with_min_y(split));
+    let shown = egui::ScrollArea::vertical().id_salt("progress").auto_shrink(false);
+    let shown = shown.show(&mut ui.new_child(lower), |ui| {
+        section(ui, "Convergence", true, |ui| convergence::show(ui, state));
+        let header = section(ui, "Diagnostics", false, |ui| diagnostics::show(ui, state));
+        state.place("diagnostics", &header);
+    });
+    if shown.content_size.y != height {
+        ui.data_mut(|d| d.insert_temp(id, shown.content_size.y));
+        ui.request_repaint();
+    }
 }
 
 fn dialog(ctx: &egui::Context, state: &mut State) {

@@ -18,7 +18,7 @@ pub(super) fn show(ui: &mut Ui, state: &mut State) {
     {
         tell(state);
     }
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         if ui
             .button("Keep checkpoint…")
             .on_hover_text("Updates a file with this render's state every 30 s")

@@ -8,7 +8,7 @@ use foton_session::{DirectLight, RadiusFloor, RadiusRule};
 
 use super::number::{Change, Digits, Number};
 use super::slider::Slider;
-use super::widgets::row;
+use super::widgets::{LABEL, row};
 use crate::state::State;
 
 pub(super) fn show(ui: &mut Ui, state: &mut State) {
@@ -64,11 +64,6 @@ fn rebased(draft: Configuration, base: &Configuration, now: &Configuration) -> C
         max_depth,
         threads
     )
-}
-
-/// As wide as the numbers, where there is room.
-fn list_width(ui: &Ui) -> f32 {
-    ui.available_width().min(124.0)
 }
 
 const fn direct_light_name(method: DirectLight) -> &'static str {
@@ -132,7 +127,7 @@ fn changes(now: &Configuration, draft: &Configuration, sensors: &[&str]) -> Vec<
 fn methods(ui: &mut Ui, draft: &mut Configuration) {
     const DIRECT: &str = "How direct light is estimated";
     row(ui, "Direct light", DIRECT, |ui, label| {
-        let list = egui::ComboBox::from_id_salt("direct light").width(list_width(ui));
+        let list = egui::ComboBox::from_id_salt("direct light").width(ui.available_width());
         let list = list.selected_text(direct_light_name(draft.direct_light)).show_ui(ui, |ui| {
             let mut choice = |method, help| {
                 let name = direct_light_name(method);
@@ -151,7 +146,7 @@ fn methods(ui: &mut Ui, draft: &mut Configuration) {
     });
     const REDUCTION: &str = "How radii shrink from pass to pass";
     row(ui, "Radius reduction", REDUCTION, |ui, label| {
-        let list = egui::ComboBox::from_id_salt("radius reduction").width(list_width(ui));
+        let list = egui::ComboBox::from_id_salt("radius reduction").width(ui.available_width());
         let list = list.selected_text(radius_rule_name(draft.radius_rule)).show_ui(ui, |ui| {
             let mut choice = |rule, help| {
                 ui.selectable_value(&mut draft.radius_rule, rule, radius_rule_name(rule)).on_hover_text(help);
@@ -195,7 +190,7 @@ fn optional(
 ) -> Option<f64> {
     ui.horizontal(|ui| {
         let mut is_on = value.is_some();
-        let width = 100.0;
+        let width = LABEL;
         let size = egui::vec2(width, ui.spacing().interact_size.y);
         let layout = egui::Layout::left_to_right(egui::Align::Center);
         ui.allocate_ui_with_layout(size, layout, |ui| {
@@ -215,12 +210,12 @@ fn radii(ui: &mut Ui, draft: &mut Configuration, median: f64) {
     const FIRST: &str =
         "Off: from each pixel's footprint. Large: smooth and biased at first; small: sharp and noisy";
     let start = median.max(1e-9);
-    let number = Number::new("First radius", 1e-9..=1e9).unit("units").width(124.0);
+    let number = Number::new("First radius", 1e-9..=1e9).unit("units").wide();
     let number = number.speed(0.01 * draft.radius.unwrap_or(start));
     draft.radius = optional(ui, "First radius", FIRST, draft.radius, start, number);
     const SMALLEST: &str = "In spacings of the eye samples: light narrower than that falls between them. 0: radii shrink for ever";
     row(ui, "Smallest radius", SMALLEST, |ui, _| {
-        let number = Number::new("Smallest radius", 0.0..=100.0).unit("spacings").speed(0.01).width(124.0);
+        let number = Number::new("Smallest radius", 0.0..=100.0).unit("spacings").speed(0.01).wide();
         let (field, change) = number.show(ui, draft.radius_floor.get());
         field.on_hover_text(SMALLEST);
         if let Some(floor) = change.and_then(Change::done).and_then(RadiusFloor::new) {
@@ -231,7 +226,7 @@ fn radii(ui: &mut Ui, draft: &mut Configuration, median: f64) {
 
 fn depth(ui: &mut Ui, draft: &mut Configuration) {
     const HELP: &str = "Longest light path in edges; off: what the scene says. Light beyond it is missing: Truncated (max depth)";
-    let number = Number::new("Max depth", 1.0..=65535.0).digits(Digits::Whole).speed(0.2).width(124.0);
+    let number = Number::new("Max depth", 1.0..=65535.0).digits(Digits::Whole).speed(0.2).wide();
     let depth = optional(ui, "Max depth", HELP, draft.max_depth.map(f64::from), 64.0, number);
     draft.max_depth = depth.map(|d| d as u32);
 }
@@ -241,7 +236,7 @@ fn seed_and_threads(ui: &mut Ui, draft: &mut Configuration) -> egui::Response {
     const SEED: &str = "Another seed gives other noise and the same light";
     let seed = row(ui, "Seed", SEED, |ui, _| {
         // Beyond this, double precision skips whole numbers.
-        let number = Number::new("Seed", 0.0..=9e15).digits(Digits::Whole).speed(1.0).width(124.0);
+        let number = Number::new("Seed", 0.0..=9e15).digits(Digits::Whole).speed(1.0).wide();
         let (field, change) = number.show(ui, draft.seed as f64);
         if let Some(seed) = change.and_then(Change::done) {
             draft.seed = seed as u64;
@@ -251,8 +246,7 @@ fn seed_and_threads(ui: &mut Ui, draft: &mut Configuration) -> egui::Response {
     const THREADS: &str = "The picture is the same for any number";
     row(ui, "Threads", THREADS, |ui, _| {
         let most = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-        let number =
-            Number::new("Threads", 1.0..=4.0 * most as f64).digits(Digits::Whole).speed(0.05).width(124.0);
+        let number = Number::new("Threads", 1.0..=4.0 * most as f64).digits(Digits::Whole).speed(0.05).wide();
         let (field, change) = number.show(ui, draft.threads.unwrap_or(most) as f64);
         field.on_hover_text(THREADS);
         if let Some(n) = change.and_then(Change::done) {
@@ -268,8 +262,10 @@ fn sensors(ui: &mut Ui, names: &[&str], draft: &mut Configuration) {
     }
     row(ui, "Camera", "Which camera of the scene renders", |ui, label| {
         let chosen = names.get(draft.sensor).copied().unwrap_or_default();
-        let list =
-            egui::ComboBox::from_id_salt("sensor").width(list_width(ui)).truncate().selected_text(chosen);
+        let list = egui::ComboBox::from_id_salt("sensor")
+            .width(ui.available_width())
+            .truncate()
+            .selected_text(chosen);
         let list = list.show_ui(ui, |ui| {
             for (i, name) in names.iter().enumerate() {
                 ui.selectable_value(&mut draft.sensor, i, *name);

@@ -12,7 +12,7 @@ pub(super) struct Slider<'a> {
     salt: u64,
     range: RangeInclusive<f64>,
     is_logarithmic: bool,
-    /// At most; it is shorter where the panel is narrow.
+    /// At most; it is shorter where there is less room.
     width: f32,
 }
 
@@ -24,7 +24,7 @@ struct Memo {
 
 impl<'a> Slider<'a> {
     pub(super) const fn new(name: &'a str, range: RangeInclusive<f64>) -> Self {
-        Self { name, salt: 0, range, is_logarithmic: false, width: 64.0 }
+        Self { name, salt: 0, range, is_logarithmic: false, width: f32::INFINITY }
     }
 
     pub(super) const fn salt(self, salt: u64) -> Self {
@@ -42,7 +42,7 @@ impl<'a> Slider<'a> {
     /// The slider, then the field; both, and what a person did to one of them.
     pub(super) fn show(self, ui: &mut Ui, number: Number<'_>, value: f64) -> ([Response; 2], Option<Change>) {
         let room = ui.available_width() - number.width - ui.spacing().item_spacing.x;
-        ui.spacing_mut().slider_width = self.width.min(room).max(24.0);
+        ui.spacing_mut().slider_width = self.width.min(room).max(20.0);
         let (slider, shown, moved) = self.slide(ui, value, number.digits == Digits::Whole);
         let (field, typed) = number.show(ui, shown);
         ([slider, field], typed.or(moved))

@@ -13,16 +13,21 @@ pub(super) fn show(ui: &mut Ui, state: &State) {
             ui.weak("No scene");
             return;
         };
-        cell(ui, 132.0, &activity(frame));
+        cell(ui, 140.0, &activity(frame));
         ui.separator();
-        cell(ui, 72.0, &format!("Pass {}", grouped(frame.stats.passes)));
+        let pass = cell(ui, 76.0, &format!("Pass {}", grouped(frame.stats.passes)));
+        progress(ui, pass, frame.pass_share as f32);
         ui.separator();
         let error =
             frame.stats.error.map_or_else(|| "Error –".to_owned(), |e| format!("Error {}", percent(e.total)));
         cell(ui, 92.0, &error);
         ui.separator();
-        cell(ui, 116.0, &time_left(state));
+        cell(ui, 128.0, &time_left(state));
         ui.separator();
+        if let Some(age) = frame.checkpoint_age {
+            cell(ui, 116.0, &format!("Checkpoint {} old", duration(age.as_secs_f64())));
+            ui.separator();
+        }
         let probe = frame.probe.as_ref().filter(|p| Some(p.pixel) == state.probed);
         let rest = probe.map_or_else(|| frame.scene.name.clone(), probed);
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| ui.add(Label::new(rest).truncate()));
@@ -30,15 +35,29 @@ pub(super) fn show(ui: &mut Ui, state: &State) {
 }
 
 /// Words in a cell of constant width: what changes beside it moves nothing.
-fn cell(ui: &mut Ui, width: f32, text: &str) {
+fn cell(ui: &mut Ui, width: f32, text: &str) -> egui::Rect {
     let size = Vec2::new(width, ui.spacing().interact_size.y);
-    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+    let cell = ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
         ui.set_min_width(width);
         if text.is_empty() {
             return;
         }
         ui.add(Label::new(RichText::new(text)).truncate());
     });
+    cell.response.rect
+}
+
+/// A line under a cell, as long as what is done.
+fn progress(ui: &mut Ui, cell: egui::Rect, share: f32) {
+    let line =
+        egui::Rect::from_min_size(cell.left_bottom() - Vec2::new(0.0, 1.0), Vec2::new(cell.width(), 2.0));
+    let done = line.with_max_x(line.left() + line.width() * share.clamp(0.0, 1.0));
+    ui.painter().rect_filled(line, 1.0, ui.visuals().widgets.inactive.bg_fill);
+    ui.painter().rect_filled(done, 1.0, ui.visuals().selection.bg_fill);
+    let response = ui.interact(cell, ui.scope_id().with("pass"), egui::Sense::hover());
+    let words = format!("Pass under way: {:.0} % done", 100.0 * share);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ProgressIndicator, true, &words));
+    response.on_hover_text(words.clone());
 }
 
 /// The time left; nothing where it is not known, or where nothing goes on.
@@ -47,7 +66,7 @@ fn time_left(state: &State) -> String {
     match convergence::left(state).filter(|_| goes_on) {
         Some(Left::ToStop(seconds)) => format!("{} left", duration(seconds)),
         Some(Left::ToError(seconds, goal)) => {
-            format!("{} to {}", duration(seconds), percent(goal))
+            format!("{} to error {} %", duration(seconds), 100.0 * goal)
         }
         None => String::new(),
     }
@@ -58,7 +77,10 @@ fn activity(frame: &Frame) -> String {
         Activity::Empty => "No scene".to_owned(),
         Activity::Moving => "Moving".to_owned(),
         Activity::Building => "Building the scene…".to_owned(),
-        Activity::Collecting => "Collecting hit points…".to_owned(),
+        Activity::Collecting => match frame.collecting {
+            Some(share) => format!("Hit points {:.0} %", share * 100.0),
+            None => "Collecting hit points…".to_owned(),
+        },
         Activity::Rendering => match share_done(frame) {
             Some(share) => format!("Rendering {:.0} %", share * 100.0),
             None => "Rendering".to_owned(),

@@ -5,7 +5,7 @@ use egui::{Align2, Color32, Response, Sense, Ui, Vec2};
 use super::icons::{self, Icon};
 
 /// Width of the labels before a panel's controls, in points.
-const LABEL: f32 = 92.0;
+pub(super) const LABEL: f32 = 104.0;
 
 /// What a panel holds, in its own rectangle: whatever it needs, the panel grows no wider or higher for it.
 pub(super) fn within(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {

@@ -45,6 +45,12 @@ impl Keeper {
         &self.path
     }
 
+    /// How much of a render that has taken `elapsed` is not in the file; `None` before it is written for the first time.
+    #[must_use]
+    pub fn age(&self, elapsed: Duration) -> Option<Duration> {
+        self.stored.map(|stored| elapsed.saturating_sub(stored))
+    }
+
     /// Whether a render that has taken `elapsed` is to be written.
     #[must_use]
     pub fn is_due(&self, elapsed: Duration) -> bool {

@@ -41,6 +41,12 @@ impl Worker {
         written.map(|()| keeper).map_err(|error| error.to_string())
     }
 
+    /// How much rendering the checkpoint does not have yet.
+    pub(super) fn checkpoint_age(&self) -> Option<Duration> {
+        let (render, _) = self.rendered()?;
+        self.files.keeper.as_ref()?.age(render.elapsed())
+    }
+
     /// Finishes the checkpoint of a render that ends: the next render has no business in its file.
     pub(super) fn leave_checkpoint(&mut self) {
         if let Some(keeper) = &self.files.keeper {

@@ -245,6 +245,8 @@ pub struct Frame {
     pub history: Arc<Vec<HistoryEntry>>,
     /// Frames of a turntable that are written, and all of them, while one turns.
     pub turntable: Option<[u32; 2]>,
+    /// How much rendering the render's checkpoint does not have yet; `None` without a checkpoint.
+    pub checkpoint_age: Option<Duration>,
     /// The scene.
     pub scene: Arc<SceneFacts>,
     /// Photons of the last pass, if asked for.

@@ -91,8 +91,14 @@ impl<'a> Number<'a> {
         Self { speed, ..self }
     }
 
+    /// At most so wide, and never wider than there is room.
     pub(super) const fn width(self, width: f32) -> Self {
         Self { width, ..self }
+    }
+
+    /// As wide as there is room.
+    pub(super) const fn wide(self) -> Self {
+        self.width(f32::INFINITY)
     }
 
     /// Shows the field over a value; what a person did to it in this frame.
@@ -325,7 +331,8 @@ fn say(ui: &Ui, response: &Response, trouble: Option<&(String, f64)>) {
     let left = (until - ui.input(|i| i.time)).max(0.0);
     ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(left));
     let id = response.id.with("trouble");
-    let area = egui::Area::new(id).order(egui::Order::Tooltip).interactable(false);
+    // Over the panels, under lists and menus.
+    let area = egui::Area::new(id).order(egui::Order::Middle).interactable(false);
     area.fixed_pos(response.rect.left_bottom() + Vec2::new(0.0, 2.0)).show(ui.ctx(), |ui| {
         egui::Frame::popup(ui.style()).show(ui, |ui| {
             ui.set_max_width(220.0);

@@ -89,6 +89,7 @@ fn nothing_that_is_shown_moves_the_picture() {
 /// Controls and words that lie neither in the window nor where they can be scrolled to.
 fn cut_off(harness: &Harness<'_, State>, size: egui::Vec2) -> Vec<String> {
     let window = egui::Rect::from_min_size(egui::Pos2::ZERO, size).expand(0.5);
+    let canvas = canvas(harness);
     let mut cut = Vec::new();
     for node in harness.root().children_recursive() {
         let inner = node.accesskit_node();
@@ -108,7 +109,15 @@ fn cut_off(harness: &Harness<'_, State>, size: egui::Vec2) -> Vec<String> {
         }
         let rect = node.rect();
         // Panels scroll up and down: what is in them is cut off only at their sides.
-        let is_within = rect.left() >= window.left() && rect.right() <= window.right();
+        let [left, right] = match rect.center().x {
+            _ if rect.top() < canvas.top() || rect.top() >= canvas.bottom() => {
+                [window.left(), window.right()]
+            }
+            x if x < canvas.left() => [window.left(), canvas.left()],
+            x if x > canvas.right() => [canvas.right(), window.right()],
+            _ => [canvas.left(), canvas.right()],
+        };
+        let is_within = rect.left() >= left && rect.right() <= right;
         if !(rect.is_positive() && is_within) {
             cut.push(format!("{role:?} “{label}” {rect:?}"));
         }

@@ -79,6 +79,7 @@ fn frame() -> Frame {
         stop: StopRule::default(),
         history: Arc::default(),
         turntable: None,
+        checkpoint_age: None,
         scene: Arc::new(SceneFacts {
             name: "room.xml".into(),
             file: Some("/scenes/room.xml".into()),

@@ -135,6 +135,7 @@ impl Worker {
             stop: self.plan.stop,
             history,
             turntable: self.turntable.as_ref().map(Turntable::progress),
+            checkpoint_age: self.checkpoint_age(),
             scene: facts,
             dots,
             probe: probed,
