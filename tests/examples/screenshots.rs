@@ -2,6 +2,7 @@
 
 use std::env;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use foton_tests::window::{Display, Opening, Window};
 
@@ -89,8 +90,9 @@ impl Shots {
         self.settle();
     }
 
-    /// Some frames, so that what was asked for is on the screen.
+    /// A while and some frames, so that what was asked for is on the screen.
     fn settle(&mut self) {
+        std::thread::sleep(Duration::from_millis(500));
         self.window.log.skip();
         for _ in 0..3 {
             // What stands still is drawn when the pointer moves.

@@ -32,7 +32,8 @@ cargo xtask assets                  writes the generated meshes in assets/ again
 cargo xtask pictures [--window]     renders every scene in assets/ to docs/pictures, and the window (some minutes); or it alone
 cargo xtask screenshots [FOLDER]    the window in each state of its panels, both themes and several sizes (target/screenshots), to look at
 cargo xtask bench [WHAT]            how fast, on a quiet machine: whole (the benchmark box, stage by stage), parts (by criterion), scaling,
-                                    wide, accuracy (error a processor second), census (what leaving parts out saves)
+                                    wide, accuracy (error a processor second), answers (commands within a
+                                    long pass), census (what leaving parts out saves)
 cargo xtask monkey [--minutes N]    random clicks and keys in the window for N (10) minutes: no error, no memory that grows
 cargo xtask soak [MINUTES]          one small render for MINUTES (20): no memory that grows, no drift of the mean, no NaN
 cargo xtask kills [N]               kills N (200) renders at random moments: all checkpoints open, no file is half of one

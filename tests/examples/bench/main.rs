@@ -1,11 +1,12 @@
 //! How fast, by whole runs. `cargo xtask bench [WHAT]` runs it; docs/performance.md records what it prints.
 //!
 //! `whole` (also without a word): stages, rates, efficiency and memory of the benchmark box. `scaling`: a pass over triangles, photons
-//! and hit points. `wide`: scenes that ask for more. `accuracy`: error a processor second. Figures are medians over passes of
+//! and hit points. `wide`: scenes that ask for more. `accuracy`: error a processor second. `answers`: commands within a long pass. Figures are medians over passes of
 //! the wall's time: they mean little on a machine that does anything else.
 #![allow(clippy::print_stdout, reason = "a program that prints tables")]
 
 mod accuracy;
+mod answers;
 mod rig;
 mod scaling;
 mod whole;
@@ -17,8 +18,9 @@ fn main() {
         Some("scaling") => scaling::print(),
         Some("wide") => wide::print(),
         Some("accuracy") => accuracy::print(),
+        Some("answers") => answers::print(),
         Some(other) => {
-            eprintln!("no benchmark \"{other}\": whole, scaling, wide, accuracy");
+            eprintln!("no benchmark \"{other}\": whole, scaling, wide, accuracy, answers");
             std::process::exit(2);
         }
     }

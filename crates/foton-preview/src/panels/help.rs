@@ -40,13 +40,17 @@ pub(super) fn show(ctx: &egui::Context, state: &mut State) {
     }
     let mut open = true;
     let window = egui::Window::new("Keys and gestures").open(&mut open).resizable(false).collapsible(false);
+    // What does not fit into a small window is scrolled to.
+    let height = ctx.content_rect().height() - 90.0;
     window.anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, |ui| {
-        egui::Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
-            for (keys, what) in KEYS {
-                ui.strong(keys);
-                ui.label(what);
-                ui.end_row();
-            }
+        egui::ScrollArea::vertical().max_height(height).show(ui, |ui| {
+            egui::Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
+                for (keys, what) in KEYS {
+                    ui.strong(keys);
+                    ui.label(what);
+                    ui.end_row();
+                }
+            });
         });
     });
     state.show_help = open;

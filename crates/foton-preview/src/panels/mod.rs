@@ -65,8 +65,9 @@ const WIDTHS: [f32; 2] = [264.0, 272.0];
 /// The same in a window of less than [`NARROW`].
 const NARROW_WIDTHS: [f32; 2] = [236.0, 236.0];
 
-/// Share of the right panel's height that convergence and diagnostics take at most.
+/// Share of the right panel's height that convergence and diagnostics take at most beside a selection, and without one.
 const LOWER: f32 = 0.65;
+const LOWER_ALONE: f32 = 0.9;
 
 /// Points between the two parts of the right panel.
 const GAP: f32 = 8.0;
@@ -143,8 +144,10 @@ fn right(ui: &mut egui::Ui, state: &mut State) {
     let all = ui.available_rect_before_wrap();
     // As high as what is in it was in the last frame, if that leaves room for the selection.
     let id = egui::Id::unique("height of the convergence panel");
-    let height: f32 = ui.data(|d| d.get_temp(id)).unwrap_or(all.height() * LOWER);
-    let split = all.bottom() - height.min(all.height() * LOWER);
+    let is_selected = state.frame.as_ref().is_some_and(|f| f.selection.is_some());
+    let most = all.height() * if is_selected { LOWER } else { LOWER_ALONE };
+    let height: f32 = ui.data(|d| d.get_temp(id)).unwrap_or(most);
+    let split = all.bottom() - height.min(most);
     let upper = egui::UiBuilder::new().max_rect(all.with_max_y(split - GAP));
     egui::ScrollArea::vertical()
         .id_salt("selection")

@@ -44,7 +44,7 @@ impl Level {
     const fn passes(self) -> u64 {
         match self {
             Self::Small => 1,
-            Self::Middle => 4,
+            Self::Middle => 2,
             Self::Whole => u64::MAX,
         }
     }
@@ -275,7 +275,7 @@ impl LevelRender {
             ViewMode::Luminance => {
                 measure("luminance (W/m²/sr)", render.image().pixels.iter().map(|c| c.luminance()).collect())
             }
-            ViewMode::Unknown => measure("hit points without a photon", render.unknown_share()),
+            ViewMode::Unknown => measure("unlit hit points", render.unknown_share()),
             ViewMode::Error(part) => {
                 let (label, kind) = match part {
                     ErrorPart::Noise => ("noise (W/m²/sr)", LayerKind::ErrorNoise),

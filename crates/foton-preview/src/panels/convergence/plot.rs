@@ -35,8 +35,12 @@ pub(super) fn show(ui: &mut Ui, state: &State, goal: f64) {
         .show_background(false)
         .x_grid_spacer(decades)
         .y_grid_spacer(decades)
-        .x_axis_formatter(|mark, _| if is_whole(mark) { time_mark(mark.value) } else { String::new() })
-        .y_axis_formatter(|mark, range| error_mark(mark, range));
+        .x_axis_formatter(
+            |mark, range| if is_said(mark, range) { time_mark(mark.value) } else { String::new() },
+        )
+        .y_axis_formatter(
+            |mark, range| if is_said(mark, range) { error_mark(mark.value) } else { String::new() },
+        );
     let shown = plot.show(ui, |plot| {
         plot.set_plot_bounds(bounds);
         plot.line(Line::new("noise", logarithms(&state.noise)).color(noise).width(1.2));
@@ -64,14 +68,15 @@ fn target_colour(ui: &Ui) -> Color32 {
 /// What the lines are, below them.
 fn key(ui: &mut Ui, text: Color32, noise: Color32, bias: Color32) {
     ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing.x = 8.0;
-        ui.colored_label(text, "— error");
-        ui.colored_label(noise, "— noise");
-        ui.colored_label(bias, "— bias");
+        ui.spacing_mut().item_spacing.x = 9.0;
+        ui.style_mut().override_text_style = Some(egui::TextStyle::Small);
+        ui.colored_label(text, "– error");
+        ui.colored_label(noise, "– noise");
+        ui.colored_label(bias, "– bias");
         ui.label("- - 2/3 law").on_hover_text(
             "Error² ∝ t^(−2/3): how the error falls at best with α = 2/3, fitted to the later part",
         );
-        ui.colored_label(target_colour(ui), "— target");
+        ui.colored_label(target_colour(ui), "– target");
     });
 }
 
@@ -108,18 +113,29 @@ fn bounds(traces: &[&Trace], goal: f64, arrival: Option<f64>) -> PlotBounds {
     PlotBounds::from_min_max([left, bottom], [right, top])
 }
 
+/// Above this many powers of ten, lines between them have no words.
+const CROWDED: f64 = 1.6;
+
 /// Lines at 1, 2, 5 times powers of ten.
 fn decades(input: GridInput) -> Vec<GridMark> {
+    // What has words is drawn as strongly as powers of ten: words fade with their lines.
+    let between = if input.bounds.1 - input.bounds.0 > CROWDED { 0.3 } else { 1.0 };
     let (low, high) = (input.bounds.0.floor() as i32, input.bounds.1.ceil() as i32);
     let marks = (low..=high).flat_map(|decade| {
-        [(1.0_f64, 1.0), (2.0, 0.3), (5.0, 0.3)]
+        [(1.0_f64, 1.0), (2.0, between), (5.0, between)]
             .map(|(factor, step_size)| GridMark { value: f64::from(decade) + factor.log10(), step_size })
     });
     marks.filter(|mark| (input.bounds.0..=input.bounds.1).contains(&mark.value)).collect()
 }
 
-fn is_whole(mark: GridMark) -> bool {
-    (mark.value - mark.value.round()).abs() < 1e-6
+/// Whether a line has words: over several decades those between powers of ten stand too close, and at the ends of an axis there is
+/// no room.
+fn is_said(mark: GridMark, range: &RangeInclusive<f64>) -> bool {
+    let span = range.end() - range.start();
+    let is_whole = (mark.value - mark.value.round()).abs() < 1e-6;
+    let margin = 0.06 * span;
+    let is_inside = mark.value >= range.start() + margin && mark.value <= range.end() - margin;
+    is_inside && (is_whole || span <= CROWDED)
 }
 
 fn time_mark(log: f64) -> String {
@@ -127,13 +143,9 @@ fn time_mark(log: f64) -> String {
     if seconds < 1.0 { format!("{seconds:.*} s", (-log).ceil().max(0.0) as usize) } else { duration(seconds) }
 }
 
-fn error_mark(mark: GridMark, range: &RangeInclusive<f64>) -> String {
-    // Over several decades the lines between them stand too close for words.
-    if !is_whole(mark) && range.end() - range.start() > 1.6 {
-        return String::new();
-    }
-    let value = 10_f64.powf(mark.value);
-    let digits = if value < 0.95 { (-mark.value).ceil().max(0.0) as usize } else { 0 };
+fn error_mark(log: f64) -> String {
+    let value = 10_f64.powf(log);
+    let digits = if value < 0.95 { (-log).ceil().max(0.0) as usize } else { 0 };
     format!("{value:.digits$} %")
 }
 
@@ -162,7 +174,7 @@ mod tests {
             (time_mark(-1.0), time_mark(1.0), time_mark(3.0)),
             ("0.1 s".into(), "10 s".into(), "17 min".into())
         );
-        let mark = |value: f64| error_mark(GridMark { value: value.log10(), step_size: 1.0 }, &(0.0..=1.0));
+        let mark = |value: f64| error_mark(value.log10());
         assert_eq!((mark(10.0), mark(2.0), mark(0.5)), ("10 %".into(), "2 %".into(), "0.5 %".into()));
     }
 }

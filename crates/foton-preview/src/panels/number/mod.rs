@@ -249,10 +249,15 @@ impl<'a> Number<'a> {
             egui::StrokeKind::Inside,
         );
         let font = egui::TextStyle::Monospace.resolve(ui.style());
-        let text = reading::shown(shown, self.digits) + &separated(self.unit);
-        let at = rect.right_center() - Vec2::new(5.0, 0.0);
-        let inside = painter.with_clip_rect(rect.shrink(1.0).intersect(ui.clip_rect()));
-        inside.text(at, Align2::RIGHT_CENTER, text, font, visuals.text_color());
+        let inside = rect.shrink2(Vec2::new(5.0, 1.0));
+        let galley = |text: String| painter.layout_no_wrap(text, font.clone(), visuals.text_color());
+        let number = reading::shown(shown, self.digits);
+        let whole = galley(number.clone() + &separated(self.unit));
+        // Where there is no room for the unit, the digits go first.
+        let galley = if whole.size().x > inside.width() { galley(number) } else { whole };
+        let at = Align2::RIGHT_CENTER.anchor_size(inside.right_center(), galley.size()).min;
+        let clip = painter.with_clip_rect(rect.shrink(1.0).intersect(ui.clip_rect()));
+        clip.galley(at, galley, visuals.text_color());
     }
 
     /// Dragging sideways; a click begins to edit.

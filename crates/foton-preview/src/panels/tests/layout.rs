@@ -140,3 +140,20 @@ fn nothing_is_cut_off_in_small_windows_and_at_high_resolutions() {
         }
     }
 }
+
+#[test]
+fn windows_over_the_panels_fit_into_small_ones() {
+    let size = egui::vec2(720.0, 450.0);
+    let within = egui::Rect::from_min_size(egui::Pos2::ZERO, size);
+    let mut harness = sized(size, 2.0, |state| state.show_help = true);
+    harness.run_steps(4);
+    let overlay = find(&harness, Role::Window, "Keys and gestures");
+    assert!(within.contains_rect(overlay.rect()), "{:?}", overlay.rect());
+    harness.state_mut().show_help = false;
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::O);
+    harness.run_steps(4);
+    for label in ["Up", "Cancel", "Open"] {
+        let rect = find(&harness, Role::Button, label).rect();
+        assert!(within.contains_rect(rect), "{label} {rect:?}");
+    }
+}

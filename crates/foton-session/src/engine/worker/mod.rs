@@ -11,6 +11,7 @@ use std::time::Duration;
 
 use crossbeam_channel::{Receiver, Sender, never, select};
 
+use self::publish::When;
 pub(super) use self::state::Flow;
 use self::state::{Current, Files, Plan, Published, View};
 use super::cancels::Cancels;
@@ -97,6 +98,7 @@ impl Worker {
             self.cancels.work.rearm();
             self.cancels.news.forget();
             let Some(commands) = self.wait_for_commands() else { return };
+            let is_asked = !commands.is_empty();
             for command in commands {
                 if matches!(command, Command::Quit) {
                     self.finish_checkpoint();
@@ -110,8 +112,11 @@ impl Worker {
             }
             self.guarded(|worker| {
                 worker.take_opened();
+                if is_asked {
+                    worker.publish(When::Answering);
+                }
                 worker.work();
-                worker.publish(false);
+                worker.publish(When::Due);
             });
         }
     }
@@ -128,7 +133,7 @@ impl Worker {
     fn wait_for_commands(&mut self) -> Option<Vec<Command>> {
         let mut commands: Vec<Command> = self.channels.commands.try_iter().collect();
         if commands.is_empty() && self.is_idle() {
-            self.guarded(|worker| worker.publish(true));
+            self.guarded(|worker| worker.publish(When::AtOnce));
             let nothing = never();
             let opened = self.opening.as_ref().map_or(&nothing, |o| &o.result);
             let never_started = never();

@@ -17,6 +17,17 @@ use crate::engine::starting::Starting;
 /// Frames are at least this far apart unless a person is waiting for one.
 const FRAME_GAP: Duration = Duration::from_millis(30);
 
+/// When a frame is offered.
+#[derive(Clone, Copy)]
+pub(super) enum When {
+    /// There may be none for a while.
+    AtOnce,
+    /// A command was obeyed: a person waits, unless for a picture that comes soon.
+    Answering,
+    /// Not too soon after the last.
+    Due,
+}
+
 impl Worker {
     /// The part of the whole image that is rendered.
     fn window(&self) -> Region {
@@ -36,8 +47,9 @@ impl Worker {
         };
         match self.plan.flow {
             _ if self.plan.moving => Activity::Moving,
-            _ if !render.is_whole() => Activity::Collecting,
+            // Hit points that are being collected are collected to the end all the same.
             Flow::Steps(0) if !self.current.owes_a_pass => Activity::Paused,
+            _ if !render.is_whole() => Activity::Collecting,
             Flow::Run if self.is_idle() => Activity::Done,
             _ => Activity::Rendering,
         }
@@ -85,13 +97,17 @@ impl Worker {
         }
     }
 
-    /// Offers a frame if there is something new: at once if `now`, else not too soon after the last.
-    pub(super) fn publish(&mut self, now: bool) {
+    /// Offers a frame if there is something new and it is time for one.
+    pub(super) fn publish(&mut self, when: When) {
         // While something moves, a picture is there so soon that a frame before it would be drawn for nothing.
         let comes_soon =
             self.plan.moving && self.current.render.is_none() && self.published.picture.is_some();
-        if !self.published.unseen || (!now && (comes_soon || self.published.last_frame.elapsed() < FRAME_GAP))
-        {
+        let is_time = match when {
+            When::AtOnce => true,
+            When::Answering => !comes_soon,
+            When::Due => !comes_soon && self.published.last_frame.elapsed() >= FRAME_GAP,
+        };
+        if !self.published.unseen || !is_time {
             return;
         }
         let activity = self.activity();

@@ -7,6 +7,7 @@ use foton_integrator::{RenderSettings, ShouldSuspend};
 use foton_scene::Scene;
 
 use super::Worker;
+use super::publish::When;
 use super::state::Flow;
 use crate::engine::command::Event;
 use crate::engine::editable_scene::EditableScene;
@@ -125,7 +126,7 @@ impl Worker {
     fn start(&mut self, level: Level) -> Result<Option<LevelRender>, String> {
         // A small picture is there so soon that a frame without it would be drawn for nothing.
         if level != Level::Small || self.published.picture.is_none() {
-            self.publish(true);
+            self.publish(When::AtOnce);
         }
         let Some(scene) = &self.scene else { return Ok(None) };
         let pool = match &self.current.pool {
@@ -159,7 +160,7 @@ impl Worker {
             return true;
         }
         self.published.unseen = true;
-        self.publish(true);
+        self.publish(When::AtOnce);
         let built = self.scene.as_mut().map_or(Ok(true), EditableScene::freshen);
         built.unwrap_or_else(|message| {
             self.event(Event::Failed(message));
