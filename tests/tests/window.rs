@@ -207,7 +207,7 @@ fn what_is_saved_is_what_is_rendered(driver: &mut Driver, foton: &Path, scene: &
         path.ends_with(".exr").then(|| PathBuf::from(path))
     });
     driver.window.wait("the other", |l| l["message"].as_str().filter(|m| m.ends_with(".png")).map(|_| ()));
-    let name = format!("Pictures/foton/room-001-p{pass:06}.exr");
+    let name = format!("Pictures/foton/small-001-p{pass:06}.exr");
     assert_eq!(saved, driver.folder.join(name), "among the user's pictures, by scene, run and pass");
     let (image, metadata) = read_exr(&saved).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(metadata.get("foton:passes"), Some(format!("{pass}").as_str()));

@@ -126,11 +126,8 @@ fn the_history_keeps_within_its_limit_and_goes_with_the_engine() {
     assert!(bytes(&room) < 2 << 20, "{}", bytes(&room));
     rig.send(Command::ReturnTo(1));
     assert!(rig.failure().contains("does not have that pass any more"));
-    rig.send(Command::Quit);
-    let _ = rig.thread.recv_timeout(std::time::Duration::from_secs(60));
-    while room.exists() {
-        std::thread::sleep(std::time::Duration::from_millis(2));
-    }
+    rig.engine.finish_writing();
+    assert!(!room.exists(), "nothing is left");
 }
 
 /// Frames of a film, by name.

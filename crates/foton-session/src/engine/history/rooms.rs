@@ -40,9 +40,17 @@ impl Room {
     }
 }
 
+impl Room {
+    /// Removes it with all that is in it.
+    pub(super) fn clear(&self) {
+        // What another thread was just making needs a second look.
+        let _ = fs::remove_dir_all(&self.path).or_else(|_| fs::remove_dir_all(&self.path));
+    }
+}
+
 impl Drop for Room {
     fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.path);
+        self.clear();
     }
 }
 

@@ -4,7 +4,8 @@ use std::collections::VecDeque;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::thread::{self, JoinHandle};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread;
 
 use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 use foton_film::{Image, Metadata, WriteError, write_exr};
@@ -46,6 +47,7 @@ pub(in crate::engine) struct History {
     home: Option<PathBuf>,
     limit: u64,
     teller: Teller,
+    unwritten: Arc<AtomicUsize>,
     kept: Vec<Kept>,
     /// What frames carry.
     shown: Arc<Vec<HistoryEntry>>,
@@ -59,26 +61,34 @@ pub(in crate::engine) struct History {
 
 struct Writer {
     files: Sender<Files>,
-    thread: Option<JoinHandle<()>>,
     room: Room,
+    /// Whether what is being written is for nobody any more.
+    is_over: Arc<AtomicBool>,
+    /// Things that the end of the program waits for: one of them is that the folder is gone.
+    unwritten: Arc<AtomicUsize>,
 }
 
 impl Drop for Writer {
     fn drop(&mut self) {
-        // It ends with what it is writing, and leaves the rest.
-        (self.files, _) = bounded(0);
-        if let Some(thread) = self.thread.take() {
-            let _ = thread.join();
-        }
+        // The thread ends by itself, with the file that it is at.
+        self.is_over.store(true, Ordering::SeqCst);
+        self.room.clear();
+        self.unwritten.fetch_sub(1, Ordering::SeqCst);
     }
 }
 
 impl History {
     /// An empty one, whose files go into a folder in `home` and take `limit` bytes at most.
-    pub(in crate::engine) fn new(home: Option<PathBuf>, limit: u64, teller: Teller) -> Self {
+    /// The end of the program waits for as many things as `unwritten` says.
+    pub(in crate::engine) fn new(
+        home: Option<PathBuf>,
+        limit: u64,
+        teller: Teller,
+        unwritten: Arc<AtomicUsize>,
+    ) -> Self {
         let (tell_gone, gone) = unbounded();
         let (kept, shown) = (Vec::new(), Arc::default());
-        Self { home, limit, teller, kept, shown, next: 1, gone, tell_gone, writer: None }
+        Self { home, limit, teller, unwritten, kept, shown, next: 1, gone, tell_gone, writer: None }
     }
 
     /// The entries, the oldest first.
@@ -121,9 +131,17 @@ impl History {
         let room = Room::new(&home).map_err(failed)?;
         let (files, to_write) = bounded(WAITING);
         let (limit, teller, tell_gone) = (self.limit, self.teller.clone(), self.tell_gone.clone());
-        let work = move || write_all(&to_write, limit, &tell_gone, &teller);
-        let thread = thread::Builder::new().name("history".to_owned()).spawn(work).map_err(failed)?;
-        Ok(Writer { files, thread: Some(thread), room })
+        let is_over = Arc::new(AtomicBool::new(false));
+        let ended = Arc::clone(&is_over);
+        let work = move || write_all(&to_write, limit, &tell_gone, &teller, &ended);
+        thread::Builder::new().name("history".to_owned()).spawn(work).map_err(failed)?;
+        self.unwritten.fetch_add(1, Ordering::SeqCst);
+        Ok(Writer { files, room, is_over, unwritten: Arc::clone(&self.unwritten) })
+    }
+
+    /// Forgets all of it, with its files.
+    pub(in crate::engine) fn end(&mut self) {
+        self.writer = None;
     }
 
     /// Takes an entry whose files are still to be written.
@@ -151,11 +169,21 @@ impl History {
 }
 
 /// Writes entries as they come, and removes the oldest where all together are too large.
-fn write_all(to_write: &Receiver<Files>, limit: u64, gone: &Sender<u64>, teller: &Teller) {
+fn write_all(
+    to_write: &Receiver<Files>,
+    limit: u64,
+    gone: &Sender<u64>,
+    teller: &Teller,
+    is_over: &AtomicBool,
+) {
     let mut there: VecDeque<(u64, [PathBuf; 2], u64)> = VecDeque::new();
     for files in to_write {
         let (id, paths) = (files.id, [files.picture.0.clone(), files.state.0.clone()]);
-        if let Err(error) = write(files) {
+        let written = write(files);
+        if is_over.load(Ordering::SeqCst) {
+            return remove(&paths);
+        }
+        if let Err(error) = written {
             remove(&paths);
             let _ = gone.send(id);
             teller.tell(Event::Failed(format!("the history lacks a pass: {error}")));

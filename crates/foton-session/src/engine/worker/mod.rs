@@ -67,7 +67,7 @@ impl Worker {
         let teller = Teller::new(channels.events.clone(), wake);
         let (home, limit) = (setup.history_folder.clone(), setup.history_limit);
         Self {
-            history: History::new(home, limit, teller.clone()),
+            history: History::new(home, limit, teller.clone(), Arc::clone(&unwritten)),
             turntable: None,
             teller,
             setup,
@@ -101,6 +101,7 @@ impl Worker {
             let is_asked = !commands.is_empty();
             for command in commands {
                 if matches!(command, Command::Quit) {
+                    self.history.end();
                     self.finish_checkpoint();
                     return;
                 }
