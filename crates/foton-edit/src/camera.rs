@@ -71,6 +71,41 @@ impl UpAxis {
     }
 }
 
+/// A side from which a scene is looked at along an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ViewSide {
+    /// From the front: from +z where y points up, from −y where z does.
+    Front,
+    /// From the right: from +x.
+    Side,
+    /// From above.
+    Top,
+}
+
+impl ViewSide {
+    /// All of them, in the order of the window.
+    pub const ALL: [Self; 3] = [Self::Front, Self::Side, Self::Top];
+
+    /// Its name on a button.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Front => "Front",
+            Self::Side => "Side",
+            Self::Top => "Top",
+        }
+    }
+
+    /// The way that a camera there looks; from above, the way that is up in its image.
+    const fn looks(self, up: UpAxis) -> DVec3 {
+        match (self, up) {
+            (Self::Side, _) => DVec3::NEG_X,
+            (_, UpAxis::Y) => DVec3::NEG_Z,
+            (_, UpAxis::Z) => DVec3::Y,
+        }
+    }
+}
+
 /// A camera around a target. Angles in radians.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
@@ -163,6 +198,16 @@ impl Camera {
     /// Turns around the target, by angles in radians; a positive pitch lets it look further up.
     pub fn orbit(&mut self, yaw: f64, pitch: f64) {
         self.turn(yaw, pitch);
+    }
+
+    /// Looks at the target along an axis of the world, level and from the same distance.
+    pub fn face(&mut self, side: ViewSide) {
+        self.is_moved = true;
+        (self.yaw, self.pitch) = self.up.angles(side.looks(self.up));
+        if side == ViewSide::Top {
+            self.pitch = -FRAC_PI_2;
+        }
+        self.roll = 0.0;
     }
 
     /// Turns on the spot.

@@ -7,6 +7,10 @@ use foton_scene::parameter::Parameter;
 pub enum FieldId {
     /// Position along a world axis, 0 to 2.
     Position(u8),
+    /// Angle about a world axis, 0 to 2, of the three that make up its orientation.
+    Rotation(u8),
+    /// Side of the bounds along an axis of its own, 0 to 2.
+    Extent(u8),
     /// The longest side of the bounds.
     Size,
     /// Of a sphere or disc.
@@ -25,6 +29,10 @@ pub enum FieldId {
     Cutoff,
     /// Half angle of the cone in which a spot is brightest.
     Beam,
+    /// A camera's image, in pixels.
+    Width,
+    /// A camera's image, in pixels.
+    Height,
     /// Of a material.
     Opacity,
     /// Of a material's side.
@@ -101,6 +109,8 @@ pub struct Field {
     pub value: Value,
     /// What it can be.
     pub control: Control,
+    /// Whether only those who know the physics set it.
+    pub is_advanced: bool,
 }
 
 impl Field {
@@ -117,7 +127,7 @@ impl Field {
     }
 }
 
-/// Makes fields: id, label, help, and what the kind needs.
+/// Makes fields: id, label, help, and what the kind needs. Fields are plain ones unless [`Fields::advance`] says otherwise.
 pub(crate) struct Fields(pub(crate) Vec<Field>);
 
 impl Fields {
@@ -131,7 +141,22 @@ impl Fields {
         help: &'static str,
     ) {
         let control = Control::Number { min: min.min(value), max: max.max(value), logarithmic };
-        self.0.push(Field { id, label, unit, help, value: Value::Number(value), control });
+        self.0.push(Field {
+            id,
+            label,
+            unit,
+            help,
+            value: Value::Number(value),
+            control,
+            is_advanced: false,
+        });
+    }
+
+    /// Makes the last field one for those who know the physics.
+    pub(crate) fn advance(&mut self) {
+        if let Some(last) = self.0.last_mut() {
+            last.is_advanced = true;
+        }
     }
 
     /// A number as a plugin declares it.
@@ -143,7 +168,7 @@ impl Fields {
 
     pub(crate) fn colour(&mut self, id: FieldId, label: &'static str, value: [f32; 3], help: &'static str) {
         let value = Value::Colour(value);
-        self.0.push(Field { id, label, unit: "", help, value, control: Control::Colour });
+        self.0.push(Field { id, label, unit: "", help, value, control: Control::Colour, is_advanced: false });
     }
 
     pub(crate) fn choice(
@@ -155,11 +180,11 @@ impl Fields {
         help: &'static str,
     ) {
         let (value, control) = (Value::Choice(chosen), Control::Choice(options));
-        self.0.push(Field { id, label, unit: "", help, value, control });
+        self.0.push(Field { id, label, unit: "", help, value, control, is_advanced: false });
     }
 
     pub(crate) fn toggle(&mut self, id: FieldId, label: &'static str, on: bool, help: &'static str) {
         let value = Value::Toggle(on);
-        self.0.push(Field { id, label, unit: "", help, value, control: Control::Toggle });
+        self.0.push(Field { id, label, unit: "", help, value, control: Control::Toggle, is_advanced: false });
     }
 }

@@ -88,3 +88,66 @@ pub(crate) fn scale(shape: &mut ShapeDescription, factor: f64) {
         *radiance *= (1.0 / (factor * factor)) as f32;
     }
 }
+
+/// The sides of a shape's bounds along its own axes, in world units.
+pub(crate) fn extents(shape: &ShapeDescription) -> [f64; 3] {
+    let (min, max) = object_bounds(&shape.geometry);
+    let m = shape.to_world.matrix3;
+    let scale = DVec3::new(m.x_axis.length(), m.y_axis.length(), m.z_axis.length());
+    ((max - min) * scale).to_array()
+}
+
+/// Scales a mesh about its middle by factors along its own axes. Where it emits, its power stays.
+pub(crate) fn stretch(shape: &mut ShapeDescription, factors: DVec3) {
+    let (before, c) = (area(shape), centre(shape));
+    let m = &mut shape.to_world.matrix3;
+    for (axis, factor) in [&mut m.x_axis, &mut m.y_axis, &mut m.z_axis].into_iter().zip(factors.to_array()) {
+        *axis *= factor;
+    }
+    let moved = centre(shape);
+    shape.to_world.translation += c - moved;
+    let after = area(shape);
+    if let Some(radiance) = shape.radiance.as_mut().filter(|_| before > 0.0 && after > 0.0) {
+        *radiance *= (before / after) as f32;
+    }
+}
+
+/// The way that a flat shape faces, on average; `None` for one that is closed, or nearly.
+pub(crate) fn facing(shape: &ShapeDescription) -> Option<DVec3> {
+    let m = &shape.to_world.matrix3;
+    let side = if shape.flip_normals { -1.0 } else { 1.0 };
+    match &shape.geometry {
+        Geometry::Disc => {
+            let mirrored = if m.determinant() < 0.0 { -1.0 } else { 1.0 };
+            (m.x_axis.cross(m.y_axis) * (side * mirrored)).try_normalize()
+        }
+        Geometry::Mesh(mesh) => {
+            let side = if m.determinant() < 0.0 { -side } else { side };
+            let corner = |i: u32| mesh.positions.get(i as usize).map_or(DVec3::ZERO, |p| *m * *p);
+            let (mut sum, mut all) = (DVec3::ZERO, 0.0);
+            for [a, b, c] in mesh.triangles.iter().map(|t| t.map(corner)) {
+                let normal = (b - a).cross(c - a);
+                sum += normal;
+                all += normal.length();
+            }
+            (sum.length() > 0.5 * all).then(|| sum.normalize_or_zero() * side)
+        }
+        Geometry::Sphere { .. } | Geometry::Cylinder { .. } => None,
+    }
+}
+
+/// The corners of a box in the world that holds a shape: of a mesh its own, of others their turned bounds'.
+pub(crate) fn world_bounds(shape: &ShapeDescription) -> (DVec3, DVec3) {
+    let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let widen = |(a, b): (DVec3, DVec3), p: DVec3| (a.min(p), b.max(p));
+    let to_world = |p: DVec3| shape.to_world.transform_point3(p);
+    if let Geometry::Mesh(mesh) = &shape.geometry {
+        return mesh.positions.iter().map(|p| to_world(*p)).fold(start, widen);
+    }
+    let (min, max) = object_bounds(&shape.geometry);
+    let corner = |i: usize| {
+        let pick = |axis: usize| if i >> axis & 1 == 0 { min[axis] } else { max[axis] };
+        to_world(DVec3::new(pick(0), pick(1), pick(2)))
+    };
+    (0..8).map(corner).fold(start, widen)
+}

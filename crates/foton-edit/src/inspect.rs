@@ -1,12 +1,12 @@
 //! What an inspector shows of a shape or light: its title, its fields, and whom an edit would touch besides.
 
 use foton_input::quoted;
-use foton_scene::description::{Geometry, SceneDescription};
+use foton_scene::description::{Geometry, SceneDescription, ShapeDescription};
 
 use super::camera::UpAxis;
 use super::field::{Field, FieldId, Fields};
 use super::target::Target;
-use super::{geometry, light, material, pick};
+use super::{geometry, light, material, pick, placing};
 
 /// A shape or light as the inspector shows it.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +21,10 @@ pub struct Inspection {
     pub notes: Vec<String>,
     /// Its fields, in the order in which they are shown.
     pub fields: Vec<Field>,
+    /// Whether it can be aimed at a point.
+    pub can_aim: bool,
+    /// Whether it emits light.
+    pub is_light: bool,
 }
 
 /// A material and who uses it.
@@ -37,8 +41,11 @@ pub struct MaterialUse {
 pub fn inspect(description: &SceneDescription, target: Target) -> Option<Inspection> {
     let mut fields = Fields(Vec::new());
     position_fields(description, target, &mut fields);
+    rotation_fields(description, target, &mut fields);
+    let can_aim = placing::aim_of(description, target).is_some();
     let inspection = match target {
         Target::Shape(index) => shape(description, index, fields)?,
+        Target::Sensor(index) => camera(description, index, fields)?,
         Target::Emitter(index) => {
             let emitter = description.emitters.get(index)?;
             light::fields(&emitter.kind, up_axis(description), &mut fields);
@@ -48,10 +55,36 @@ pub fn inspect(description: &SceneDescription, target: Target) -> Option<Inspect
                 material: None,
                 notes: Vec::new(),
                 fields: fields.0,
+                can_aim: false,
+                is_light: false,
             }
         }
     };
-    Some(inspection)
+    let is_light = match target {
+        Target::Shape(i) => description.shapes.get(i).is_some_and(|s| s.radiance.is_some()),
+        Target::Emitter(_) => true,
+        Target::Sensor(_) => false,
+    };
+    Some(Inspection { can_aim, is_light, ..inspection })
+}
+
+/// Sides of an image in pixels.
+const SIDES: (f64, f64, bool) = (1.0, 16384.0, false);
+
+fn camera(description: &SceneDescription, index: usize, mut fields: Fields) -> Option<Inspection> {
+    let sensor = description.sensors.get(index)?;
+    let help = "Of the image. Another size restarts the render; its cost grows with the number of pixels.";
+    fields.number(FieldId::Width, ("Width", "px"), f64::from(sensor.width), SIDES, help);
+    fields.number(FieldId::Height, ("Height", "px"), f64::from(sensor.height), SIDES, help);
+    Some(Inspection {
+        title: sensor.name.clone(),
+        kind: "camera".to_owned(),
+        material: None,
+        notes: Vec::new(),
+        fields: fields.0,
+        can_aim: false,
+        is_light: false,
+    })
 }
 
 /// The up axis of a scene: that of its first camera.
@@ -66,6 +99,48 @@ fn position_fields(description: &SceneDescription, target: Target, fields: &mut 
         let value = middle[usize::from(axis)];
         fields.number(FieldId::Position(axis), (label, "units"), value, (-1e6, 1e6, false), help);
     }
+}
+
+fn rotation_fields(description: &SceneDescription, target: Target, fields: &mut Fields) {
+    let Some(angles) = placing::angles(description, target) else { return };
+    for (axis, (label, angle)) in
+        (0u8..).zip(["Rotation X", "Rotation Y", "Rotation Z"].into_iter().zip(angles))
+    {
+        let help = "About its middle: first Z, then Y, then X, axes of the world.";
+        // What is nothing but rounding is no angle.
+        let angle = if angle.abs() < 1e-9 { 0.0 } else { angle };
+        fields.number(FieldId::Rotation(axis), (label, "°"), angle, (-360.0, 360.0, false), help);
+    }
+}
+
+fn extent_fields(shape: &ShapeDescription, fields: &mut Fields) {
+    if !matches!(shape.geometry, Geometry::Mesh(_)) {
+        return;
+    }
+    let (extents, size) = (geometry::extents(shape), geometry::size(shape));
+    for (axis, (label, extent)) in (0u8..).zip(["Length X", "Length Y", "Length Z"].into_iter().zip(extents))
+    {
+        if extent > 1e-9 * size {
+            let help = "Along its own axis, before it is turned.";
+            let range = (extent * 0.01, extent * 100.0, true);
+            fields.number(FieldId::Extent(axis), (label, "units"), extent, range, help);
+        }
+    }
+}
+
+/// What a shape is, in words: `mesh, smooth conductor`.
+pub(crate) fn shape_kind(description: &SceneDescription, shape: &ShapeDescription) -> String {
+    let surface = match shape.geometry {
+        Geometry::Mesh(_) => "mesh",
+        Geometry::Sphere { .. } => "sphere",
+        Geometry::Disc => "disc",
+        Geometry::Cylinder { .. } => "tube",
+    };
+    if shape.radiance.is_some() {
+        return format!("area light, {surface}");
+    }
+    let made_of = description.materials.get(shape.material).map(material::kind_name);
+    format!("{surface}, {}", made_of.unwrap_or_default())
 }
 
 fn shape(description: &SceneDescription, index: usize, mut fields: Fields) -> Option<Inspection> {
@@ -84,6 +159,7 @@ fn shape(description: &SceneDescription, index: usize, mut fields: Fields) -> Op
     if size > 0.0 {
         fields.number(id, (label, "units"), size, (size * 0.01, size * 100.0, true), help);
     }
+    extent_fields(shape, &mut fields);
     light::surface_fields(shape, &mut fields);
     let textured = material::fields(used, &mut fields);
     let shapes = description.shapes.iter().filter(|s| s.material == shape.material).count();
@@ -94,14 +170,15 @@ fn shape(description: &SceneDescription, index: usize, mut fields: Fields) -> Op
     if textured {
         notes.push("Colours that come from textures cannot be edited here.".to_owned());
     }
-    let surface = match shape.geometry {
-        Geometry::Mesh(_) => "mesh",
-        Geometry::Sphere { .. } => "sphere",
-        Geometry::Disc => "disc",
-        Geometry::Cylinder { .. } => "tube",
-    };
-    let made_of = material::kind_name(used);
-    let kind = if light { format!("light: {surface}") } else { format!("{made_of} {surface}") };
+    let kind = shape_kind(description, shape);
     let material = Some(MaterialUse { name: used.name.clone(), shapes });
-    Some(Inspection { title: shape.name.clone(), kind, material, notes, fields: fields.0 })
+    Some(Inspection {
+        title: shape.name.clone(),
+        kind,
+        material,
+        notes,
+        fields: fields.0,
+        can_aim: false,
+        is_light: light,
+    })
 }

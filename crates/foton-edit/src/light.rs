@@ -160,7 +160,9 @@ pub(crate) fn set(kind: &mut EmitterKind, up: UpAxis, field: FieldId, value: Val
         } else {
             elevation = degrees.to_radians();
         }
-        return turn(kind, -from, -up.direction(azimuth, elevation));
+        let now = up.direction(azimuth, elevation);
+        rotate(kind, DQuat::from_rotation_arc(from, now));
+        return;
     }
     let watts = watts(kind);
     match (kind, field, value) {
@@ -181,13 +183,14 @@ pub(crate) fn set(kind: &mut EmitterKind, up: UpAxis, field: FieldId, value: Val
     }
 }
 
-fn turn(kind: &mut EmitterKind, was: DVec3, now: DVec3) {
+/// Turns a light; whether it has a direction to turn.
+pub(crate) fn rotate(kind: &mut EmitterKind, rotation: DQuat) -> bool {
     match kind {
-        EmitterKind::Spot { to_world, .. } => {
-            let turn = DMat3::from_quat(DQuat::from_rotation_arc(was, now));
-            to_world.matrix3 = turn * to_world.matrix3;
+        EmitterKind::Spot { to_world, .. } | EmitterKind::Environment { to_world, .. } => {
+            to_world.matrix3 = DMat3::from_quat(rotation) * to_world.matrix3;
         }
-        EmitterKind::Directional { direction, .. } => *direction = now * direction.length(),
-        _ => {}
+        EmitterKind::Directional { direction, .. } => *direction = rotation * *direction,
+        EmitterKind::Point { .. } | EmitterKind::Constant { .. } => return false,
     }
+    true
 }

@@ -31,9 +31,15 @@ fn kind_of(bsdf: &Bsdf) -> usize {
     Bsdf::defaults(false).iter().position(is_same).unwrap_or(0)
 }
 
-/// The kind of a material in a word.
-pub(crate) fn kind_name(material: &Material) -> &'static str {
-    material.front.info().label
+/// The kind of a material in words: `smooth conductor`.
+pub(crate) fn kind_name(material: &Material) -> String {
+    let info = material.front.info();
+    let label = info.label.to_lowercase();
+    match (material.front.roughness(), info.rough_plugin) {
+        (Some(_), _) => format!("rough {label}"),
+        (None, Some(_)) => format!("smooth {label}"),
+        (None, None) => label,
+    }
 }
 
 /// Appends a material's fields. Whether some colours come from textures, which cannot be edited.
@@ -98,6 +104,7 @@ fn metal_fields(side: Side, parameters: &'static [Parameter], [eta, k]: [Rgb; 2]
             let i = usize::from(channel);
             let parameter = Parameter { label: labels[i], ..*parameter };
             out.parameter(id(Property::Channel(name, channel)), &parameter, f64::from(value.to_array()[i]));
+            out.advance();
         }
     }
 }
@@ -153,6 +160,11 @@ pub(crate) fn set(material: &mut Material, side: Side, property: Property, value
     if material.back.is_some_and(|b| b.transmits()) {
         material.back = None;
     }
+}
+
+/// Makes a side of another kind.
+pub(crate) fn set_kind(material: &mut Material, side: Side, kind: usize) {
+    set(material, side, Property::Kind, Value::Choice(kind));
 }
 
 fn set_side(bsdf: &mut Bsdf, property: Property, value: Value) {

@@ -72,6 +72,8 @@ impl Outline {
             Target::Emitter(index) => {
                 marker_position(description, index, &view).map_or_else(Vec::new, marker)
             }
+            // Who looks through it sees none of it, and where others are is not drawn.
+            Target::Sensor(_) => Vec::new(),
         }
     }
 
@@ -99,7 +101,7 @@ impl Outline {
 #[must_use]
 pub fn markers(description: &SceneDescription, sensor: usize) -> Vec<(Target, Vec<Segment>)> {
     let Some(view) = description.sensors.get(sensor).map(View::new) else { return Vec::new() };
-    let all = 0..description.emitters.len();
+    let all = (0..description.emitters.len()).filter(|i| !description.hidden.emitters.contains(i));
     all.filter_map(|i| Some((Target::Emitter(i), marker(marker_position(description, i, &view)?)))).collect()
 }
 

@@ -119,5 +119,6 @@ pub fn anchor(description: &SceneDescription, target: Target) -> Option<DVec3> {
             EmitterKind::Spot { to_world, .. } => Some(to_world.translation),
             _ => None,
         },
+        Target::Sensor(_) => None,
     }
 }

@@ -6,7 +6,7 @@ use foton_math::glam::{DVec2, DVec3};
 use foton_scene::description::{FovAxis, SensorDescription};
 
 /// A camera that projects.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct View {
     pub(crate) origin: DVec3,
     pub(crate) left: DVec3,

@@ -36,14 +36,14 @@ pub fn read_png(path: &Path) -> Result<Image, ReadError> {
 /// # Errors
 /// As [`read_png`], and where the file or its pixels would take more.
 pub fn read_png_within(path: &Path, memory: Option<u64>) -> Result<Image, ReadError> {
-    decode_png(path, &input::read(path, memory)?, memory)
+    decode_png(&input::read(path, memory)?, path, memory)
 }
 
-/// [`read_png_within`] of a file's bytes; `path` names it in messages.
+/// [`read_png_within`] for the contents of a file; `path` stands in messages.
 ///
 /// # Errors
 /// As [`read_png_within`].
-pub fn decode_png(path: &Path, bytes: &[u8], memory: Option<u64>) -> Result<Image, ReadError> {
+pub fn decode_png(bytes: &[u8], path: &Path, memory: Option<u64>) -> Result<Image, ReadError> {
     let malformed = |reason: String| ReadError::malformed(path, "PNG", &reason);
     if !bytes.starts_with(b"\x89PNG") {
         return Err(malformed("it does not begin as one".into()));

@@ -34,7 +34,7 @@ pub use diagnostic::{Diagnostic, OpenError, Place, Severity};
 pub use mitsuba::document::{Attribute, Document, Element, MAX_DEPTH, Node, NodeId};
 pub use mitsuba::save::{Saved, save_edited};
 pub use mitsuba::write::write_scene;
-pub use open::{open, read_str};
+pub use open::{import, open, read_str};
 pub use opened::{MitsubaScene, Opened, Origin, SceneNodes};
 pub use options::{Options, ReadFile};
 pub use suggested::Suggested;

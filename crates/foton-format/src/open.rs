@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::path::Path;
 
 use foton_input::Named;
+use foton_scene::description::SceneDescription;
 
 use crate::diagnostic::{OpenError, Place, Report};
 use crate::files::Files;
@@ -29,6 +30,18 @@ pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
         Ok(bytes)
     })?;
     Ok(Opened { files: files.into_inner(), ..opened })
+}
+
+/// Reads the shapes of an OBJ, PLY or STL file, with their materials and textures, to add them to another scene.
+///
+/// # Errors
+/// As [`open`], and where the file is of another kind.
+pub fn import(path: &Path, options: &Options) -> Result<SceneDescription, OpenError> {
+    if standalone::Kind::of(path).is_none() {
+        let report = Report::new(&path.to_string_lossy(), path.parent().unwrap_or(Path::new("")));
+        return Err(report.fail(Place::default(), "only OBJ, PLY and STL files can be imported"));
+    }
+    Ok(standalone::shapes_alone(open(path, options)?.description))
 }
 
 fn open_with(path: &Path, options: &Options, files: &ReadFile<'_>) -> Result<Opened, OpenError> {

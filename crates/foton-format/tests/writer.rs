@@ -9,7 +9,7 @@ use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
     Bitmap, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, EmitterDescription, EmitterKind, Filter,
-    FovAxis, Geometry, Material, Mesh, MicrofacetDistribution, Microfacets, Mirror, Null, Plastic,
+    FovAxis, Geometry, Hidden, Material, Mesh, MicrofacetDistribution, Microfacets, Mirror, Null, Plastic,
     SceneDescription, SensorDescription, ShapeDescription, Texture, TextureKind, ThinDielectric, Wrap,
 };
 
@@ -44,6 +44,7 @@ fn written_and_read(scene: &SceneDescription, folder: &Folder, name: &str) -> Sc
 
 /// Panics where two descriptions differ, but for names, zeros of either sign, and the order of materials and textures.
 fn assert_same(a: &SceneDescription, b: &SceneDescription) {
+    assert_eq!(a.hidden, b.hidden);
     assert_eq!(a.max_depth, b.max_depth);
     assert_eq!(a.sensors.len(), b.sensors.len());
     for (a, b) in a.sensors.iter().zip(&b.sensors) {
@@ -289,6 +290,7 @@ fn everything() -> SceneDescription {
         textures: textures.map(|kind| Texture { name: "t".to_owned(), to_uv, kind }).to_vec(),
         emitters: kinds.map(|kind| EmitterDescription { name: "light".to_owned(), kind }).to_vec(),
         max_depth: Some(7),
+        hidden: Hidden { shapes: [1, 3].into(), emitters: [2].into() },
     }
 }
 

@@ -5,6 +5,7 @@
 //! the screen, and `window` ties them to the system.
 
 mod difference;
+mod editing;
 mod files;
 mod light_scale;
 mod looking;

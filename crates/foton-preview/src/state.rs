@@ -9,6 +9,7 @@ use foton_session::SettingChange;
 use foton_session::engine::{Command, Configuration, Event, Frame, Picture, Source, ViewMode};
 use foton_session::snapshot::Look;
 
+use crate::editing::Editing;
 use crate::files::FileDialog;
 use crate::looking::{BuiltIn, Looking};
 use crate::preferences::Preferences;
@@ -64,8 +65,18 @@ impl Placement {
 pub(crate) enum DialogPurpose {
     OpenScene,
     SaveScene,
+    ImportMesh,
     KeepCheckpoint,
     ResumeCheckpoint,
+}
+
+/// What ends the scene that is open.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Leaving {
+    /// Another scene is opened.
+    Open(Source),
+    /// The window is closed.
+    Close,
 }
 
 /// What the pointer does with the scene.
@@ -79,7 +90,7 @@ pub(crate) enum Grip {
     Pan,
     /// Moving the image in the window.
     Image,
-    /// Moving what is chosen.
+    /// Dragging a handle of what is selected.
     Object,
     /// Moving the line of the wipe.
     Wipe,
@@ -139,6 +150,7 @@ pub(crate) struct State {
     pub(crate) show_help: bool,
     pub(crate) dialog: Option<(DialogPurpose, FileDialog)>,
     pub(crate) grip: Grip,
+    pub(crate) editing: Editing,
     /// When the camera last moved by wheel or key: a while after, the whole picture is due.
     pub(crate) moved_at: Option<f64>,
     /// The pixel under the pointer, as last told to the engine.
@@ -161,6 +173,12 @@ pub(crate) struct State {
     pub(crate) largest_texture: u32,
     /// Someone asked for the end.
     pub(crate) wants_to_close: bool,
+    /// What waits until a person says what becomes of unsaved edits.
+    pub(crate) leaving: Option<Leaving>,
+    /// The question about them takes the keyboard in the next frame.
+    pub(crate) wants_focus_on_save: bool,
+    /// What follows once the scene is saved.
+    pub(crate) after_save: Option<Leaving>,
     /// A configuration that was not applied yet, and the one that it was made from.
     pub(crate) draft: Option<(Configuration, Configuration)>,
     /// The numbers of stop rules that are off: passes, seconds, per cent.
@@ -196,6 +214,7 @@ impl State {
             show_help: false,
             dialog: None,
             grip: Grip::None,
+            editing: Editing::default(),
             moved_at: None,
             probed: None,
             error: Trace::default(),
@@ -209,6 +228,9 @@ impl State {
             adapter: String::new(),
             largest_texture: 8192,
             wants_to_close: false,
+            leaving: None,
+            wants_focus_on_save: false,
+            after_save: None,
             draft: None,
             stop_values: [64.0, 60.0, 2.0],
             hides_panels: false,
@@ -257,9 +279,18 @@ impl State {
                     self.notice(format!("Saved {}", foton_input::shown_path(&path)));
                 }
             }
+            Event::SceneSaved(path) => {
+                self.changed_on_disk = false;
+                self.notice(format!("Saved {}", foton_input::shown_path(&path)));
+                if let Some(to) = self.after_save.take() {
+                    self.go(to);
+                }
+            }
             Event::Notice(text) => self.notice(text),
             Event::Failed(text) => {
                 self.reloads = false;
+                // What could not be saved is not left.
+                self.after_save = None;
                 self.error(text);
             }
         }
@@ -282,7 +313,34 @@ impl State {
     }
 
     pub(crate) fn open(&mut self, path: PathBuf) {
-        self.ask(Command::Open(Source::File(path)));
+        self.leave(Leaving::Open(Source::File(path)));
+    }
+
+    /// Leaves the scene that is open, or asks what becomes of its unsaved edits first.
+    pub(crate) fn leave(&mut self, to: Leaving) {
+        if self.frame.as_ref().is_some_and(|f| f.scene.is_unsaved) {
+            self.leaving = Some(to);
+            self.wants_focus_on_save = true;
+        } else {
+            self.go(to);
+        }
+    }
+
+    /// Leaves the scene that is open, edits and all.
+    pub(crate) fn go(&mut self, to: Leaving) {
+        match to {
+            Leaving::Open(source) => self.ask(Command::Open(source)),
+            Leaving::Close => self.wants_to_close = true,
+        }
+    }
+
+    /// What the window is called.
+    pub(crate) fn title(&self) -> String {
+        let scene = self.frame.as_ref().map(|f| &f.scene).filter(|s| !s.title.is_empty());
+        scene.map_or_else(
+            || "foton".to_owned(),
+            |scene| format!("{}{} – foton", scene.title, if scene.is_unsaved { " (edited)" } else { "" }),
+        )
     }
 
     /// Remembers where a control is.

@@ -2,6 +2,7 @@
 
 use foton_film::Metadata;
 use foton_integrator::{DirectLight, LayerKind, RadiusScale, Render};
+use foton_scene::Sensor;
 
 /// The scene as metadata names it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -10,6 +11,15 @@ pub struct SceneIdentity {
     pub name: String,
     /// Hash of what it was read from, and of all edits since.
     pub hash: u64,
+}
+
+/// The part of an image that is rendered, if it is not all of it.
+fn region(sensor: &Sensor) -> String {
+    if !sensor.is_cropped() {
+        return String::new();
+    }
+    let [width, height] = sensor.whole();
+    format!(" region={} of={width}x{height}", sensor.window())
 }
 
 /// Metadata of an image with layers of a render as it stands.
@@ -27,12 +37,7 @@ pub(crate) fn of(render: &Render, layers: &[LayerKind], scene: &SceneIdentity) -
         DirectLight::Photons => "photons",
         DirectLight::ShadowRays => "shadow-rays",
     };
-    let region = if sensor.is_cropped() {
-        let [width, height] = sensor.whole();
-        format!(" region={} of={width}x{height}", sensor.window())
-    } else {
-        String::new()
-    };
+    let region = region(sensor);
     let settings = format!(
         "integrator={} alpha={} photons={} first_pass={} radius={radius} radius_rule={rule} radius_floor={} direct={direct} max_depth={} spp={} \
          size={}x{} sensor={} hit_points_per_sample={} layers={}{region}",

@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use foton_format::{Opened, Options, Saved, Severity, save_edited};
+use foton_format::{OpenError, Opened, Options, Saved, Severity, save_edited};
 use foton_input::printable;
 use foton_integrator::Cancel;
 use foton_preview::{BuiltIn, Close, WindowError};
 use foton_scene::BuildError;
 use foton_scene::description::SceneDescription;
 use foton_session::SceneIdentity;
-use foton_session::engine::{Loaded, Loader, Source};
+use foton_session::engine::{Loaded, Loader, Reopened, SavedScene, Source};
 
 use crate::embedded::{self, Embedded};
 use crate::opening::refuse_to_build;
@@ -63,23 +63,16 @@ struct Files;
 
 impl Loader for Files {
     fn open(&self, source: &Source, cancel: &Cancel) -> Result<Loaded, String> {
-        let memory = memory::limit(None).map(|b| b as u64);
-        let options = Options { memory, cancel: cancel.clone(), ..Options::default() };
+        let options = options(cancel);
         let (opened, name) = match source {
-            Source::File(path) => (
-                foton_format::open(path, &options),
-                printable(&path.file_name().unwrap_or_default().to_string_lossy()).into_owned(),
-            ),
+            Source::File(path) => (foton_format::open(path, &options), name_of(path)),
             Source::BuiltIn(name) => {
                 let scene =
                     Embedded::named(name).ok_or_else(|| format!("no scene \"{name}\" ships with foton"))?;
                 (scene.open(&options), name.clone())
             }
         };
-        let opened = opened.map_err(|e| {
-            let lines: Vec<String> = e.diagnostics().iter().map(ToString::to_string).collect();
-            lines.join("\n")
-        })?;
+        let opened = opened.map_err(|error| lines(&error))?;
         refuse_to_build(&opened.description, None).map_err(|failure| failure.to_string())?;
         Ok(Loaded {
             description: opened.description.clone(),
@@ -105,13 +98,42 @@ impl Loader for Files {
         origin: &(dyn Any + Send + Sync),
         edited: &SceneDescription,
         path: &Path,
-    ) -> Result<String, String> {
+    ) -> Result<SavedScene, String> {
         let opened = origin.downcast_ref::<Opened>().ok_or("the scene was opened by another loader")?;
-        match save_edited(opened, edited, path).map_err(|cause| cause.to_string())? {
-            Saved::Changed => Ok(String::new()),
+        let note = match save_edited(opened, edited, path).map_err(|cause| cause.to_string())? {
+            Saved::Changed => String::new(),
             Saved::Anew { why } => {
-                Ok(format!("The whole scene was rewritten, with its meshes beside it: {why}"))
+                format!("The whole scene was rewritten, with its meshes beside it: {why}")
             }
-        }
+        };
+        Ok(SavedScene { note, reopened: reopened(path) })
     }
+
+    fn import(&self, path: &Path, cancel: &Cancel) -> Result<SceneDescription, String> {
+        let options = options(cancel);
+        foton_format::import(path, &options).map_err(|error| lines(&error))
+    }
+}
+
+/// How files are read for the window.
+fn options(cancel: &Cancel) -> Options {
+    let memory = memory::limit(None).map(|b| b as u64);
+    Options { memory, cancel: cancel.clone(), ..Options::default() }
+}
+
+/// Everything that is wrong with a file, a line each.
+fn lines(error: &OpenError) -> String {
+    let lines: Vec<String> = error.diagnostics().iter().map(ToString::to_string).collect();
+    lines.join("\n")
+}
+
+fn name_of(path: &Path) -> String {
+    printable(&path.file_name().unwrap_or_default().to_string_lossy()).into_owned()
+}
+
+/// The scene of a file that was just written; `None` where it has already gone again.
+fn reopened(path: &Path) -> Option<Reopened> {
+    let opened = foton_format::open(path, &options(&Cancel::default())).ok()?;
+    let identity = SceneIdentity { name: name_of(path), hash: opened.source_hash };
+    Some(Reopened { identity, files: opened.files.clone(), origin: Arc::new(opened) })
 }

@@ -50,7 +50,7 @@ impl Client {
         cookie.reply().expect(FAILS).atom
     }
 
-    /// The window of this title, which has no window manager's frame around it.
+    /// The window whose title ends like this, which has no window manager's frame around it.
     ///
     /// # Panics
     /// If there is none.
@@ -60,7 +60,7 @@ impl Client {
         let has_title = |window: &u32| {
             let (of, kind) = (AtomEnum::WM_NAME, AtomEnum::ANY);
             let name = self.connection.get_property(false, *window, of, kind, 0, 64).expect(FAILS).reply();
-            name.is_ok_and(|name| name.value == title.as_bytes())
+            name.is_ok_and(|name| name.value.ends_with(title.as_bytes()))
         };
         tree.children.into_iter().find(has_title).expect("the window is there")
     }

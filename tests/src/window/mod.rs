@@ -153,7 +153,7 @@ impl Window {
         let mut window = Self { process, log: Log::new(log), folder: folder.to_owned() };
         window.wait("a first frame", |line| (line["event"] == "drawn").then_some(()));
         // There is no window manager that would give it the keys.
-        display.hand("search --sync --onlyvisible --name ^foton$ windowfocus --sync");
+        display.hand("search --sync --onlyvisible --name foton$ windowfocus --sync");
         window
     }
 

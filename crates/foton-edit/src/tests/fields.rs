@@ -78,7 +78,8 @@ fn every_field_takes_what_it_offers_and_builds() {
                 match (now, value) {
                     (Value::Number(a), Value::Number(b)) => {
                         // West of south is east of it.
-                        let turn = if field.id == FieldId::Azimuth { (a - b).abs() % 360.0 } else { a - b };
+                        let is_turn = matches!(field.id, FieldId::Azimuth | FieldId::Rotation(_));
+                        let turn = if is_turn { (a - b).abs() % 360.0 } else { a - b };
                         assert!(turn.abs() < 1e-3 * b.abs().max(1.0), "{:?}: {a}, not {b}", field.id);
                     }
                     (Value::Colour(_), Value::Colour(_)) => {}

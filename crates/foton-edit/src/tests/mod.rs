@@ -15,9 +15,11 @@ use crate::*;
 
 mod camera;
 mod fields;
+mod gizmo;
 mod history;
 mod moving;
 mod picking;
+mod things;
 
 fn looking(from: DVec3, to: DVec3, up: DVec3) -> DAffine3 {
     let forward = (to - from).normalize();

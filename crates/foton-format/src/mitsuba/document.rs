@@ -40,6 +40,18 @@ pub enum Node {
     },
 }
 
+impl Node {
+    /// What stands in an element that is hidden.
+    pub(crate) fn hidden_mark() -> Self {
+        Self::Instruction { target: "foton".to_owned(), value: Some("hidden".to_owned()) }
+    }
+
+    pub(crate) fn is_hidden_mark(&self) -> bool {
+        let Self::Instruction { target, value } = self else { return false };
+        target == "foton" && value.as_deref().map(str::trim) == Some("hidden")
+    }
+}
+
 /// An element.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Element {
@@ -156,6 +168,12 @@ impl Document {
     pub fn elements_in(&self, id: NodeId) -> impl Iterator<Item = (NodeId, &Element)> {
         let children = self.element(id).map_or(&[][..], |e| &e.children);
         children.iter().filter_map(|&child| Some((child, self.element(child)?)))
+    }
+
+    /// Whether an editor has hidden what the element stands for: it says `<?foton hidden?>`.
+    pub(crate) fn is_hidden(&self, id: NodeId) -> bool {
+        let children = self.element(id).map_or(&[][..], |e| &e.children);
+        children.iter().any(|child| self.node(*child).is_hidden_mark())
     }
 
     /// All elements in the order of the file.

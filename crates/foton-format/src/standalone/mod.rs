@@ -44,6 +44,8 @@ const FILL: f64 = 0.95;
 const COVERING: f64 = 0.05;
 /// Irradiance that the default light brings to the middle of the model: a white surface there has radiance 1.
 const KEY_IRRADIANCE: f64 = std::f64::consts::PI;
+/// Names of the shapes that are added.
+const ADDED: [&str; 2] = ["default-light", "default-floor"];
 /// Radiance of the default sky.
 const SKY: f32 = 0.2;
 
@@ -142,6 +144,14 @@ pub(crate) fn open(
         warnings,
         source_hash: hash.finish(),
     })
+}
+
+/// The shapes of a mesh file, with their materials and textures, and nothing that it lacks.
+pub(crate) fn shapes_alone(mut description: SceneDescription) -> SceneDescription {
+    while description.shapes.last().is_some_and(|s| ADDED.contains(&s.name.as_str())) {
+        description.shapes.pop();
+    }
+    SceneDescription { sensors: Vec::new(), emitters: Vec::new(), ..description }
 }
 
 /// Whether a name stands for nothing: a word that is none, or one too long to be one.
@@ -314,7 +324,7 @@ impl Model {
         let radiance = (KEY_IRRADIANCE * distance * distance / (4.0 * half * half)) as f32;
         let down = DMat3::from_cols(half * right, half * front, -half * up);
         let light = DAffine3::from_mat3_translation(down, along(at));
-        add_rectangle("default-light", light, Some(Rgb::splat(radiance)), scene);
+        add_rectangle(ADDED[0], light, Some(Rgb::splat(radiance)), scene);
         let kind = EmitterKind::Constant { radiance: Rgb::splat(SKY) };
         scene.emitters.push(EmitterDescription { name: "default-sky".to_owned(), kind });
         let mut added = "a light and a dim sky";
@@ -323,7 +333,7 @@ impl Model {
             let flat = DMat3::from_cols(side * right, -side * front, side * up);
             // A little lower, so that it does not coincide with the model's own bottom.
             let floor = DAffine3::from_mat3_translation(flat, along(floor - 1e-4 * length));
-            add_rectangle("default-floor", floor, None, scene);
+            add_rectangle(ADDED[1], floor, None, scene);
             added = "a light, a dim sky and a floor";
         }
         report.warning(Place::default(), format!("nothing in the file emits light: {added} are added"));

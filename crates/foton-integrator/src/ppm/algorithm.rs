@@ -95,7 +95,6 @@ impl Ppm {
         drop((eye.hit_points, eye.gloss));
         let grid = Grid::new(&hit_points.packets, cancel)?;
         cancel.check()?;
-        let light = Light::new(eye.emission, &hit_points, &settings);
         let (width, samples) = (scene.sensors()[settings.sensor].width, settings.samples_per_pixel.get());
         let error = settings.error.then(|| ErrorSums::new(&hit_points, width, samples));
         cancel.check()?;
@@ -104,10 +103,10 @@ impl Ppm {
             losses: vec![Loss::default(); scene.materials().len()],
             scene,
             sources,
+            light: Light::new(eye.emission, &hit_points, &settings),
             settings,
             hit_points,
             shapes: eye.shapes,
-            light,
             error,
             grid,
             marked_radius2: f64::INFINITY,

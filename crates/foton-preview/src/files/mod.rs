@@ -17,6 +17,9 @@ use listing::Entry;
 /// What scenes and meshes end in.
 pub(crate) const SCENES: &[&str] = &["xml", "obj", "ply", "stl"];
 
+/// What meshes end in.
+pub(crate) const MESHES: &[&str] = &["obj", "ply", "stl"];
+
 /// What checkpoints end in.
 pub(crate) const CHECKPOINTS: &[&str] = &["checkpoint"];
 

@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
-use foton_session::engine::{Activity, Command};
+use foton_edit::{Item, Make};
+use foton_session::engine::{Activity, Command, SceneEdit};
 
+use crate::editing::{Remaking, Renaming};
 use crate::files::{CHECKPOINTS, FileDialog, SCENES};
 use crate::state::{DialogPurpose, Grip, Pinned, State};
 
@@ -50,7 +52,9 @@ pub(super) fn escape(state: &mut State) {
         // That was to be given up.
     } else if state.grip == Grip::Object {
         state.grip = Grip::None;
-        state.ask(Command::Edit(foton_session::engine::SceneEdit::CancelDrag));
+        state.ask(Command::Edit(SceneEdit::CancelDrag));
+    } else if state.editing.aiming {
+        state.editing.aiming = false;
     } else {
         deselect(state);
     }
@@ -58,6 +62,37 @@ pub(super) fn escape(state: &mut State) {
 
 pub(super) fn deselect(state: &mut State) {
     state.ask(Command::Choose(None));
+}
+
+/// What is selected, as it stands in the list of things.
+pub(super) fn selected(state: &State) -> Option<&Item> {
+    let frame = state.frame.as_ref()?;
+    let target = frame.selection.as_ref()?.target;
+    frame.scene.contents.iter().find(|item| item.target == target)
+}
+
+/// Lets a person type another name for what is selected.
+pub(super) fn rename(state: &mut State) {
+    state.editing.renaming = selected(state).map(Renaming::of);
+}
+
+/// Asks for the name of another material for what is selected.
+pub(super) fn remake(state: &mut State, make: Make, name: &str) {
+    if let Some(target) = selected(state).map(|item| item.target) {
+        state.editing.remaking = Some(Remaking::new(target, make, name));
+    }
+}
+
+pub(super) fn duplicate(state: &mut State) {
+    if let Some(target) = selected(state).map(|item| item.target) {
+        state.ask(Command::Edit(SceneEdit::Duplicate(target)));
+    }
+}
+
+pub(super) fn delete(state: &mut State) {
+    if let Some(target) = selected(state).map(|item| item.target) {
+        state.ask(Command::Edit(SceneEdit::Delete(target)));
+    }
 }
 
 pub(super) fn copy_camera(ctx: &egui::Context, state: &mut State) {

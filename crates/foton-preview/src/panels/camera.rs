@@ -1,6 +1,7 @@
 //! The camera: its field of view, and the way back.
 
 use egui::Ui;
+use foton_edit::ViewSide;
 use foton_session::engine::{Command, Gesture};
 
 use super::number::{Change, Digits, Number};
@@ -25,7 +26,21 @@ pub(super) fn show(ui: &mut Ui, state: &mut State) {
             None => {}
         }
     });
+    sides(ui, state);
     if ui.button("Reset camera").on_hover_text("Back to where the scene's file has it (H)").clicked() {
         state.ask(Command::ResetCamera);
     }
+}
+
+/// Views along the axes.
+pub(super) fn sides(ui: &mut Ui, state: &mut State) {
+    const HELP: &str = "Looks along an axis at what the camera turns around, from the same distance. The camera stays a perspective one; \
+                        a narrow field of view from afar comes near to an orthographic view";
+    row(ui, "View from", HELP, |ui, _| {
+        for side in ViewSide::ALL {
+            if ui.button(side.name()).on_hover_text(HELP).clicked() {
+                state.ask(Command::Camera { gesture: Gesture::Face(side), moving: false });
+            }
+        }
+    });
 }

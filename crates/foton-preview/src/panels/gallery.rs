@@ -5,9 +5,9 @@ use std::time::SystemTime;
 
 use egui::{ColorImage, TextureHandle, TextureOptions, Vec2};
 use foton_film::{Image, ToneMap, decode_png, read_png_within, tone_map};
-use foton_session::engine::{Command, Source};
+use foton_session::engine::Source;
 
-use crate::state::State;
+use crate::state::{Leaving, State};
 
 /// Height of a picture in points.
 const HEIGHT: f32 = 44.0;
@@ -21,9 +21,9 @@ pub(super) fn built_in(ui: &mut egui::Ui, state: &mut State) {
         let scene = &state.built_in[i];
         let (name, bytes) = (scene.name.clone(), scene.thumbnail);
         let key = PathBuf::from(format!("built in/{name}"));
-        let texture = texture(ui.ctx(), state, &key, None, || decode_png(&key, bytes, Some(MEMORY)).ok());
+        let texture = texture(ui.ctx(), state, &key, None, || decode_png(bytes, &key, Some(MEMORY)).ok());
         if entry(ui, texture.as_ref(), &name, None) {
-            state.ask(Command::Open(Source::BuiltIn(name)));
+            state.leave(Leaving::Open(Source::BuiltIn(name)));
         }
     }
 }
@@ -40,7 +40,7 @@ pub(super) fn recent(ui: &mut egui::Ui, state: &mut State) {
         let texture = picture.filter(|_| written.is_some()).and_then(|path| {
             texture(ui.ctx(), state, &path, written, || read_png_within(&path, Some(MEMORY)).ok())
         });
-        if entry(ui, texture.as_ref(), &title(&file), file.parent()) {
+        if entry(ui, texture.as_ref(), &Source::File(file.clone()).title(), file.parent()) {
             state.open(file);
         }
     }
@@ -48,16 +48,6 @@ pub(super) fn recent(ui: &mut egui::Ui, state: &mut State) {
     if ui.button("Forget these").on_hover_text("Empties this list; the scenes stay").clicked() {
         state.preferences.recent.clear();
     }
-}
-
-/// What a person calls a scene's file: as in the title of the window.
-fn title(file: &Path) -> String {
-    let facts = foton_session::engine::SceneFacts {
-        name: file.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-        file: Some(file.to_owned()),
-        ..Default::default()
-    };
-    facts.title()
 }
 
 /// A scene with its picture, if there is one. Whether it was chosen.

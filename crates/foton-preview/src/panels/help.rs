@@ -21,7 +21,7 @@ const KEYS: [(&str, &str); 29] = [
     ("P", "snapshot: EXR and PNG"),
     ("O", "photons as dots"),
     ("K", "pin this pass, compare"),
-    ("N", "keep this pass in the history"),
+    ("B", "keep this pass in the history"),
     ("T", "the history: compare, return, films"),
     ("L", "histogram"),
     ("C", "mark clipped and black pixels"),

@@ -37,7 +37,7 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
 
 fn buttons(ui: &mut egui::Ui, state: &mut State, last: Option<&HistoryEntry>) {
     let keep = ui.button("Keep this pass").on_hover_text(
-        "Adds the pass to the history, with its state, as every snapshot does (N). The history takes 2 GB of disk at most and ends \
+        "Adds the pass to the history, with its state, as every snapshot does (B). The history takes 2 GB of disk at most and ends \
          with the window",
     );
     state.place("keep", &keep);

@@ -1,12 +1,12 @@
 //! Keyboard shortcuts. They rest while someone types, and while a list, a menu or a dialog is open.
 
 use egui::{FocusDirection, Key, Modifiers};
-use foton_edit::DragMode;
+use foton_edit::{DragMode, Tool};
 use foton_session::engine::{Command, Gesture, SceneEdit};
 
 use super::views::VIEWS;
 use super::{actions, typing};
-use crate::state::{Placement, State};
+use crate::state::{Leaving, Placement, State};
 
 /// What a key does.
 type Act = fn(&mut State);
@@ -19,11 +19,11 @@ const ANYWHERE: [(Key, Act); 4] = [
     (Key::R, |s| s.ask(Command::Restart)),
     (Key::O, actions::open_dialog),
     (Key::S, actions::save_dialog),
-    (Key::Q, |s| s.wants_to_close = true),
+    (Key::Q, |s| s.leave(Leaving::Close)),
 ];
 
 /// Keys that are letters or signs.
-const LETTERS: [(Key, Act); 10] = [
+const LETTERS: [(Key, Act); 14] = [
     (Key::Period, |s| s.ask(Command::Step)),
     (Key::F, |s| s.placement = Placement::FIT),
     (Key::H, |s| s.ask(Command::ResetCamera)),
@@ -32,8 +32,12 @@ const LETTERS: [(Key, Act); 10] = [
     (Key::K, actions::toggle_pin),
     (Key::L, |s| s.looking.show_histogram = !s.looking.show_histogram),
     (Key::C, |s| s.looking.marks_clipping = !s.looking.marks_clipping),
-    (Key::N, |s| s.ask(Command::Remember)),
+    (Key::B, |s| s.ask(Command::Remember)),
     (Key::T, |s| s.looking.show_history = !s.looking.show_history),
+    (Key::M, |s| s.editing.tool = Tool::Move),
+    (Key::R, |s| s.editing.tool = Tool::Rotate),
+    (Key::X, |s| s.editing.tool = Tool::Scale),
+    (Key::N, |s| s.editing.snap = !s.editing.snap),
 ];
 
 const DIGITS: [Key; 5] = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5];
@@ -58,6 +62,15 @@ pub(super) fn obey(ui: &egui::Ui, state: &mut State) {
     }
     if pressed(Modifiers::COMMAND, Key::Z) {
         state.ask(Command::Edit(SceneEdit::Undo));
+    }
+    if pressed(Modifiers::COMMAND, Key::D) {
+        actions::duplicate(state);
+    }
+    if pressed(Modifiers::NONE, Key::Delete) {
+        actions::delete(state);
+    }
+    if pressed(Modifiers::NONE, Key::F2) {
+        actions::rename(state);
     }
     if ui.input(|i| i.events.iter().any(|e| matches!(e, egui::Event::Text(t) if t == "?"))) {
         state.show_help = !state.show_help;

@@ -4,7 +4,7 @@ use egui::{Button, Ui};
 use foton_session::engine::{Command, SceneEdit};
 
 use super::{actions, gallery, region, views};
-use crate::state::{Placement, State};
+use crate::state::{Leaving, Placement, State};
 
 pub(super) fn show(ui: &mut Ui, state: &mut State) {
     egui::MenuBar::new().ui(ui, |ui| {
@@ -44,7 +44,7 @@ fn file(ui: &mut Ui, state: &mut State) {
     if entry(ui, has_scene, "Save snapshot", "P").on_hover_text("This pass as EXR and PNG").clicked() {
         actions::snapshot(state);
     }
-    let keep = entry(ui, has_scene, "Keep in history", "N");
+    let keep = entry(ui, has_scene, "Keep in history", "B");
     if keep.on_hover_text("Keeps this pass with its state, to compare with and to return to").clicked() {
         state.ask(Command::Remember);
     }
@@ -65,7 +65,7 @@ fn file(ui: &mut Ui, state: &mut State) {
     }
     ui.separator();
     if entry(ui, true, "Quit", "Ctrl+Q").clicked() {
-        state.wants_to_close = true;
+        state.leave(Leaving::Close);
     }
 }
 
@@ -83,6 +83,15 @@ fn edit(ui: &mut Ui, state: &mut State) {
         state.ask(Command::Edit(SceneEdit::Redo));
     }
     ui.separator();
+    if entry(ui, is_selected, "Rename", "F2").clicked() {
+        actions::rename(state);
+    }
+    if entry(ui, is_selected, "Duplicate", "Ctrl+D").clicked() {
+        actions::duplicate(state);
+    }
+    if entry(ui, is_selected, "Delete", "Del").clicked() {
+        actions::delete(state);
+    }
     if entry(ui, is_selected, "Deselect", "Esc").clicked() {
         actions::deselect(state);
     }

@@ -8,9 +8,11 @@ mod diagnostics;
 mod dot_legend;
 mod dropping;
 mod exposure;
+mod fields;
 mod figures;
 mod film_place;
 mod gallery;
+mod gizmo;
 mod help;
 mod hint;
 mod histogram;
@@ -20,20 +22,26 @@ mod inspector;
 mod keys;
 mod legend;
 mod live;
+mod material;
 mod menu;
 mod messages;
 mod number;
 mod opening;
+mod outliner;
 mod output;
 mod overlay;
 mod pixel_values;
+mod pointer;
+mod presets;
 mod region;
 mod setup;
 mod slider;
 mod status;
 mod text;
 mod toolbar;
+mod tools;
 mod typing;
+mod unsaved;
 mod views;
 mod warnings;
 mod widgets;
@@ -41,7 +49,7 @@ mod widgets;
 #[cfg(test)]
 mod tests;
 
-use foton_session::engine::Command;
+use foton_session::engine::{Command, SceneEdit};
 
 use crate::files::Outcome;
 use crate::state::{DialogPurpose, State};
@@ -84,6 +92,9 @@ pub(crate) fn ground(visuals: &egui::Visuals) -> egui::Color32 {
 pub(crate) fn show(ui: &mut egui::Ui, state: &mut State) {
     state.places.clear();
     state.tell_look();
+    if ui.input(|i| i.pointer.any_pressed()) {
+        state.editing.is_press_spent = egui::Popup::is_any_open(ui.ctx());
+    }
     // Screen readers say a window's name first.
     ui.ctx().accesskit_node_builder(egui::accesskit_root_id(), |window| window.set_label("foton"));
     keys::obey(ui, state);
@@ -119,6 +130,7 @@ pub(crate) fn show(ui: &mut egui::Ui, state: &mut State) {
     histogram::show(ui.ctx(), state, canvas.response.rect);
     messages::show(ui.ctx(), state);
     help::show(ui.ctx(), state);
+    unsaved::show(ui.ctx(), state);
     dialog(ui.ctx(), state);
     dropping::show(ui.ctx(), canvas.response.rect);
     state.is_typing = ui.ctx().text_edit_focused();
@@ -132,6 +144,7 @@ fn left(ui: &mut egui::Ui, state: &mut State) {
             ui.label("No scene yet: open one, or drop a file here.");
             return;
         }
+        section(ui, "Scene", true, |ui| outliner::show(ui, state));
         section(ui, "Live", true, |ui| live::show(ui, state));
         section(ui, "Camera", true, |ui| camera::show(ui, state));
         section(ui, "Settings (restart)", true, |ui| setup::show(ui, state));
@@ -171,7 +184,7 @@ fn dialog(ctx: &egui::Context, state: &mut State) {
     let Some((purpose, mut dialog)) = state.dialog.take() else { return };
     match dialog.show(ctx) {
         Outcome::Browsing => state.dialog = Some((purpose, dialog)),
-        Outcome::Cancelled => {}
+        Outcome::Cancelled => state.after_save = None,
         Outcome::Chosen(path) => {
             if let Some(folder) = path.parent() {
                 state.preferences.scene_folder = folder.to_owned();
@@ -179,6 +192,7 @@ fn dialog(ctx: &egui::Context, state: &mut State) {
             match purpose {
                 DialogPurpose::OpenScene => state.open(path),
                 DialogPurpose::SaveScene => state.ask(Command::SaveScene(path)),
+                DialogPurpose::ImportMesh => state.ask(Command::Edit(SceneEdit::Import(path))),
                 DialogPurpose::KeepCheckpoint => state.ask(Command::KeepCheckpoint(path)),
                 DialogPurpose::ResumeCheckpoint => state.ask(Command::ResumeCheckpoint(path)),
             }

@@ -13,9 +13,6 @@ const CHOSEN: Color32 = Color32::from_rgb(255, 170, 40);
 const LIGHT: Color32 = Color32::from_rgb(255, 225, 120);
 const DISC: Color32 = Color32::from_rgb(120, 220, 255);
 
-/// Pixels between what is chosen and its handle.
-const HANDLE_GAP: f32 = 18.0;
-
 pub(super) fn draw(painter: &egui::Painter, state: &State, frame: &Frame, film: Film) {
     if state.show_photons {
         dots(painter, &frame.dots, film, 1.2);
@@ -26,11 +23,6 @@ pub(super) fn draw(painter: &egui::Painter, state: &State, frame: &Frame, film: 
     if let Some(selection) = &frame.selection {
         for segment in &selection.outline {
             line(painter, segment, film, Stroke::new(1.6, CHOSEN));
-        }
-        if let Some(at) = handle(&selection.outline) {
-            let at = film.to_points(at);
-            painter.arrow(at + egui::vec2(0.0, 10.0), egui::vec2(0.0, -20.0), Stroke::new(2.0, CHOSEN));
-            painter.circle_filled(at, 4.0, CHOSEN);
         }
     }
     if let Some(probe) = frame.probe.as_ref().filter(|p| Some(p.pixel) == state.probed) {
@@ -66,22 +58,4 @@ fn dots(painter: &egui::Painter, dots: &[Dot], film: Film, radius: f32) {
         );
     }
     painter.add(mesh);
-}
-
-/// The bounds of an outline in pixels: left, top, right, bottom.
-fn bounds(outline: &[Segment]) -> Option<[f32; 4]> {
-    let mut points = outline.iter().flatten();
-    let &[x, y] = points.next()?;
-    Some(points.fold([x, y, x, y], |[l, t, r, b], &[x, y]| [l.min(x), t.min(y), r.max(x), b.max(y)]))
-}
-
-/// Whether a film position is over what is chosen: within the bounds of its outline.
-pub(super) fn holds(outline: &[Segment], film: [f64; 2]) -> bool {
-    let [x, y] = film.map(|v| v as f32);
-    bounds(outline).is_some_and(|[l, t, r, b]| x >= l && x <= r && y >= t && y <= b)
-}
-
-/// Where the handle for the height is: above what is chosen, in pixels.
-pub(super) fn handle(outline: &[Segment]) -> Option<[f32; 2]> {
-    bounds(outline).map(|[l, t, r, _]| [(l + r) * 0.5, (t - HANDLE_GAP).max(HANDLE_GAP)])
 }

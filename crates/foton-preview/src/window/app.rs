@@ -17,7 +17,7 @@ use super::frame_log::FrameLog;
 use super::live::Live;
 use super::pace::Pace;
 use super::recent::Recent;
-use crate::state::{State, Tone};
+use crate::state::{Leaving, State, Tone};
 
 /// How often to check whether the scene's file has changed.
 const WATCH: Duration = Duration::from_secs(1);
@@ -92,6 +92,9 @@ impl App {
             self.recent.mind(&mut self.state);
         }
         while let Some(event) = self.engine.event() {
+            if matches!(event, Event::SceneSaved(_)) {
+                self.watched = None;
+            }
             self.state.hear(event);
             is_news = true;
         }
@@ -199,7 +202,7 @@ impl App {
 
 /// Whether a small picture follows at once, so that a frame without it is not worth its time.
 const fn answers_soon(command: &Command) -> bool {
-    matches!(command, Command::Camera { moving: true, .. } | Command::Edit(SceneEdit::DragTo(_)))
+    matches!(command, Command::Camera { moving: true, .. } | Command::Edit(SceneEdit::DragTo { .. }))
 }
 
 impl ApplicationHandler<UserEvent> for App {
@@ -212,7 +215,13 @@ impl ApplicationHandler<UserEvent> for App {
     fn user_event(&mut self, event_loop: &ActiveEventLoop, event: UserEvent) {
         match event {
             UserEvent::Close => self.close(event_loop),
-            UserEvent::Wake => self.listen(),
+            UserEvent::Wake => {
+                self.listen();
+                // What was to be saved first is saved.
+                if self.state.wants_to_close {
+                    self.close(event_loop);
+                }
+            }
             UserEvent::Repaint(delay) => self.pace.repaint(Instant::now(), delay),
             UserEvent::DeviceLost(number) => {
                 if self.live.as_mut().is_some_and(|live| live.lose(number)) {
@@ -233,7 +242,14 @@ impl ApplicationHandler<UserEvent> for App {
         let response = live.egui.on_window_event(&live.window, &event);
         match event {
             // Some close windows without asking.
-            WindowEvent::CloseRequested | WindowEvent::Destroyed => return self.close(event_loop),
+            WindowEvent::Destroyed => return self.close(event_loop),
+            WindowEvent::CloseRequested => {
+                self.state.leave(Leaving::Close);
+                if self.state.wants_to_close {
+                    return self.close(event_loop);
+                }
+                self.pace.draw_at(Instant::now());
+            }
             WindowEvent::RedrawRequested => {
                 self.draw();
                 if self.state.wants_to_close {

@@ -25,6 +25,7 @@ pub(super) struct Live {
     adapters: u64,
     /// What egui wants the adapter to know, each thing once.
     textures: egui::TexturesDelta,
+    title: String,
 }
 
 impl Drop for Live {
@@ -68,7 +69,15 @@ impl Live {
         });
         window.set_visible(true);
         let textures = egui::TexturesDelta::default();
-        Ok(Self { window, egui, context, adapter: Some(adapter), adapters: 1, textures })
+        Ok(Self {
+            window,
+            egui,
+            context,
+            adapter: Some(adapter),
+            adapters: 1,
+            textures,
+            title: String::new(),
+        })
     }
 
     /// What draws, unless it is lost.
@@ -117,6 +126,11 @@ impl Live {
         let theme = if state.preferences.dark { egui::Theme::Dark } else { egui::Theme::Light };
         if self.context.theme() != theme {
             self.context.set_theme(theme);
+        }
+        let title = state.title();
+        if title != self.title {
+            self.window.set_title(&title);
+            self.title = title;
         }
         let input = self.egui.take_egui_input(&self.window);
         let mut output = self.context.run_ui(input, |ui| panels::show(ui, state));

@@ -54,7 +54,7 @@ const SPECULAR_REFLECTANCE: Parameter = Parameter::share("specular_reflectance",
 
 impl Described for Conductor {
     const INFO: BsdfInfo = BsdfInfo {
-        label: "metal",
+        label: "Conductor",
         help: "A metal. Smooth, and without eta, k and material, it is a perfect mirror.",
         plugin: "conductor",
         rough_plugin: Some("roughconductor"),

@@ -53,7 +53,7 @@ pub(super) const SPECULAR_TRANSMITTANCE: Parameter = Parameter::share("specular_
 
 impl Described for Dielectric {
     const INFO: BsdfInfo = BsdfInfo {
-        label: "glass",
+        label: "Dielectric",
         help: "A boundary of two transparent media, such as glass or water.",
         plugin: "dielectric",
         rough_plugin: Some("roughdielectric"),

@@ -28,7 +28,7 @@ const REFLECTANCE: Parameter = Parameter::share("reflectance", 0.5)
 
 impl Described for Diffuse {
     const INFO: BsdfInfo = BsdfInfo {
-        label: "matte",
+        label: "Diffuse",
         help: "Lambertian reflection: as bright from every direction.",
         plugin: "diffuse",
         rough_plugin: None,

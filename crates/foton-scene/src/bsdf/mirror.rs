@@ -25,7 +25,7 @@ const REFLECTANCE: Parameter = Parameter::share("specular_reflectance", 1.0)
 
 impl Described for Mirror {
     const INFO: BsdfInfo = BsdfInfo {
-        label: "mirror",
+        label: "Mirror",
         help: "A smooth mirror that reflects the same share at every angle.",
         plugin: "conductor",
         rough_plugin: None,

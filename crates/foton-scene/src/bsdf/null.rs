@@ -15,7 +15,7 @@ pub struct Null;
 
 impl Described for Null {
     const INFO: BsdfInfo = BsdfInfo {
-        label: "invisible",
+        label: "Null",
         help: "Nothing: light passes as if there were no surface.",
         plugin: "null",
         rough_plugin: None,

@@ -53,7 +53,7 @@ const NONLINEAR: Parameter = Parameter::boolean("nonlinear")
 
 impl Described for Plastic {
     const INFO: BsdfInfo = BsdfInfo {
-        label: "plastic",
+        label: "Plastic",
         help: "A clear coat over a diffuse base.",
         plugin: "plastic",
         rough_plugin: Some("roughplastic"),

@@ -28,7 +28,7 @@ pub struct ThinDielectric<C = Colour> {
 
 impl Described for ThinDielectric {
     const INFO: BsdfInfo = BsdfInfo {
-        label: "thin glass",
+        label: "Thin dielectric",
         help: "A thin pane of glass: light passes straight on, reflections between its faces included.",
         plugin: "thindielectric",
         rough_plugin: None,

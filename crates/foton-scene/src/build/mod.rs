@@ -75,8 +75,12 @@ impl Scene {
         let casters =
             (!casters.is_empty()).then(|| ball(&casters)).filter(|c| c.radius < 0.5 * scene_ball.radius);
         let at = (scene_ball, casters);
+        let surfaces = emitters.len();
         emitters.extend(description.emitters.iter().map(|e| unattached_emitter(e, &normalisation, at)));
         check_emitters(&emitters, description, &normalisation)?;
+        let mut index = 0..;
+        let is_hidden = |i: usize| i >= surfaces && description.hidden.emitters.contains(&(i - surfaces));
+        emitters.retain(|_| !index.next().is_some_and(is_hidden));
         let mut scene = gathered.into_scene(normalisation, bounds, options)?;
         scene.shapes = shapes;
         scene.textures = description.textures.iter().map(Sampler::new).collect();
@@ -183,7 +187,10 @@ impl Parts {
     ) -> Result<(), BuildError> {
         let Self { gathered, shapes, emitters, casters } = self;
         let first = gathered.primitives.len();
-        gathered.add(index, shape, normalisation, gauge)?;
+        let is_hidden = description.hidden.shapes.contains(&(index as usize));
+        if !is_hidden {
+            gathered.add(index, shape, normalisation, gauge)?;
+        }
         gauge.add(gathered.primitives.len() - first)?;
         if gathered.primitives.len() > i32::MAX as usize {
             return Err(BuildError::TooLarge);
@@ -191,12 +198,14 @@ impl Parts {
         let material = description.materials.get(shape.material);
         let material = material.ok_or_else(|| BuildError::NoMaterial(shape.name.clone()))?;
         let smooth = gathered.vertex_normals[first..].iter().any(|n| n[0] != Vec3::ZERO);
-        gathered.census.count(material, smooth);
+        if !is_hidden {
+            gathered.census.count(material, smooth);
+        }
         let primitives = &gathered.primitives[first..];
         if material.casts() {
             *casters = primitives.iter().fold(*casters, |b, p| b.union(p.bounds()));
         }
-        let emitter = shape.radiance.filter(|r| !r.is_black()).map(|radiance| {
+        let emitter = shape.radiance.filter(|r| !r.is_black() && !is_hidden).map(|radiance| {
             let kind = Kind::Area(Area::new(index, radiance, primitives));
             emitters.push(Emitter { name: shape.name.clone(), kind, aim: Aim::default() });
             emitters.len() as u32 - 1

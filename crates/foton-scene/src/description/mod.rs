@@ -4,6 +4,7 @@
 //! that one file renders alike in both. Nothing is validated here: building a scene does that.
 
 mod emitter;
+mod hidden;
 mod material;
 mod sensor;
 mod shape;
@@ -14,6 +15,7 @@ pub use crate::bsdf::{
     ThinDielectric,
 };
 pub use emitter::{EmitterDescription, EmitterKind};
+pub use hidden::Hidden;
 pub use material::Material;
 pub use sensor::{Crop, Filter, FovAxis, SensorDescription};
 pub use shape::{Geometry, Mesh, ShapeDescription};
@@ -34,4 +36,6 @@ pub struct SceneDescription {
     pub emitters: Vec<EmitterDescription>,
     /// The longest path in edges, as Mitsuba counts them (1: emitters seen directly, 2: one bounce); `None`: no bound.
     pub max_depth: Option<u32>,
+    /// What is left out of the scene.
+    pub hidden: Hidden,
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use foton_edit::{DragMode, FieldId, Value};
+use foton_edit::{DragMode, FieldId, Handle, Make, NewThing, Target, Value, ViewSide};
 use foton_integrator::{DirectLight, RadiusFloor, RadiusRule, RenderSettings};
 pub use foton_scene::description::Crop as Region;
 
@@ -111,32 +111,48 @@ pub enum Gesture {
     },
     /// In degrees along the sensor's own axis.
     FieldOfView(f64),
+    /// Looks at the same along an axis of the world.
+    Face(ViewSide),
 }
 
 /// An edit of the scene. Film positions are pixels from the image's top left corner.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum SceneEdit {
-    /// Takes hold of what is chosen.
+    /// Takes hold of a handle of what is selected.
     BeginDrag {
+        /// Which handle.
+        handle: Handle,
         /// Where.
         film: [f64; 2],
-        /// Which way it may go.
-        mode: DragMode,
+        /// From the middle of the handles to their ends, in pixels.
+        reach: f64,
     },
-    /// Moves what is held.
-    DragTo([f64; 2]),
+    /// Drags the handle that is held.
+    DragTo {
+        /// Where to.
+        film: [f64; 2],
+        /// Whether in round steps.
+        snap: bool,
+    },
     /// Lets go.
-    EndDrag([f64; 2]),
+    EndDrag {
+        /// Where.
+        film: [f64; 2],
+        /// Whether in round steps.
+        snap: bool,
+    },
     /// Puts what is held back.
     CancelDrag,
-    /// Moves what is chosen by small steps: to the right and downwards in the image.
+    /// Moves what is selected by small steps: to the right and downwards in the image.
     Nudge {
         /// How many steps.
         steps: [f64; 2],
         /// Which way it may go.
         mode: DragMode,
     },
-    /// Sets a field of what is chosen.
+    /// Turns the selected light so that it shines at what is seen there.
+    AimAt([f64; 2]),
+    /// Sets a field of what is selected.
     SetField {
         /// Which one.
         field: FieldId,
@@ -145,12 +161,50 @@ pub enum SceneEdit {
         /// Whether a control that is dragged was let go: all until then is one step of the history.
         done: bool,
     },
-    /// Gives what is chosen a material of its own.
+    /// Gives what is selected a material of its own.
     OwnMaterial,
+    /// Gives what is selected another material.
+    Remake {
+        /// What it becomes.
+        make: Make,
+        /// The new material's name.
+        name: String,
+        /// Whether all shapes that share the old material get it.
+        all: bool,
+    },
+    /// Gives a thing another name.
+    Rename {
+        /// Which one.
+        target: Target,
+        /// The name.
+        name: String,
+    },
+    /// Hides a thing, or shows it again.
+    Hide {
+        /// Which one.
+        target: Target,
+        /// Whether it is hidden from now on.
+        hide: bool,
+    },
+    /// Copies a thing and selects the copy.
+    Duplicate(Target),
+    /// Takes a thing out of the scene.
+    Delete(Target),
+    /// Adds a thing where the camera looks and selects it.
+    Add(NewThing),
+    /// Adds the shapes of a mesh file and selects the first.
+    Import(PathBuf),
     /// Takes the last step back.
     Undo,
     /// Makes the step again that was taken back last.
     Redo,
+}
+
+impl SceneEdit {
+    /// Whether more of the same is to follow at once.
+    pub(super) const fn is_moving(&self) -> bool {
+        matches!(self, Self::BeginDrag { .. } | Self::DragTo { .. } | Self::SetField { done: false, .. })
+    }
 }
 
 /// The picture that frames carry.
@@ -220,8 +274,10 @@ pub enum Command {
     Moving(bool),
     /// Puts the camera back where the scene's file has it.
     ResetCamera,
-    /// Chooses the surface or light at a film position.
+    /// Selects the surface or light at a film position.
     Choose(Option<[f64; 2]>),
+    /// Selects a shape, light or camera.
+    Select(Option<Target>),
     /// Changes the scene.
     Edit(SceneEdit),
     /// What frames carry.
@@ -303,6 +359,7 @@ impl Command {
                 | Self::Camera { .. }
                 | Self::ResetCamera
                 | Self::Choose(_)
+                | Self::Select(_)
                 | Self::Edit(_)
                 | Self::Quit
         )
@@ -321,6 +378,8 @@ pub enum Event {
     },
     /// Files were written.
     Saved(Vec<PathBuf>),
+    /// The scene was written, and is that of the file from now on.
+    SceneSaved(PathBuf),
     /// Something to know.
     Notice(String),
     /// Something that was asked for could not be done.

@@ -1,11 +1,9 @@
 //! What a window sees of a render: a picture and statistics, never a hit point or a scene.
 
-use std::ffi::OsStr;
-use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use foton_edit::{Inspection, Segment, Target};
+use foton_edit::{Gizmo, Inspection, Item, Segment, Target};
 use foton_film::{Image, Plane};
 use foton_integrator::{ErrorEstimate, Ledger, PathClass, Radii, RenderSettings};
 use foton_math::Rgb;
@@ -134,6 +132,10 @@ pub struct Selection {
     pub inspection: Inspection,
     /// Its outline.
     pub outline: Vec<Segment>,
+    /// Its handles; `None` where there is nothing to drag, or it is not in the image.
+    pub gizmo: Option<Gizmo>,
+    /// How far the drag under way is, in words.
+    pub drag: Option<String>,
 }
 
 /// What a window says of a scene.
@@ -141,34 +143,26 @@ pub struct Selection {
 pub struct SceneFacts {
     /// Its name.
     pub name: String,
+    /// Its name for people: that of its folder where the file is called `scene.xml`.
+    pub title: String,
     /// Its file, if it has one.
     pub file: Option<std::path::PathBuf>,
     /// Its sensors.
     pub sensors: Vec<SensorFacts>,
     /// Surfaces.
     pub shapes: usize,
+    /// All shapes, lights and cameras.
+    pub contents: Arc<Vec<Item>>,
     /// Whether the scene differs from its file.
     pub is_edited: bool,
     /// What its file says without effect, and what else a person should know of it, as when it was opened.
     pub warnings: Arc<Vec<String>>,
+    /// Whether it has edits that no file holds; where its cameras stand does not count.
+    pub is_unsaved: bool,
     /// What undoing would take back.
     pub undo: Option<String>,
     /// What redoing would make again.
     pub redo: Option<String>,
-}
-
-impl SceneFacts {
-    /// What a person calls it: the name without its ending, and that of its folder where a file is just called `scene`.
-    #[must_use]
-    pub fn title(&self) -> String {
-        let text = |name: Option<&OsStr>| name.map(|name| name.to_string_lossy().into_owned());
-        let stem = text(Path::new(&self.name).file_stem()).unwrap_or_default();
-        let folder = || {
-            let file = std::path::absolute(self.file.as_ref()?).ok()?;
-            text(file.parent()?.file_name())
-        };
-        if stem.eq_ignore_ascii_case("scene") { folder().unwrap_or(stem) } else { stem }
-    }
 }
 
 /// How a render stands.

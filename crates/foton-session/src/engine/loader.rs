@@ -47,7 +47,7 @@ pub trait Loader: Send + Sync + 'static {
         format!("{}: {cause}", loaded.identity.name)
     }
 
-    /// Writes a scene as it is after edits to a file, given its [`Loaded::origin`]; returns what there is to know about it.
+    /// Writes a scene as it is after edits to a file, given its [`Loaded::origin`].
     ///
     /// # Errors
     /// Why it could not be written.
@@ -56,7 +56,35 @@ pub trait Loader: Send + Sync + 'static {
         origin: &(dyn Any + Send + Sync),
         description: &SceneDescription,
         path: &Path,
-    ) -> Result<String, String>;
+    ) -> Result<SavedScene, String>;
+
+    /// Reads the shapes of a mesh file, with their materials, to add them to a scene.
+    ///
+    /// # Errors
+    /// Why it cannot be read.
+    fn import(&self, path: &Path, _cancel: &Cancel) -> Result<SceneDescription, String> {
+        Err(format!("{} cannot be imported", foton_input::shown_path(path)))
+    }
+}
+
+/// A scene that was saved.
+#[derive(Clone, Debug)]
+pub struct SavedScene {
+    /// What there is to know about it; empty where that is nothing.
+    pub note: String,
+    /// The scene of the file that was written, as opening it gives it; `None` where that could not be found out.
+    pub reopened: Option<Reopened>,
+}
+
+/// What a file that was saved is when it is opened.
+#[derive(Clone, Debug)]
+pub struct Reopened {
+    /// Its name and hash.
+    pub identity: SceneIdentity,
+    /// Files that it is read from.
+    pub files: Vec<PathBuf>,
+    /// As [`Loaded::origin`].
+    pub origin: Arc<dyn Any + Send + Sync>,
 }
 
 /// A scene that is ready to render.
@@ -155,6 +183,20 @@ impl Source {
             Self::File(path) => Some(path),
             Self::BuiltIn(_) => None,
         }
+    }
+}
+
+impl Source {
+    /// Its name for people: that of its folder where the file is called `scene.xml`.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let Self::File(path) = self else { return self.to_string() };
+        let name = |part: Option<&std::ffi::OsStr>| part.map(|p| p.to_string_lossy().into_owned());
+        let is_scene = path.file_stem().is_some_and(|stem| stem.eq_ignore_ascii_case("scene"));
+        let absolute = std::path::absolute(path).unwrap_or_else(|_| path.clone());
+        let folder = absolute.parent().filter(|_| is_scene).and_then(|folder| name(folder.file_name()));
+        let title = folder.or_else(|| name(path.file_name())).unwrap_or_default();
+        foton_input::printable(&title).into_owned()
     }
 }
 

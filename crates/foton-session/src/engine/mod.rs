@@ -7,8 +7,10 @@ mod cancels;
 mod checkpointing;
 mod command;
 mod editable_scene;
+mod filming;
 mod frame;
 mod history;
+mod keeping;
 mod kept;
 mod loader;
 mod newest;
@@ -37,7 +39,7 @@ pub use frame::{
     SurfaceNames,
 };
 pub use history::{HistoryEntry, Thumbnail, shrunk};
-pub use loader::{Loaded, Loader};
+pub use loader::{Loaded, Loader, Reopened, SavedScene};
 pub use setup::Setup;
 
 /// Commands that may wait at once. A window sends a few for each frame it draws.

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use foton_film::{Image, Plane};
 use foton_integrator::{
-    Cancel, Cancelled, LayerKind, PpmSettings, Radii, Render, RenderSettings, ShouldSuspend,
+    Cancel, Cancelled, LayerKind, PpmSettings, Radii, RadiusScale, Render, RenderSettings, ShouldSuspend,
 };
 use foton_math::Rgb;
 use foton_scene::Scene;
@@ -67,6 +67,9 @@ impl Level {
     }
 }
 
+/// Factor on the first radius in pictures that are not the whole: smooth light after a pass or two is worth its bias.
+const SMOOTH: f64 = 2.0;
+
 /// Passes that a small picture gets while a person holds still in the middle of a move.
 const SMALL_PASSES: u64 = 8;
 
@@ -120,11 +123,14 @@ impl LevelRender {
             let shrink = |n: u32| ((f64::from(n) * factor).round() as u32).max(1);
             sensor.resize(shrink(sensor.width), shrink(sensor.height));
         }
+        let scale = settings.ppm.radius_scale.get();
         let settings = RenderSettings {
             samples_per_pixel: NonZeroU32::MIN,
             error: false,
             ppm: PpmSettings {
                 photons_per_pass: settings.ppm.photons_per_pass.min(level.photons()),
+                first_pass: level.photons(),
+                radius_scale: RadiusScale::new(SMOOTH * scale).unwrap_or(settings.ppm.radius_scale),
                 ..settings.ppm
             },
             ..settings.clone()
@@ -225,6 +231,8 @@ impl LevelRender {
     fn findings(&self, goal: Option<f64>) -> Vec<Finding> {
         let (render, names) = (self.session.render(), &SettingNames::CONTROLS);
         let mut found = findings::of_render(render, names);
+        // Edits may have taken it away.
+        found.extend(findings::without_light(render.scene()));
         found.extend(goal.and_then(|goal| findings::above_goal(render, goal, self.radii_at_floor, names)));
         found
     }

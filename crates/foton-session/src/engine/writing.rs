@@ -80,7 +80,7 @@ impl Worker {
         let render = self.current.number;
         let known = self.files.run.take().filter(|run| run.is_of(render, folder));
         let run = known.unwrap_or_else(|| {
-            let title = self.scene.as_ref().map_or_else(String::new, |scene| scene.facts().title());
+            let title = self.scene.as_ref().map_or_else(String::new, |scene| scene.facts().title.clone());
             Run::new(render, folder, &title)
         });
         self.files.run.insert(run).name().to_owned()
@@ -95,9 +95,10 @@ impl Worker {
             return self.event(Event::Failed("there is no scene to save".to_owned()));
         };
         match self.setup.loader.save(&*scene.origin, scene.description(), path) {
-            Ok(note) => {
-                scene.saved();
-                self.event(Event::Saved(vec![path.to_owned()]));
+            Ok(saved) => {
+                let note = saved.note.clone();
+                scene.saved(path, saved);
+                self.event(Event::SceneSaved(path.to_owned()));
                 if !note.is_empty() {
                     self.event(Event::Notice(note));
                 }

@@ -7,7 +7,7 @@ mod scene;
 mod tests;
 
 pub use render::{MIN_CUT_OFF, above_goal, of_emitters, of_ledger, of_render, of_settings};
-pub use scene::of_scene;
+pub use scene::{of_scene, without_light};
 
 /// What a finding is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -51,9 +51,13 @@ pub fn of_scene(scene: &Scene, sensor: usize, names: &SettingNames) -> Vec<Findi
                     the noisier";
         findings.push(Finding::new(FindingKind::NarrowCaustics, None, text));
     }
-    if census.emitters == 0 {
-        let text = "nothing in the scene emits light: the image will be black";
-        findings.push(Finding::new(FindingKind::NoEmitter, None, text));
-    }
+    findings.extend(without_light(scene));
     findings
+}
+
+/// That nothing in a scene emits light, if so.
+#[must_use]
+pub fn without_light(scene: &Scene) -> Option<Finding> {
+    let text = "nothing in the scene emits light: the image will be black";
+    (scene.census().emitters == 0).then(|| Finding::new(FindingKind::NoEmitter, None, text))
 }

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use foton_edit::{DragMode, FieldId, Property, Side, Target, Value};
+use foton_edit::{DragMode, FieldId, Handle, Property, Side, Target, Value};
 use foton_film::Image;
 use foton_session::StopRule;
 use foton_session::engine::{Activity, Command, Frame, Gesture, SceneEdit};
@@ -11,6 +11,19 @@ use crate::rig::{BALL, Folder, Rig, SIZE, image};
 
 fn edit(rig: &Rig, change: SceneEdit) {
     rig.send(Command::Edit(change));
+}
+
+/// Takes hold of the middle of the ball's handles.
+fn hold(film: [f64; 2]) -> SceneEdit {
+    SceneEdit::BeginDrag { handle: Handle::MoveView, film, reach: 60.0 }
+}
+
+fn drag_to(film: [f64; 2]) -> SceneEdit {
+    SceneEdit::DragTo { film, snap: false }
+}
+
+fn let_go(film: [f64; 2]) -> SceneEdit {
+    SceneEdit::EndDrag { film, snap: false }
 }
 
 /// The whole picture of another render than that of `before`.
@@ -85,11 +98,11 @@ fn a_drag_changes_the_picture_and_undoing_it_brings_the_same_bits_back() {
     assert!(!selection.outline.is_empty());
     assert_eq!(chosen.render, before.render, "choosing starts nothing anew");
 
-    edit(&rig, SceneEdit::BeginDrag { film: BALL, mode: DragMode::Horizontal });
-    edit(&rig, SceneEdit::DragTo([BALL[0] + 25.0, BALL[1]]));
+    edit(&rig, hold(BALL));
+    edit(&rig, drag_to([BALL[0] + 25.0, BALL[1]]));
     let moving = moving(&rig, &before);
     assert_ne!(moving.selection.expect("kept").outline, selection.outline);
-    edit(&rig, SceneEdit::EndDrag([BALL[0] + 25.0, BALL[1] + 2.0]));
+    edit(&rig, let_go([BALL[0] + 25.0, BALL[1] + 2.0]));
     let after = whole(&rig, &before);
     assert!(differing(&image(&before), &image(&after)) > 500);
     assert!(after.scene.is_edited && after.scene.undo.as_ref().is_some_and(|name| name.contains("ball")));
@@ -112,21 +125,21 @@ fn in_a_large_scene_the_outline_is_dragged_and_the_picture_follows_when_it_is_le
     rig.send(Command::Choose(Some(BALL)));
     let chosen = rig.until("a choice", |f| f.selection.is_some()).selection.expect("just seen");
     let to = [BALL[0] + 25.0, BALL[1]];
-    edit(&rig, SceneEdit::BeginDrag { film: BALL, mode: DragMode::Horizontal });
-    edit(&rig, SceneEdit::DragTo(to));
+    edit(&rig, hold(BALL));
+    edit(&rig, drag_to(to));
     let is_elsewhere = |f: &Frame| f.selection.as_ref().is_some_and(|s| s.outline != chosen.outline);
     let moving = rig.until("the outline", is_elsewhere);
     assert_eq!(moving.render, before.render, "no other scene yet");
     assert_eq!(image(&moving), image(&before));
-    edit(&rig, SceneEdit::EndDrag(to));
+    edit(&rig, let_go(to));
     let after = whole(&rig, &before);
     assert!(differing(&image(&before), &image(&after)) > 500);
     let outline = |f: &Frame| f.selection.as_ref().map(|s| s.outline.clone());
     assert_eq!(outline(&after), outline(&moving));
 
     // Called off, everything is where it was.
-    edit(&rig, SceneEdit::BeginDrag { film: to, mode: DragMode::Horizontal });
-    edit(&rig, SceneEdit::DragTo([to[0] - 40.0, to[1]]));
+    edit(&rig, hold(to));
+    edit(&rig, drag_to([to[0] - 40.0, to[1]]));
     edit(&rig, SceneEdit::CancelDrag);
     let back = rig.until("it back", |f| f.render != after.render && f.activity == Activity::Done);
     assert_eq!(image(&back), image(&after));
@@ -139,7 +152,7 @@ fn what_is_undone_is_held_where_it_is() {
     let far = SceneEdit::Nudge { steps: [20.0, 0.0], mode: DragMode::Horizontal };
     let near = SceneEdit::Nudge { steps: [1.0, 0.0], mode: DragMode::Horizontal };
     let outline = |f: &Frame| f.selection.as_ref().map(|s| s.outline.clone());
-    edit(&rig, near);
+    edit(&rig, near.clone());
     let once = whole(&rig, &before);
     edit(&rig, SceneEdit::Undo);
     edit(&rig, far);
@@ -156,8 +169,8 @@ fn what_is_undone_is_held_where_it_is() {
 fn a_drag_that_is_called_off_leaves_no_step() {
     let (rig, before) = Rig::at_pass(2);
     rig.send(Command::Choose(Some(BALL)));
-    edit(&rig, SceneEdit::BeginDrag { film: BALL, mode: DragMode::Vertical });
-    edit(&rig, SceneEdit::DragTo([BALL[0], BALL[1] - 20.0]));
+    edit(&rig, hold(BALL));
+    edit(&rig, drag_to([BALL[0], BALL[1] - 20.0]));
     moving(&rig, &before);
     edit(&rig, SceneEdit::CancelDrag);
     let after = whole(&rig, &before);
@@ -184,25 +197,31 @@ fn a_field_that_is_dragged_is_one_step_and_a_saved_scene_is_unedited() {
     assert!(is(ior(&after), 2.4), "{:?}", ior(&after));
     let path = folder.0.join("edited.xml");
     rig.send(Command::SaveScene(path.clone()));
-    assert_eq!(rig.saved(), std::slice::from_ref(&path));
-    rig.until("it saved", |f| !f.scene.is_edited);
+    assert_eq!(rig.scene_saved(), path);
+    let saved = rig.until("it saved", |f| !f.scene.is_edited && !f.scene.is_unsaved);
+    assert_eq!((saved.render, saved.scene.file.as_ref()), (after.render, Some(&path)), "the render goes on");
     assert_eq!(std::fs::read_to_string(&path).expect("written"), "Some(42) 2");
-    // Saved elsewhere or not: the hash in a picture is that of the scene that was opened.
+    // What is rendered is the scene of that file from now on.
     rig.send(Command::Snapshot(folder.0.clone()));
-    assert_eq!(named(&rig.saved()[0]), "room.xml (edited)");
+    assert_eq!(named(&rig.saved()[0]), ("edited.xml".to_owned(), format!("{:016x}", 77)));
+    let checkpoint = folder.0.join("saved.checkpoint");
+    rig.send(Command::KeepCheckpoint(checkpoint.clone()));
+    assert_eq!(rig.saved(), [checkpoint]);
     edit(&rig, SceneEdit::Undo);
     edit(&rig, SceneEdit::Undo);
     let undone = rig.until("two steps back", |f| f.scene.undo.is_none() && f.activity == Activity::Done);
     assert!(is(ior(&undone), 1.5), "{:?}", ior(&undone));
     assert_eq!(image(&undone), image(&before));
+    assert!(undone.scene.is_unsaved, "the file has the steps that were taken back");
     rig.send(Command::Snapshot(folder.0.clone()));
-    assert_eq!(named(&rig.saved()[0]), "room.xml");
+    assert_eq!(named(&rig.saved()[0]).0, "edited.xml (edited)");
 }
 
-/// The scene that an EXR says it is of.
-fn named(path: &std::path::Path) -> String {
+/// The scene that an EXR says it is of, and its hash.
+fn named(path: &std::path::Path) -> (String, String) {
     let (_, metadata) = foton_film::read_exr(path).expect("an EXR");
-    metadata.get("foton:scene").expect("a name").to_owned()
+    let of = |key: &str| metadata.get(key).expect("it is there").to_owned();
+    (of("foton:scene"), of("foton:scene-hash"))
 }
 
 #[test]
@@ -225,7 +244,7 @@ fn a_choice_beside_everything_chooses_nothing_and_restarts_nothing() {
     rig.send(Command::Choose(None));
     let frame = rig.until("no choice", |f| f.selection.is_none());
     assert_eq!(frame.render, before.render);
-    edit(&rig, SceneEdit::DragTo([0.0, 0.0]));
+    edit(&rig, drag_to([0.0, 0.0]));
     edit(&rig, SceneEdit::Undo);
     rig.send(Command::StopAt(StopRule::passes(2)));
     assert_eq!(rig.done(2).render, before.render, "edits of nothing are none");

@@ -15,7 +15,9 @@ use foton_scene::description::{
     Bsdf, Dielectric, Diffuse, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh,
     SceneDescription, SensorDescription, ShapeDescription,
 };
-use foton_session::engine::{Activity, Command, Event, Frame, Loaded, Loader, Picture, Setup, Source};
+use foton_session::engine::{
+    Activity, Command, Event, Frame, Loaded, Loader, Picture, Reopened, SavedScene, Setup, Source,
+};
 use foton_session::{Engine, SceneIdentity, Session, StopRule};
 
 /// What takes longer has hung.
@@ -191,10 +193,17 @@ impl Loader for Shelf {
         origin: &(dyn Any + Send + Sync),
         scene: &SceneDescription,
         path: &Path,
-    ) -> Result<String, String> {
+    ) -> Result<SavedScene, String> {
         let text = format!("{:?} {}", origin.downcast_ref::<u8>(), scene.shapes.len());
         std::fs::write(path, text).map_err(|e| e.to_string())?;
-        Ok("a note".into())
+        let name = path.file_name().expect("a file").to_string_lossy().into_owned();
+        let identity = SceneIdentity { name, hash: 77 };
+        let reopened = Reopened { identity, files: vec![path.to_owned()], origin: Arc::new(43_u8) };
+        Ok(SavedScene { note: "a note".into(), reopened: Some(reopened) })
+    }
+
+    fn import(&self, path: &Path, _: &Cancel) -> Result<SceneDescription, String> {
+        if path.ends_with("heap.ply") { Ok(heap()) } else { Err(format!("{}: no mesh", path.display())) }
     }
 }
 
@@ -290,6 +299,14 @@ impl Rig {
     pub(crate) fn saved(&self) -> Vec<PathBuf> {
         self.hear("of files", |event| match event {
             Event::Saved(paths) => Some(paths.clone()),
+            _ => None,
+        })
+    }
+
+    #[track_caller]
+    pub(crate) fn scene_saved(&self) -> PathBuf {
+        self.hear("of the scene's file", |event| match event {
+            Event::SceneSaved(path) => Some(path.clone()),
             _ => None,
         })
     }

@@ -35,6 +35,9 @@ impl Reader<'_> {
         if let Some(kind) = kind {
             let name = self.name(element, plugin, self.description.emitters.len() + 1);
             self.nodes.emitters.push(node);
+            if self.document.is_hidden(node) {
+                self.description.hidden.emitters.insert(self.description.emitters.len());
+            }
             self.description.emitters.push(EmitterDescription { name, kind });
         }
     }

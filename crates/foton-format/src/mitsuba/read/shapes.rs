@@ -54,6 +54,9 @@ impl Reader<'_> {
         let flip_normals = flip != (mirrored && is_turned_inside_out(plugin, &geometry));
         let name = self.name(element, "shape", self.description.shapes.len() + 1);
         self.nodes.shapes.push(node);
+        if self.document.is_hidden(node) {
+            self.description.hidden.shapes.insert(self.description.shapes.len());
+        }
         self.description.shapes.push(ShapeDescription {
             name,
             geometry,

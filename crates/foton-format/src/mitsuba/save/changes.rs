@@ -1,5 +1,7 @@
 //! What changed between two descriptions, made in the document of the first.
 
+use std::collections::HashMap;
+
 use foton_math::Rgb;
 use foton_math::glam::DAffine3;
 use foton_scene::description::{
@@ -7,8 +9,9 @@ use foton_scene::description::{
 };
 use foton_scene::plugins::{emitters, shapes};
 
+use super::materials;
+use super::pairs::Pairs;
 use super::tree::Obstacle;
-use super::{materials, same};
 use crate::mitsuba::document::{Document, Element, NodeId};
 use crate::mitsuba::write::xml::{colour, matrix, number, single, vector};
 use crate::opened::MitsubaScene;
@@ -16,9 +19,11 @@ use crate::opened::MitsubaScene;
 /// A document that becomes that of the edited scene.
 pub(super) struct Changes<'a> {
     pub(super) document: Document,
-    scene: &'a MitsubaScene,
-    old: &'a SceneDescription,
-    edited: &'a SceneDescription,
+    pub(super) scene: &'a MitsubaScene,
+    pub(super) old: &'a SceneDescription,
+    pub(super) edited: &'a SceneDescription,
+    /// Ids of new materials that stand in the document already, as they are written there.
+    pub(super) placed: HashMap<usize, String>,
 }
 
 impl<'a> Changes<'a> {
@@ -27,26 +32,18 @@ impl<'a> Changes<'a> {
         old: &'a SceneDescription,
         edited: &'a SceneDescription,
     ) -> Self {
-        Self { document: scene.document.clone(), scene, old, edited }
+        Self { document: scene.document.clone(), scene, old, edited, placed: HashMap::new() }
     }
 
     /// Makes all changes that are known here.
     pub(super) fn make(&mut self) -> Result<(), Obstacle> {
         let (old, new) = (self.old, self.edited);
-        let counts = |d: &SceneDescription| (d.sensors.len(), d.shapes.len(), d.emitters.len());
-        if counts(old) != counts(new) || new.materials.len() < old.materials.len() {
-            return Err("things were added or taken away".to_owned());
+        if new.materials.len() < old.materials.len() {
+            return Err("materials were taken away".to_owned());
         }
-        for (i, (old, new)) in old.sensors.iter().zip(&new.sensors).enumerate() {
-            if !same::same_sensor(old, new) {
-                let node = self.own(self.scene.nodes.sensors.get(i).copied(), "sensor", &old.name)?;
-                self.sensor(node, old, new)?;
-            }
-        }
+        self.sensors(&Pairs::of_sensors(old, new))?;
         // New materials are made of the old ones: those come after.
-        for (i, (old, new)) in old.shapes.iter().zip(&new.shapes).enumerate() {
-            self.shape(self.scene.nodes.shapes.get(i).copied(), old, new)?;
-        }
+        self.shapes(&Pairs::of_shapes(old, new))?;
         for (i, (old, new)) in old.materials.iter().zip(&new.materials).enumerate() {
             if (old.front, old.back, old.opacity) != (new.front, new.back, new.opacity) {
                 let node = self.scene.nodes.materials.get(i).copied().flatten();
@@ -54,17 +51,11 @@ impl<'a> Changes<'a> {
                 materials::change(&mut self.document, node, old, new)?;
             }
         }
-        for (i, (old, new)) in old.emitters.iter().zip(&new.emitters).enumerate() {
-            if !same::same_emitter(&old.kind, &new.kind) {
-                let node = self.own(self.scene.nodes.emitters.get(i).copied(), "emitter", &old.name)?;
-                self.emitter(node, &old.kind, &new.kind)?;
-            }
-        }
-        Ok(())
+        self.emitters(&Pairs::of_emitters(old, new))
     }
 
     /// The element if it stands in the scene's own file.
-    fn own(&self, node: Option<NodeId>, tag: &str, name: &str) -> Result<NodeId, Obstacle> {
+    pub(super) fn own(&self, node: Option<NodeId>, tag: &str, name: &str) -> Result<NodeId, Obstacle> {
         let element = node.and_then(|n| self.document.element(n));
         match node.zip(element) {
             Some((node, element)) if element.name == tag => Ok(node),
@@ -75,7 +66,7 @@ impl<'a> Changes<'a> {
         }
     }
 
-    fn value(&mut self, node: NodeId, tag: &str, name: &str, value: &str) -> Result<(), Obstacle> {
+    pub(super) fn value(&mut self, node: NodeId, tag: &str, name: &str, value: &str) -> Result<(), Obstacle> {
         self.document.set_value(node, tag, name, Some(value))
     }
 
@@ -83,7 +74,7 @@ impl<'a> Changes<'a> {
         self.document.set_value(node, "", name, None)
     }
 
-    fn transform(&mut self, node: NodeId, to_world: &DAffine3) -> Result<(), Obstacle> {
+    pub(super) fn transform(&mut self, node: NodeId, to_world: &DAffine3) -> Result<(), Obstacle> {
         if *to_world == DAffine3::IDENTITY {
             return self.remove(node, "to_world");
         }
@@ -98,7 +89,7 @@ impl<'a> Changes<'a> {
         if old == new { Ok(()) } else { self.value(node, "rgb", name, &colour(new)) }
     }
 
-    fn sensor(
+    pub(super) fn sensor(
         &mut self,
         node: NodeId,
         old: &SensorDescription,
@@ -137,7 +128,12 @@ impl<'a> Changes<'a> {
         Ok(())
     }
 
-    fn emitter(&mut self, node: NodeId, old: &EmitterKind, new: &EmitterKind) -> Result<(), Obstacle> {
+    pub(super) fn emitter(
+        &mut self,
+        node: NodeId,
+        old: &EmitterKind,
+        new: &EmitterKind,
+    ) -> Result<(), Obstacle> {
         match (old, new) {
             (
                 EmitterKind::Point { position: p, intensity: old },
@@ -186,7 +182,7 @@ impl<'a> Changes<'a> {
         }
     }
 
-    fn shape(
+    pub(super) fn shape(
         &mut self,
         node: Option<NodeId>,
         old: &ShapeDescription,
@@ -224,7 +220,7 @@ impl<'a> Changes<'a> {
         if old.material != new.material { self.other_material(node, old, new) } else { Ok(()) }
     }
 
-    fn radiance(&mut self, node: NodeId, radiance: Option<Rgb>) -> Result<(), Obstacle> {
+    pub(super) fn radiance(&mut self, node: NodeId, radiance: Option<Rgb>) -> Result<(), Obstacle> {
         let inside = self.document.elements_in(node).find(|(_, e)| e.name == "emitter").map(|(n, _)| n);
         if let (Some(emitter), Some(radiance)) = (inside, radiance) {
             return self.value(emitter, "rgb", emitters::RADIANCE.name, &colour(radiance));
@@ -242,7 +238,7 @@ impl<'a> Changes<'a> {
     }
 
     /// Puts a plugin's element, or nothing, in the place of the one of that tag, or of the reference to it.
-    fn replace_object(&mut self, node: NodeId, tag: &str, new: Option<NodeId>) {
+    pub(super) fn replace_object(&mut self, node: NodeId, tag: &str, new: Option<NodeId>) {
         let is_it =
             |e: &Element| e.name == tag || self.document.referred(e).is_some_and(|(_, t)| t.name == tag);
         let refers = |e: &Element| e.name == "ref" && is_it(e);
@@ -260,17 +256,16 @@ impl<'a> Changes<'a> {
         old: &ShapeDescription,
         new: &ShapeDescription,
     ) -> Result<(), Obstacle> {
-        let nodes = &self.scene.nodes.materials;
-        if new.material < nodes.len() {
-            let id = nodes[new.material].and_then(|n| self.document.element(n)?.attribute("id"));
-            let id = id.ok_or("the shape's new material has no id")?.value.clone();
+        if let Some(id) = self.id_of_material(new.material) {
             let reference = self.document.build("ref", &[("id", &id)], Vec::new())?;
             self.replace_object(node, "bsdf", Some(reference));
             return Ok(());
         }
+        let nodes = &self.scene.nodes.materials;
         let before = &self.old.materials[old.material];
         let after = self.edited.materials.get(new.material).ok_or("a material is not there")?;
         let id = self.free_id(&after.name);
+        self.placed.insert(new.material, id.replace('$', "\\$"));
         let source = nodes.get(old.material).copied().flatten();
         let source = source.filter(|n| self.document.element(*n).is_some_and(|e| e.name == "bsdf"));
         let first = self.document.elements_in(node).next().map(|(child, _)| child);
@@ -291,7 +286,7 @@ impl<'a> Changes<'a> {
         if source.is_some() { materials::change(&mut self.document, copy, before, after) } else { Ok(()) }
     }
 
-    fn free_id(&self, name: &str) -> String {
+    pub(super) fn free_id(&self, name: &str) -> String {
         let is_taken = |id: &str| {
             self.document.elements().any(|(_, e)| e.attribute("id").is_some_and(|a| a.value == id))
         };

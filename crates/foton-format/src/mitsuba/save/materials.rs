@@ -49,10 +49,7 @@ pub(super) fn build(document: &mut Document, new: &Material, indentation: &str) 
     if textured {
         return Err(format!("the material \"{}\" has textures and changed its kind", new.name));
     }
-    let text = material_xml(new).trim_end().replace('\n', &format!("\n{indentation}"));
-    let element = Document::parse(&text).map_err(|(_, message)| message)?;
-    let (_, root) = document.append(element, 0).ok_or("the file has too many elements")?;
-    Ok(root)
+    document.build_text(&material_xml(new), indentation)
 }
 
 /// Changes values alone; `None` where that is not enough.

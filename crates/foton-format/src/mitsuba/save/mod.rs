@@ -5,8 +5,11 @@
 //! answer says why. Files that the scene names are left where they are: in another folder the scene begins with a
 //! `<path>` to them, relative if the two folders have more in common than the root of the disk.
 
+mod additions;
 mod changes;
+mod lists;
 mod materials;
+mod pairs;
 mod same;
 mod tree;
 

@@ -1,4 +1,4 @@
-//! Whether two descriptions are of one scene: names, and the order of materials and textures, do not count.
+//! Whether two descriptions are of one scene: names and the order of materials and textures do not count.
 
 use std::sync::Arc;
 
@@ -20,6 +20,17 @@ pub(super) fn difference(a: &SceneDescription, b: &SceneDescription) -> Option<S
     let counts = |d: &SceneDescription| (d.sensors.len(), d.shapes.len(), d.emitters.len());
     if counts(a) != counts(b) {
         return Some("how many things it has".to_owned());
+    }
+    if a.hidden != b.hidden {
+        return Some("what is hidden".to_owned());
+    }
+    let names = |d: &SceneDescription| -> Vec<String> {
+        let sensors = d.sensors.iter().map(|s| &s.name);
+        let others = d.emitters.iter().map(|e| &e.name).chain(d.shapes.iter().map(|s| &s.name));
+        sensors.chain(others).cloned().collect()
+    };
+    if let Some((name, _)) = names(a).into_iter().zip(names(b)).find(|(a, b)| a != b) {
+        return Some(format!("the name \"{name}\""));
     }
     if let Some((a, _)) = a.sensors.iter().zip(&b.sensors).find(|(a, b)| !same_sensor(a, b)) {
         return Some(format!("sensor \"{}\"", a.name));
@@ -45,20 +56,26 @@ pub(super) fn same_sensor(a: &SensorDescription, b: &SensorDescription) -> bool 
 }
 
 pub(super) fn same_emitter(a: &EmitterKind, b: &EmitterKind) -> bool {
-    use EmitterKind::{Environment, Point, Spot};
+    use EmitterKind::{Constant, Directional, Environment, Point, Spot};
     match (a, b) {
         (
             Environment { to_world: m, bitmap: x, scale: s },
             Environment { to_world: n, bitmap: y, scale: t },
         ) => m == n && s == t && same_bitmap(x, y),
-        (Spot { to_world: m, .. }, Spot { to_world: n, .. }) if m != n => false,
-        (Point { position: p, .. }, Point { position: q, .. }) if p != q => false,
-        // Numbers print with all their digits.
-        _ => format!("{a:?}") == format!("{b:?}"),
+        (
+            Spot { to_world: m, intensity: i, cutoff_degrees: c, beam_degrees: w },
+            Spot { to_world: n, intensity: j, cutoff_degrees: d, beam_degrees: x },
+        ) => (m, i, c, w) == (n, j, d, x),
+        (Point { position: p, intensity: i }, Point { position: q, intensity: j }) => (p, i) == (q, j),
+        (Constant { radiance: r }, Constant { radiance: s }) => r == s,
+        (Directional { direction: d, irradiance: i }, Directional { direction: e, irradiance: j }) => {
+            (d, i) == (e, j)
+        }
+        _ => false,
     }
 }
 
-fn same_geometry(a: &Geometry, b: &Geometry) -> bool {
+pub(super) fn same_geometry(a: &Geometry, b: &Geometry) -> bool {
     match (a, b) {
         (Geometry::Mesh(a), Geometry::Mesh(b)) => Arc::ptr_eq(a, b) || same_mesh(a, b),
         (Geometry::Sphere { centre: c, radius: r }, Geometry::Sphere { centre: d, radius: s }) => {

@@ -74,6 +74,46 @@ impl Document {
         }
     }
 
+    /// Puts an element last, on a line of its own if the others have theirs.
+    pub(super) fn append_child(&mut self, parent: NodeId, new: NodeId) {
+        self.replace_child(parent, |_| false, Some(new));
+    }
+
+    /// Takes an element away, with the white space before it.
+    pub(super) fn remove_element(&mut self, node: NodeId) {
+        let Some(parent) = self.parent(node) else { return };
+        let Some(mut children) = self.element(parent).map(|e| e.children.clone()) else { return };
+        let Some(at) = children.iter().position(|child| *child == node) else { return };
+        let begin = if at > 0 && self.is_space(children[at - 1]) { at - 1 } else { at };
+        children.drain(begin..=at);
+        if let Some(element) = self.element_mut(parent) {
+            element.children = children;
+        }
+    }
+
+    /// Marks an element as hidden, or takes the mark away.
+    pub(super) fn set_hidden(&mut self, node: NodeId, hidden: bool) -> Result<(), Obstacle> {
+        let Some(children) = self.element(node).map(|e| e.children.clone()) else { return Ok(()) };
+        let mut kept: Vec<NodeId> =
+            children.into_iter().filter(|child| !self.node(*child).is_hidden_mark()).collect();
+        if hidden {
+            let mark = self.push(Node::hidden_mark()).ok_or("the file has too many elements")?;
+            kept.insert(0, mark);
+        }
+        if let Some(element) = self.element_mut(node) {
+            element.children = kept;
+        }
+        Ok(())
+    }
+
+    /// An element from text, in no element, its lines indented anew.
+    pub(super) fn build_text(&mut self, text: &str, indentation: &str) -> Result<NodeId, Obstacle> {
+        let text = text.trim_end().replace('\n', &format!("\n{indentation}"));
+        let element = Self::parse(&text).map_err(|(_, message)| message)?;
+        let (_, root) = self.append(element, 0).ok_or("the file has too many elements")?;
+        Ok(root)
+    }
+
     /// Sets, or with `None` takes away, the value of that name.
     pub(super) fn set_value(
         &mut self,

@@ -58,6 +58,27 @@ pub(crate) fn material_xml(material: &Material) -> String {
     writer.xml.finish()
 }
 
+/// A shape without its material as its `<shape>` element; `None` for a mesh that is in a file.
+pub(crate) fn shape_xml(shape: &ShapeDescription) -> Option<String> {
+    let described = match &shape.geometry {
+        Geometry::Mesh(mesh) => mesh::same(mesh, &Mesh::rectangle()) || mesh::same(mesh, &Mesh::cube()),
+        _ => true,
+    };
+    let description = SceneDescription::default();
+    let mut writer = Writer::new(&description, PathBuf::new(), String::new(), &[]);
+    let written = described && writer.shape(shape, &shape.name, false).is_ok();
+    written.then(|| writer.xml.finish())
+}
+
+/// An emitter as its `<emitter>` element; `None` for one that has a picture in a file.
+pub(crate) fn emitter_xml(emitter: &EmitterDescription) -> Option<String> {
+    let description = SceneDescription::default();
+    let mut writer = Writer::new(&description, PathBuf::new(), String::new(), &[]);
+    let described = !matches!(emitter.kind, EmitterKind::Environment { .. });
+    let written = described && writer.emitter(emitter, false).is_ok();
+    written.then(|| writer.xml.finish())
+}
+
 struct Writer<'a> {
     description: &'a SceneDescription,
     folder: PathBuf,
@@ -115,11 +136,11 @@ impl<'a> Writer<'a> {
             let id = self.material(material);
             self.material_ids.push(id);
         }
-        for emitter in &self.description.emitters {
-            self.emitter(emitter)?;
+        for (i, emitter) in self.description.emitters.iter().enumerate() {
+            self.emitter(emitter, self.description.hidden.emitters.contains(&i))?;
         }
-        for (shape, id) in self.description.shapes.iter().zip(&shape_ids) {
-            self.shape(shape, id)?;
+        for (i, (shape, id)) in self.description.shapes.iter().zip(&shape_ids).enumerate() {
+            self.shape(shape, id, self.description.hidden.shapes.contains(&i))?;
         }
         self.xml.close("scene");
         Ok(())
@@ -212,7 +233,7 @@ impl<'a> Writer<'a> {
         xml.close("sensor");
     }
 
-    fn emitter(&mut self, emitter: &EmitterDescription) -> Result<(), WriteError> {
+    fn emitter(&mut self, emitter: &EmitterDescription, is_hidden: bool) -> Result<(), WriteError> {
         let id = self.id(&emitter.name);
         let filename = match &emitter.kind {
             EmitterKind::Environment { bitmap, .. } => self.bitmap(bitmap, &id)?,
@@ -227,6 +248,9 @@ impl<'a> Writer<'a> {
             EmitterKind::Environment { .. } => emitters::ENVMAP.name,
         };
         xml.open("emitter", &[("type", plugin), ("id", &id)]);
+        if is_hidden {
+            xml.hidden();
+        }
         match &emitter.kind {
             EmitterKind::Point { position, intensity } => {
                 xml.value("point", emitters::POSITION.name, &vector(*position));
@@ -255,7 +279,7 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    fn shape(&mut self, shape: &ShapeDescription, id: &str) -> Result<(), WriteError> {
+    fn shape(&mut self, shape: &ShapeDescription, id: &str, is_hidden: bool) -> Result<(), WriteError> {
         let (plugin, filename) = match &shape.geometry {
             Geometry::Sphere { .. } => ("sphere", None),
             Geometry::Disc => ("disk", None),
@@ -266,6 +290,9 @@ impl<'a> Writer<'a> {
         };
         let xml = &mut self.xml;
         xml.open("shape", &[("type", plugin), ("id", id)]);
+        if is_hidden {
+            xml.hidden();
+        }
         match &shape.geometry {
             Geometry::Sphere { centre, radius } => {
                 xml.value("point", shapes::CENTER.name, &vector(*centre));
@@ -291,7 +318,9 @@ impl<'a> Writer<'a> {
         if shape.flip_normals != turned {
             xml.value("boolean", shapes::FLIP_NORMALS.name, "true");
         }
-        xml.leaf("ref", &[("id", &self.material_ids[shape.material])]);
+        if let Some(material) = self.material_ids.get(shape.material) {
+            xml.leaf("ref", &[("id", material)]);
+        }
         if let Some(radiance) = shape.radiance {
             xml.plugin(
                 "emitter",

@@ -51,6 +51,12 @@ impl Xml {
         self.tag(name, attributes, "/>");
     }
 
+    /// `<?foton hidden?>`
+    pub(super) fn hidden(&mut self) {
+        self.text.extend(std::iter::repeat_n("    ", self.depth));
+        self.text.push_str("<?foton hidden?>\n");
+    }
+
     /// `<tag name="…" value="…"/>`
     pub(super) fn value(&mut self, tag: &str, name: &str, value: &str) {
         self.leaf(tag, &[("name", name), ("value", value)]);

@@ -1,5 +1,6 @@
 //! The inspector over a selection that was made up.
 
+use foton_edit::Make;
 use foton_session::engine::SceneEdit;
 
 use super::*;
@@ -62,8 +63,6 @@ fn a_slider_that_is_dragged_is_done_when_it_is_let_go() {
 #[test]
 fn choices_switches_and_colours_are_set() {
     let mut harness = chosen();
-    choose(&mut harness, "Kind", "diffuse");
-    assert_asked(&mut harness, &set(material(Property::Kind), Value::Choice(0)));
     click(&mut harness, Role::CheckBox, "Rough");
     assert_asked(&mut harness, &set(material(Property::Rough), Value::Toggle(true)));
     // The colour button opens a picker, whose channels are numbers.
@@ -79,4 +78,79 @@ fn without_a_choice_there_is_no_inspector() {
     let harness = window(|_| ());
     assert!(harness.query_by_label("Deselect").is_none());
     assert!(harness.query_by_label_contains("Nothing selected").is_some());
+}
+
+fn remake(make: Make, name: &str, all: bool) -> Command {
+    Command::Edit(SceneEdit::Remake { make, name: name.into(), all })
+}
+
+#[test]
+fn another_kind_asks_for_the_name_of_the_new_material() {
+    let mut harness = chosen();
+    choose(&mut harness, "Kind", "diffuse");
+    assert_eq!(asked(&mut harness), [""; 0], "nothing before it has a name");
+    click(&mut harness, Role::Button, "Cancel");
+    assert_eq!(asked(&mut harness), [""; 0]);
+    assert!(harness.state().editing.remaking.is_none());
+    let mut harness = chosen();
+    choose(&mut harness, "Kind", "diffuse");
+    settle(&mut harness);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    harness.event(egui::Event::Text("chalk".into()));
+    settle(&mut harness);
+    click(&mut harness, Role::CheckBox, "For all 2 shapes that share it");
+    click(&mut harness, Role::Button, "Apply");
+    assert_asked(&mut harness, &remake(Make::Kind(Side::Front, 0), "chalk", true));
+}
+
+#[test]
+fn presets_have_pictures_and_are_taken_under_their_name() {
+    let mut harness = chosen();
+    for (i, preset) in foton_edit::presets().iter().enumerate() {
+        click(&mut harness, Role::Button, "Presets");
+        find(&harness, Role::Button, preset.name).click();
+        settle(&mut harness);
+        click(&mut harness, Role::Button, "Apply");
+        let name = preset.name.replace(' ', "-");
+        let last = asked(&mut harness).pop();
+        assert_eq!(last, Some(format!("{:?}", remake(Make::Preset(i), &name, false))));
+        assert!(crate::panels::presets::texture_of(&harness.ctx, preset.name).is_some(), "{}", preset.name);
+    }
+}
+
+#[test]
+fn complex_indices_are_advanced() {
+    let mut harness = window(|state| {
+        let mut selection = selection();
+        let index = field(
+            material(Property::Channel("k", 0)),
+            "k red",
+            Value::Number(3.0),
+            Control::Number { min: 0.0, max: 10.0, logarithmic: false },
+        );
+        selection.inspection.fields.push(Field { is_advanced: true, ..index });
+        state.frame.as_mut().expect("there").selection = Some(selection);
+    });
+    assert!(harness.query_by_role_and_label(Role::SpinButton, "k red").is_none());
+    harness.get_by_label("Advanced").click_accesskit();
+    harness.run_steps(20);
+    assert!(harness.query_by_role_and_label(Role::SpinButton, "k red").is_some());
+}
+
+#[test]
+fn a_camera_is_looked_through_and_views_go_along_the_axes() {
+    let mut harness = window(|state| {
+        let camera = Selection {
+            target: Target::Sensor(1),
+            inspection: Inspection { material: None, fields: Vec::new(), ..selection().inspection },
+            gizmo: None,
+            ..selection()
+        };
+        state.frame.as_mut().expect("there").selection = Some(camera);
+    });
+    click(&mut harness, Role::Button, "Look through it");
+    assert!(asked(&mut harness)[0].contains("sensor: 1"));
+    click(&mut harness, Role::Button, "Top");
+    let gesture = foton_session::engine::Gesture::Face(foton_edit::ViewSide::Top);
+    assert_asked(&mut harness, &Command::Camera { gesture, moving: false });
 }

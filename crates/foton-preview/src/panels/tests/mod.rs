@@ -9,9 +9,11 @@ mod keys;
 mod layout;
 mod looking;
 mod numbers;
+mod outliner;
 mod picture;
 mod pointer;
 mod stats;
+mod unsaved;
 
 use std::num::NonZeroU32;
 use std::sync::Arc;
@@ -20,7 +22,9 @@ use std::time::Duration;
 use egui::accesskit::{Action, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, Node};
-use foton_edit::{Control, Field, FieldId, Inspection, MaterialUse, Property, Side, Target, Value};
+use foton_edit::{
+    Control, Field, FieldId, Gizmo, Inspection, Item, MaterialUse, Property, Side, Target, Value,
+};
 use foton_film::{Image, ToneMap};
 use foton_math::Rgb;
 use foton_session::engine::{
@@ -84,6 +88,8 @@ fn frame() -> Frame {
             name: "room.xml".into(),
             file: Some("/scenes/room.xml".into()),
             sensors: vec![sensor("front"), sensor("top")],
+            title: "room.xml".into(),
+            contents: Arc::new(contents()),
             shapes: 3,
             undo: Some("move ball".into()),
             ..SceneFacts::default()
@@ -95,8 +101,27 @@ fn frame() -> Frame {
     }
 }
 
+/// A floor, a hidden table, a ball that is glass, a lamp and two cameras.
+fn contents() -> Vec<Item> {
+    let item = |target, name: &str, kind: &str, is_light, is_hidden| Item {
+        target,
+        name: name.into(),
+        kind: kind.into(),
+        is_light,
+        is_hidden,
+    };
+    vec![
+        item(Target::Shape(0), "floor", "diffuse mesh", false, false),
+        item(Target::Shape(1), "table", "plastic mesh", false, true),
+        item(Target::Shape(2), "ball", "glass sphere", false, false),
+        item(Target::Emitter(0), "lamp", "point light", true, false),
+        item(Target::Sensor(0), "front", "camera, 60 × 40", false, false),
+        item(Target::Sensor(1), "top", "camera, 60 × 40", false, false),
+    ]
+}
+
 fn field(id: FieldId, label: &'static str, value: Value, control: Control) -> Field {
-    Field { id, label, unit: "", help: "What it does.", value, control }
+    Field { id, label, unit: "", help: "What it does.", value, control, is_advanced: false }
 }
 
 /// A glass ball that shares its material, in a square of 20 to 40 by 10 to 30 pixels.
@@ -130,8 +155,12 @@ fn selection() -> Selection {
                 field(material(Property::Kind), "Kind", Value::Choice(1), Control::Choice(kinds)),
                 field(material(Property::Rough), "Rough", Value::Toggle(false), Control::Toggle),
             ],
+            can_aim: false,
+            is_light: false,
         },
         outline: (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).collect(),
+        gizmo: Some(Gizmo::sample(SIZE[0], SIZE[1])),
+        drag: None,
     }
 }
 
@@ -261,6 +290,9 @@ fn nothing_is_asked_for_until_someone_asks() {
 #[test]
 fn controls_say_what_they_do_to_speed_and_accuracy() {
     let mut harness = window(|_| ());
+    // So that all of them are in sight.
+    harness.get_by_label("Scene").click_accesskit();
+    harness.run_steps(20);
     for (role, label, help) in [
         (Role::Slider, "α", "Share of new photons"),
         (Role::Slider, "Photons/pass", "answers sooner"),

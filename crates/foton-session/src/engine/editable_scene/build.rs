@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use foton_edit::Outline;
 use foton_integrator::Cancel;
 use foton_scene::description::SceneDescription;
 use foton_scene::{BuildError, BuildOptions, Scene};
 
+use super::sensors::standing;
 use super::{EditableScene, Effect};
 
 /// Scenes of fewer surfaces are built before anyone could give that up.
@@ -69,13 +69,17 @@ impl EditableScene {
         Ok(())
     }
 
-    /// The scene of the history's description.
+    /// The scene of the history's description, whose cameras stand where they stand now.
     pub(super) fn rebuild(&mut self) -> Result<Effect, String> {
-        self.refresh();
-        self.build(&self.cancels.work.clone())?;
-        if let Some(chosen) = &mut self.chosen {
-            chosen.outline = Outline::new(&self.description, chosen.target);
+        let now = standing(&self.history.current().sensors, &self.sensors);
+        if now.len() != self.sensors.len() {
+            self.moved = None;
         }
+        self.sensors = now;
+        let before = Arc::clone(&self.description);
+        self.refresh();
+        self.chosen = self.chosen.take().and_then(|chosen| chosen.found_in(&before, &self.description));
+        self.build(&self.cancels.work.clone())?;
         Ok(Effect::Restart)
     }
 }

@@ -2,16 +2,18 @@
 
 mod build;
 mod chosen;
+mod edits;
 mod returning;
 mod selection;
+mod sensors;
 #[cfg(test)]
 mod tests;
 
 use std::any::Any;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use foton_edit::{Camera, History, camera_xml, focus_distance};
+use foton_edit::{Camera, History, Item, camera_xml, contents, focus_distance};
 use foton_scene::Scene;
 use foton_scene::description::{Crop, SceneDescription, SensorDescription};
 
@@ -19,7 +21,7 @@ use self::chosen::Chosen;
 use super::cancels::Cancels;
 use super::command::{Gesture, Source};
 use super::frame::{SceneFacts, SensorFacts};
-use super::loader::Ready;
+use super::loader::{Ready, SavedScene};
 use crate::metadata::SceneIdentity;
 
 /// What a change asks of the render.
@@ -68,9 +70,11 @@ pub(super) struct EditableScene {
     history: History,
     /// Cameras are no steps of the history: undoing a move does not turn the head.
     sensors: Vec<SensorDescription>,
-    /// The description as it was opened: what the identity's hash is of, and where cameras are reset to.
+    /// The history's description that the identity's hash is of: that of the file that was opened or saved last.
     opened: Arc<SceneDescription>,
-    /// The sensors of the file that was opened or saved last.
+    /// The sensors of that file: where cameras are reset to.
+    opened_sensors: Vec<SensorDescription>,
+    /// Those that were saved last.
     saved_sensors: Vec<SensorDescription>,
     /// The part of the image that is rendered, and of which sensor.
     region: Option<(usize, Crop)>,
@@ -102,6 +106,7 @@ impl EditableScene {
             origin: loaded.origin,
             history: History::new(Arc::clone(&description)),
             opened: Arc::clone(&description),
+            opened_sensors: sensors.clone(),
             saved_sensors: sensors.clone(),
             sensors,
             region: None,
@@ -141,7 +146,7 @@ impl EditableScene {
         (!self.is_stale).then(state)
     }
 
-    /// The scene's name and hash; the name says if it is not as in the file that was opened, saved elsewhere or not.
+    /// The scene's name and hash; the name says if it is not as in the file that was opened or saved last.
     pub(super) fn identity(&self) -> SceneIdentity {
         let mut identity = self.identity.clone();
         if !self.is_as_opened() {
@@ -150,10 +155,10 @@ impl EditableScene {
         identity
     }
 
-    /// Whether what is seen is what the file that was opened says.
+    /// Whether what is seen is what the file says that was opened or saved last.
     pub(super) fn is_as_opened(&self) -> bool {
         let is_same = Arc::ptr_eq(self.history.current(), &self.opened);
-        is_same && !are_elsewhere(&self.sensors, &self.opened.sensors)
+        is_same && !are_elsewhere(&self.sensors, &self.opened_sensors)
     }
 
     /// Whether there is something that no file holds.
@@ -161,10 +166,18 @@ impl EditableScene {
         self.history.is_changed() || are_elsewhere(&self.sensors, &self.saved_sensors)
     }
 
-    /// What was saved counts as unedited from here on.
-    pub(super) fn saved(&mut self) {
+    /// What was saved is the scene's file from here on, and what is seen is unedited.
+    pub(super) fn saved(&mut self, path: &Path, saved: SavedScene) {
         self.history.mark_saved();
         self.saved_sensors.clone_from(&self.sensors);
+        if let Some(reopened) = saved.reopened {
+            self.opened = Arc::clone(self.history.current());
+            self.opened_sensors.clone_from(&self.sensors);
+            self.source = Source::File(path.to_owned());
+            self.identity = reopened.identity;
+            self.files = reopened.files;
+            self.origin = reopened.origin;
+        }
         self.refresh_facts();
     }
 
@@ -185,6 +198,7 @@ impl EditableScene {
                 moved.fly(forward * step, right * step, up * step);
             }
             Gesture::FieldOfView(degrees) => moved.set_fov(degrees),
+            Gesture::Face(side) => moved.face(side),
         }
         let before = self.sensors[sensor].clone();
         self.sensors[sensor] = moved.applied_to(&before);
@@ -200,7 +214,7 @@ impl EditableScene {
     /// Puts the camera back where the file has it.
     pub(super) fn reset_camera(&mut self, sensor: usize) -> Result<Effect, String> {
         self.moved = None;
-        self.sensors[sensor].clone_from(&self.opened.sensors[sensor]);
+        self.reset_sensor(sensor);
         self.renew_sensors()
     }
 
@@ -226,8 +240,11 @@ impl EditableScene {
     /// The sensors as they are rendered. The region is no part of the scene: it is saved in no file.
     pub(super) fn rendered_sensors(&self) -> Vec<SensorDescription> {
         let mut sensors = self.sensors.clone();
-        if let Some((sensor, region)) = self.region {
-            sensors[sensor].crop = Some(region);
+        if let Some((sensor, region)) = self.region
+            && let Some(sensor) = sensors.get_mut(sensor)
+        {
+            // An image that was made smaller is rendered whole where the region is no longer inside.
+            let _ = sensor.show_only(region);
         }
         sensors
     }
@@ -255,13 +272,22 @@ impl EditableScene {
         };
         self.facts = Arc::new(SceneFacts {
             name: self.identity.name.clone(),
+            title: self.source.title(),
             file: self.source.file().cloned(),
             sensors: self.sensors.iter().map(sensor).collect(),
             shapes: self.description.shapes.len(),
+            contents: self.listed(),
             is_edited: self.is_edited(),
             warnings: Arc::clone(&self.warnings),
+            is_unsaved: self.history.is_changed(),
             undo: self.history.undo_name().map(str::to_owned),
             redo: self.history.redo_name().map(str::to_owned),
         });
+    }
+
+    /// The list of all things; the one that frames have already, where it is the same.
+    fn listed(&self) -> Arc<Vec<Item>> {
+        let now = contents(&self.description);
+        if *self.facts.contents == now { Arc::clone(&self.facts.contents) } else { Arc::new(now) }
     }
 }

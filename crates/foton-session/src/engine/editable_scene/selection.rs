@@ -1,8 +1,10 @@
-//! What is chosen in a scene, and what a person does to it: drags, steps of keys, fields, undo.
+//! What is selected in a scene, and what a person does to it: drags, steps of keys, fields, undo.
+
+use std::sync::Arc;
 
 use foton_edit::{
-    DragMode, DragPlane, Edit, FieldId, Outline, Segment, Target, UpAxis, Value, anchor, inspect, markers,
-    pick_any,
+    DragMode, DragPlane, Edit, FieldId, Gizmo, Handle, Pull, Segment, Target, UpAxis, Value, inspect,
+    markers, pick, pick_any,
 };
 use foton_math::glam::{DVec2, DVec3};
 use foton_scene::description::SceneDescription;
@@ -19,35 +21,42 @@ const NUDGE: f64 = 4.0;
 const MAX_LIVE_TRIANGLES: u64 = 100_000;
 
 impl EditableScene {
-    /// Chooses what is seen at a film position; nothing where nothing is.
+    /// Selects what is seen at a film position; nothing where nothing is.
     pub(in crate::engine) fn choose(&mut self, sensor: usize, film: Option<[f64; 2]>) {
         // A click is for what is seen now, however long that takes.
         if self.is_stale && self.build(&self.cancels.quit.clone()).is_err() {
             return;
         }
         let picked = film.and_then(|film| pick_any(&self.scene, &self.description, sensor, film));
-        self.chosen = picked.map(|picked| Chosen {
-            target: picked.target,
-            outline: Outline::new(&self.description, picked.target),
-            grip: DVec3::from(picked.position) - anchor(&self.description, picked.target).unwrap_or_default(),
-            drag: None,
-        });
+        self.chosen = picked.map(|p| Chosen::new(&self.description, p.target, Some(DVec3::from(p.position))));
     }
 
-    /// Takes hold of what is chosen, at a film position.
-    pub(in crate::engine) fn begin_drag(&mut self, sensor: usize, film: [f64; 2], mode: DragMode) {
-        let up = UpAxis::guess(&self.sensors[sensor]);
-        let Some(chosen) = &mut self.chosen else { return };
-        let picked = chosen.picked(&self.description).to_array();
-        let plane = DragPlane::new(&self.sensors[sensor], up, picked, mode);
-        chosen.drag = Some(Drag { plane, from: film });
-        let name = Edit::Move { target: chosen.target, by: [0.0; 3] }.name(&self.description);
+    /// Selects a shape, light or camera, if it is there.
+    pub(in crate::engine) fn select(&mut self, target: Option<Target>) {
+        let there = target.filter(|target| inspect(&self.description, *target).is_some());
+        self.chosen = there.map(|target| Chosen::new(&self.description, target, None));
+    }
+
+    fn gizmo(&self, chosen: &Chosen, sensor: usize) -> Option<Gizmo> {
+        let picked = Some(chosen.picked(&self.description));
+        Gizmo::new(&self.description, chosen.target, sensor, picked)
+    }
+
+    /// Takes hold of a handle of what is selected, at a film position.
+    pub(super) fn begin_drag(&mut self, sensor: usize, handle: Handle, film: [f64; 2], reach: f64) {
+        let Some(chosen) = &self.chosen else { return };
+        let Some(gizmo) = self.gizmo(chosen, sensor) else { return };
+        let (target, pull) = (chosen.target, Pull::new(gizmo, handle, film, reach));
+        let name = pull.edit(target, film, false).name(&self.description);
         self.history.begin(name);
+        if let Some(chosen) = &mut self.chosen {
+            chosen.drag = Some(Drag { pull, words: String::new() });
+        }
     }
 
-    /// Moves what is held to a film position, or the outline alone where the scene is large.
-    pub(in crate::engine) fn drag_to(&mut self, film: [f64; 2]) -> Result<Effect, String> {
-        let Some(next) = self.dragged(film)? else { return Ok(Effect::None) };
+    /// Drags what is held to a film position, or its outline alone where the scene is large.
+    pub(super) fn drag_to(&mut self, film: [f64; 2], snap: bool) -> Result<Effect, String> {
+        let Some(next) = self.dragged(film, snap)? else { return Ok(Effect::None) };
         if self.scene.census().triangles <= MAX_LIVE_TRIANGLES {
             return self.take(next);
         }
@@ -57,8 +66,13 @@ impl EditableScene {
     }
 
     /// Lets go at a film position; where no scene can be made of that, all is as it was.
-    pub(in crate::engine) fn end_drag(&mut self, film: [f64; 2]) -> Result<Effect, String> {
-        let Some(next) = self.dragged(film)? else { return Ok(Effect::None) };
+    pub(super) fn end_drag(&mut self, film: [f64; 2], snap: bool) -> Result<Effect, String> {
+        let drag = self.chosen.as_ref().and_then(|c| Some((c.target, c.drag.as_ref()?.pull)));
+        let Some((target, pull)) = drag else { return Ok(Effect::None) };
+        if pull.edit(target, film, snap).is_nothing() {
+            return self.cancel_drag();
+        }
+        let Some(next) = self.dragged(film, snap)? else { return Ok(Effect::None) };
         let effect = self.take(next);
         if effect.is_err() {
             self.history.cancel();
@@ -72,30 +86,38 @@ impl EditableScene {
         effect
     }
 
-    /// The description with what is held at a film position.
-    fn dragged(&self, film: [f64; 2]) -> Result<Option<SceneDescription>, String> {
-        let Some(chosen) = &self.chosen else { return Ok(None) };
-        let Some(Drag { plane, from }) = &chosen.drag else { return Ok(None) };
-        let edit = Edit::Move { target: chosen.target, by: plane.translation(*from, film) };
+    /// The description with what is held dragged to a film position.
+    fn dragged(&mut self, film: [f64; 2], snap: bool) -> Result<Option<SceneDescription>, String> {
+        let Some(chosen) = &mut self.chosen else { return Ok(None) };
+        let Some(Drag { pull, words }) = &mut chosen.drag else { return Ok(None) };
+        *words = pull.words(film, snap);
+        let edit = pull.edit(chosen.target, film, snap);
         edit.apply(self.history.base()).map(Some).map_err(|cause| cause.to_string())
     }
 
+    /// Turns the selected light to what is seen at a film position.
+    pub(super) fn aim_at(&mut self, sensor: usize, film: [f64; 2]) -> Result<Effect, String> {
+        let Some(target) = self.chosen.as_ref().map(|c| c.target) else { return Ok(Effect::None) };
+        let seen = pick(&self.scene, sensor, film).ok_or("there is nothing to aim at")?;
+        self.edit(&Edit::Aim { target, at: seen.position })
+    }
+
     /// Puts what is held back.
-    pub(in crate::engine) fn cancel_drag(&mut self) -> Result<Effect, String> {
+    pub(super) fn cancel_drag(&mut self) -> Result<Effect, String> {
         if let Some(chosen) = &mut self.chosen {
             chosen.drag = None;
         }
+        let is_as_before = Arc::ptr_eq(self.history.base(), self.history.current());
         self.history.cancel();
+        if is_as_before {
+            self.refresh_facts();
+            return Ok(Effect::None);
+        }
         self.rebuild()
     }
 
     /// Moves what is chosen by steps of a few pixels, in the plane that `mode` says.
-    pub(in crate::engine) fn nudge(
-        &mut self,
-        sensor: usize,
-        steps: [f64; 2],
-        mode: DragMode,
-    ) -> Result<Effect, String> {
+    pub(super) fn nudge(&mut self, sensor: usize, steps: [f64; 2], mode: DragMode) -> Result<Effect, String> {
         let Some(chosen) = &self.chosen else { return Ok(Effect::None) };
         let picked = chosen.picked(&self.description);
         let s = &self.sensors[sensor];
@@ -110,14 +132,12 @@ impl EditableScene {
     }
 
     /// Sets a field of what is chosen. A control that is still being dragged is not `done`: all of it is one step.
-    pub(in crate::engine) fn set_field(
-        &mut self,
-        field: FieldId,
-        value: Value,
-        done: bool,
-    ) -> Result<Effect, String> {
+    pub(super) fn set_field(&mut self, field: FieldId, value: Value, done: bool) -> Result<Effect, String> {
         let Some(chosen) = &self.chosen else { return Ok(Effect::None) };
         let edit = Edit::SetField { target: chosen.target, field, value };
+        if matches!(chosen.target, Target::Sensor(_)) {
+            return self.restructure(&edit);
+        }
         let name = edit.name(self.history.base());
         if self.history.undo_name() != Some(&name) || !self.history.is_open() {
             self.history.begin(name);
@@ -131,7 +151,7 @@ impl EditableScene {
     }
 
     /// Gives what is chosen a material of its own.
-    pub(in crate::engine) fn own_material(&mut self) -> Result<Effect, String> {
+    pub(super) fn own_material(&mut self) -> Result<Effect, String> {
         match &self.chosen {
             Some(Chosen { target: Target::Shape(shape), .. }) => {
                 self.edit(&Edit::OwnMaterial { shape: *shape })
@@ -140,7 +160,7 @@ impl EditableScene {
         }
     }
 
-    fn edit(&mut self, edit: &Edit) -> Result<Effect, String> {
+    pub(super) fn edit(&mut self, edit: &Edit) -> Result<Effect, String> {
         let next = edit.apply(self.history.current()).map_err(|cause| cause.to_string())?;
         self.history.begin(edit.name(&self.description));
         let effect = self.take(next);
@@ -150,7 +170,7 @@ impl EditableScene {
     }
 
     /// Takes the last step back.
-    pub(in crate::engine) fn undo(&mut self) -> Result<Effect, String> {
+    pub(super) fn undo(&mut self) -> Result<Effect, String> {
         if self.history.undo().is_none() {
             return Ok(Effect::None);
         }
@@ -158,7 +178,7 @@ impl EditableScene {
     }
 
     /// Makes the step again that was taken back last.
-    pub(in crate::engine) fn redo(&mut self) -> Result<Effect, String> {
+    pub(super) fn redo(&mut self) -> Result<Effect, String> {
         if self.history.redo().is_none() {
             return Ok(Effect::None);
         }
@@ -172,6 +192,8 @@ impl EditableScene {
             target: chosen.target,
             inspection: inspect(&self.description, chosen.target)?,
             outline: chosen.outline.segments(&self.description, sensor),
+            gizmo: self.gizmo(chosen, sensor),
+            drag: chosen.drag.as_ref().map(|d| d.words.clone()).filter(|words| !words.is_empty()),
         })
     }
 

@@ -4,15 +4,11 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command as Program, Stdio};
-use std::sync::atomic::Ordering;
-use std::thread;
 
-use foton_film::{Image, Metadata, read_exr, write_new, write_png};
+use foton_film::{Image, Metadata, write_new, write_png};
 use foton_input::shown_path;
 
-use super::store::Kept;
 use crate::engine::command::Event;
-use crate::engine::worker::Worker;
 use crate::snapshot::{Look, next_run};
 
 /// Frames a second of an MP4.
@@ -29,7 +25,7 @@ pub(in crate::engine) struct Film {
 
 impl Film {
     /// Makes a folder for a film in another, such as `ring-film-001`.
-    pub(super) fn new(home: &Path, name: &str, look: Look, ffmpeg: &Path) -> Result<Self, String> {
+    pub(in crate::engine) fn new(home: &Path, name: &str, look: Look, ffmpeg: &Path) -> Result<Self, String> {
         let home = std::path::absolute(home).unwrap_or_else(|_| home.to_owned());
         let failed = |cause| format!("cannot make a folder for the film in {}: {cause}", shown_path(&home));
         fs::create_dir_all(&home).map_err(failed)?;
@@ -44,7 +40,7 @@ impl Film {
     }
 
     /// Adds a frame.
-    pub(super) fn add(&mut self, image: &Image, mut metadata: Metadata) -> Result<(), String> {
+    pub(in crate::engine) fn add(&mut self, image: &Image, mut metadata: Metadata) -> Result<(), String> {
         let path = self.folder.join(format!("frame-{:04}.png", self.frames + 1));
         let Look { tone_map, exposure_stops } = self.look;
         metadata.set("foton:look", format!("exposure={exposure_stops} tone_map={}", tone_map.key()));
@@ -55,7 +51,7 @@ impl Film {
     }
 
     /// Makes an MP4 of the frames, if there is a program for it. What there is to say of the film.
-    pub(super) fn finish(&self) -> Event {
+    pub(in crate::engine) fn finish(&self) -> Event {
         let frames = format!("{} frames are in {}", self.frames, shown_path(&self.folder));
         if self.frames == 0 {
             return Event::Failed(format!(
@@ -81,52 +77,4 @@ impl Film {
             }
         }
     }
-}
-
-impl Worker {
-    /// Writes the kept passes of a render as a film, beside the engine's work.
-    pub(in crate::engine) fn export_film(&mut self, of: u64, folder: &Path) {
-        let Some(first) = self.history.get(of) else {
-            return self.event(Event::Failed("the history does not have that pass any more".to_owned()));
-        };
-        let (render, name) = (first.shown.render, format!("{}-film", first.shown.scene));
-        let kept = self.history.of_render(render);
-        let film = match Film::new(folder, &name, self.files.look, &self.setup.ffmpeg) {
-            Ok(film) => film,
-            Err(message) => return self.event(Event::Failed(message)),
-        };
-        let (teller, unwritten) = (self.teller.clone(), self.files.unwritten.clone());
-        unwritten.fetch_add(1, Ordering::SeqCst);
-        let work = move || {
-            teller.tell(export(film, &kept));
-            unwritten.fetch_sub(1, Ordering::SeqCst);
-        };
-        if let Err(error) = thread::Builder::new().name("film".to_owned()).spawn(work) {
-            self.files.unwritten.fetch_sub(1, Ordering::SeqCst);
-            self.event(Event::Failed(format!("cannot make a thread: {error}")));
-        }
-    }
-
-    /// Finishes a film beside the engine's work.
-    pub(super) fn finish_film(&self, film: Film) {
-        let (teller, unwritten) = (self.teller.clone(), self.files.unwritten.clone());
-        unwritten.fetch_add(1, Ordering::SeqCst);
-        let work = move || {
-            teller.tell(film.finish());
-            unwritten.fetch_sub(1, Ordering::SeqCst);
-        };
-        if thread::Builder::new().name("film".to_owned()).spawn(work).is_err() {
-            self.files.unwritten.fetch_sub(1, Ordering::SeqCst);
-        }
-    }
-}
-
-fn export(mut film: Film, kept: &[Kept]) -> Event {
-    for kept in kept {
-        let read = read_exr(&kept.shown.picture).map_err(|error| error.to_string());
-        if let Err(message) = read.and_then(|(image, metadata)| film.add(&image, metadata)) {
-            return Event::Failed(format!("the film ends early: {message}"));
-        }
-    }
-    film.finish()
 }

@@ -24,22 +24,22 @@ const WAITING: usize = 2;
 
 /// A pass that was kept, with all that is needed to return to it.
 #[derive(Clone)]
-pub(super) struct Kept {
-    pub(super) shown: HistoryEntry,
-    pub(super) description: Arc<SceneDescription>,
-    pub(super) sensors: Vec<SensorDescription>,
-    pub(super) settings: RenderSettings,
-    pub(super) region: Option<Region>,
-    pub(super) identity: SceneIdentity,
+pub(in crate::engine) struct Kept {
+    pub(in crate::engine) shown: HistoryEntry,
+    pub(in crate::engine) description: Arc<SceneDescription>,
+    pub(in crate::engine) sensors: Vec<SensorDescription>,
+    pub(in crate::engine) settings: RenderSettings,
+    pub(in crate::engine) region: Option<Region>,
+    pub(in crate::engine) identity: SceneIdentity,
     /// The file of its state.
-    pub(super) state: PathBuf,
+    pub(in crate::engine) state: PathBuf,
 }
 
 /// What is written of an entry.
-pub(super) struct Files {
-    pub(super) id: u64,
-    pub(super) picture: (PathBuf, Image, Metadata),
-    pub(super) state: (PathBuf, Prepared),
+pub(in crate::engine) struct Files {
+    pub(in crate::engine) id: u64,
+    pub(in crate::engine) picture: (PathBuf, Image, Metadata),
+    pub(in crate::engine) state: (PathBuf, Prepared),
 }
 
 /// The history.
@@ -102,18 +102,18 @@ impl History {
         &self.gone
     }
 
-    pub(super) fn get(&mut self, id: u64) -> Option<&Kept> {
+    pub(in crate::engine) fn get(&mut self, id: u64) -> Option<&Kept> {
         self.mind_gone();
         self.kept.iter().find(|kept| kept.shown.id == id)
     }
 
     /// Entries of a render, in their order.
-    pub(super) fn of_render(&self, render: u64) -> Vec<Kept> {
+    pub(in crate::engine) fn of_render(&self, render: u64) -> Vec<Kept> {
         self.kept.iter().filter(|kept| kept.shown.render == render).cloned().collect()
     }
 
     /// The folder for files, and the number of the next entry.
-    pub(super) fn place(&mut self) -> Result<(PathBuf, u64), String> {
+    pub(in crate::engine) fn place(&mut self) -> Result<(PathBuf, u64), String> {
         if self.writer.is_none() {
             self.writer = Some(self.begin()?);
         }
@@ -145,7 +145,7 @@ impl History {
     }
 
     /// Takes an entry whose files are still to be written.
-    pub(super) fn add(&mut self, kept: Kept, files: Files) {
+    pub(in crate::engine) fn add(&mut self, kept: Kept, files: Files) {
         self.kept.push(kept);
         self.renew();
         if let Some(writer) = &self.writer {

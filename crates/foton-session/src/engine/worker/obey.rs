@@ -1,5 +1,7 @@
 //! What commands do.
 
+use std::sync::Arc;
+
 use foton_integrator::SettingChange;
 
 use super::Worker;
@@ -56,6 +58,10 @@ impl Worker {
                     Ok(Effect::None)
                 });
             }
+            Command::Select(target) => self.change_view(|scene| {
+                scene.select(target);
+                Ok(Effect::None)
+            }),
             Command::Edit(edit) => self.edit(edit),
             Command::SetView(mode) => self.view.mode = mode,
             Command::ShowPhotons(on) => self.view.photons = on,
@@ -63,11 +69,6 @@ impl Worker {
             Command::Snapshot(folder) => self.snapshot(&folder),
             Command::SetLook(look) => self.files.look = look,
             Command::AutoSnapshots(folder) => self.files.auto_snapshots = folder,
-            Command::Remember => self.remember(),
-            Command::ReturnTo(id) => self.return_to_entry(id),
-            Command::ExportFilm { of, folder } => self.export_film(of, &folder),
-            Command::Turntable { steps, passes, folder } => self.begin_turntable(steps, passes, &folder),
-            Command::EndTurntable => {}
             Command::SaveScene(path) => self.save_scene(&path),
             Command::KeepCheckpoint(path) => self.begin_checkpoint(&path),
             Command::ResumeCheckpoint(path) => {
@@ -75,16 +76,31 @@ impl Worker {
                 self.files.resuming = Some(path);
             }
             Command::Quit => {}
+            _ => self.obey_history(command),
+        }
+    }
+
+    /// Does what a command asks of the history.
+    fn obey_history(&mut self, command: Command) {
+        match command {
+            Command::Remember => self.remember(),
+            Command::ReturnTo(id) => self.return_to_entry(id),
+            Command::ExportFilm { of, folder } => self.export_film(of, &folder),
+            Command::Turntable { steps, passes, folder } => self.begin_turntable(steps, passes, &folder),
+            // A turntable that is ended has ended already, and all else is obeyed elsewhere.
+            _ => {}
         }
     }
 
     fn configure(&mut self, configuration: &Configuration) {
+        let before = self.plan.settings.sensor;
         configuration.apply(&mut self.plan.settings);
         if let Some(scene) = &self.scene {
             self.plan.settings.sensor = self.plan.settings.sensor.min(scene.sensors().len() - 1);
         }
         let sensor = self.plan.settings.sensor;
-        let region = configuration.region.map(|region| (sensor, region));
+        // A region is one of an image, and that is another camera's then.
+        let region = configuration.region.filter(|_| sensor == before).map(|region| (sensor, region));
         let set = self.scene.as_mut().map_or(Ok(Effect::None), |scene| scene.set_region(region));
         if let Err(message) = set {
             self.event(Event::Failed(message));
@@ -130,9 +146,18 @@ impl Worker {
     /// on, if there is one of the scene as it is now.
     fn change_scene(&mut self, change: impl FnOnce(&mut EditableScene) -> Result<Effect, String>) {
         let Some(scene) = &mut self.scene else { return };
-        match change(scene) {
+        let sensor = self.plan.settings.sensor;
+        let camera = scene.sensors()[sensor].name.clone();
+        let changed = change(scene);
+        // The camera is still the same one, wherever it is in the list.
+        self.plan.settings.sensor = scene.sensor_named(&camera, sensor);
+        match changed {
             Ok(Effect::Restart) => {}
-            Ok(Effect::None) => return,
+            Ok(Effect::None) => {
+                // Other names are another description of what is rendered.
+                self.current.subject = self.current.subject.take().and_then(|_| self.subject());
+                return;
+            }
             Err(message) => return self.event(Event::Failed(message)),
         }
         // As long as the checkpoint is not written, the render is the one under way.
@@ -184,26 +209,8 @@ impl Worker {
     }
 
     fn edit(&mut self, edit: SceneEdit) {
-        let sensor = self.plan.settings.sensor;
-        match edit {
-            SceneEdit::BeginDrag { .. } | SceneEdit::DragTo(_) | SceneEdit::SetField { done: false, .. } => {
-                self.plan.moving = true;
-            }
-            _ => self.plan.moving = false,
-        }
-        self.change_scene(|scene| match edit {
-            SceneEdit::BeginDrag { film, mode } => {
-                scene.begin_drag(sensor, film, mode);
-                Ok(Effect::None)
-            }
-            SceneEdit::DragTo(film) => scene.drag_to(film),
-            SceneEdit::EndDrag(film) => scene.end_drag(film),
-            SceneEdit::CancelDrag => scene.cancel_drag(),
-            SceneEdit::Nudge { steps, mode } => scene.nudge(sensor, steps, mode),
-            SceneEdit::SetField { field, value, done } => scene.set_field(field, value, done),
-            SceneEdit::OwnMaterial => scene.own_material(),
-            SceneEdit::Undo => scene.undo(),
-            SceneEdit::Redo => scene.redo(),
-        });
+        self.plan.moving = self.scene.is_some() && edit.is_moving();
+        let (sensor, loader) = (self.plan.settings.sensor, Arc::clone(&self.setup.loader));
+        self.change_scene(|scene| scene.obey(sensor, edit, &*loader));
     }
 }

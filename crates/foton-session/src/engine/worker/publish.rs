@@ -7,7 +7,7 @@ use super::Worker;
 use super::state::{Flow, PictureOf};
 use crate::engine::command::Region;
 use crate::engine::editable_scene::EditableScene;
-use crate::engine::frame::{Activity, Frame, RenderStats};
+use crate::engine::frame::{Activity, Dot, Frame, Probe, RenderStats};
 use crate::engine::history::Turntable;
 use crate::engine::loader::Opening;
 use crate::engine::probe;
@@ -97,6 +97,15 @@ impl Worker {
         }
     }
 
+    /// Photons, and what is known of the pixel that a person points at, as far as they are asked for.
+    fn pointed_out(&self) -> (Arc<Vec<Dot>>, Option<Probe>) {
+        let Some(render) = self.whole().map(LevelRender::render).filter(|r| r.passes() > 0) else {
+            return Default::default();
+        };
+        let dots = if self.view.photons { probe::dots(render) } else { Vec::new() };
+        (Arc::new(dots), self.view.probed.and_then(|pixel| probe::probe(render, pixel)))
+    }
+
     /// Offers a frame if there is something new and it is time for one.
     pub(super) fn publish(&mut self, when: When) {
         // While something moves, a picture is there so soon that a frame before it would be drawn for nothing.
@@ -114,16 +123,7 @@ impl Worker {
         self.renew_picture();
         let window = self.window();
         let stats = self.stats();
-        let mut dots = Arc::default();
-        let mut probed = None;
-        if let Some(render) = self.current.render.as_ref().filter(|r| r.render().passes() > 0) {
-            if render.is_whole() {
-                if self.view.photons {
-                    dots = Arc::new(probe::dots(render.render()));
-                }
-                probed = self.view.probed.and_then(|pixel| probe::probe(render.render(), pixel));
-            }
-        }
+        let (dots, probe) = self.pointed_out();
         let history = self.history.shown();
         let sensor = self.plan.settings.sensor;
         let scene = self.scene.as_ref();
@@ -154,7 +154,7 @@ impl Worker {
             checkpoint_age: self.checkpoint_age(),
             scene: facts,
             dots,
-            probe: probed,
+            probe,
             selection,
             lights,
         });

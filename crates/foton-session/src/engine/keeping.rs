@@ -2,16 +2,15 @@
 
 use std::sync::Arc;
 
-use super::entry::{HistoryEntry, Thumbnail, in_words};
-use super::store::{Files, Kept};
+use super::command::Event;
+use super::history::{Files, HistoryEntry, Kept, Thumbnail, in_words};
+use super::worker::Worker;
 use crate::checkpoint::Prepared;
-use crate::engine::command::Event;
-use crate::engine::worker::Worker;
 use crate::metadata;
 
 impl Worker {
     /// Keeps the pass that the render stands at, unless it is kept already.
-    pub(in crate::engine) fn remember(&mut self) {
+    pub(super) fn remember(&mut self) {
         self.settle();
         let Some((render, _)) = self.rendered() else {
             return self.event(Event::Failed("there is no pass to keep yet".to_owned()));
@@ -37,7 +36,7 @@ impl Worker {
             photons: render.photons_emitted(),
             elapsed: session.elapsed(),
             error: render.error().map(|error| error.total),
-            scene: scene.facts().title(),
+            scene: scene.facts().title.clone(),
             settings: in_words(&settings, render),
             window: render.scene().sensors()[settings.sensor].window(),
             thumbnail: Arc::new(Thumbnail::of(&image, self.files.look)),
@@ -61,7 +60,7 @@ impl Worker {
     }
 
     /// Goes on from a pass that was kept: with its scene, camera, settings and state.
-    pub(in crate::engine) fn return_to_entry(&mut self, id: u64) {
+    pub(super) fn return_to_entry(&mut self, id: u64) {
         let Some(kept) = self.history.get(id).cloned() else {
             return self.event(Event::Failed("the history does not have that pass any more".to_owned()));
         };
