@@ -83,7 +83,7 @@ pub struct HistoryEntry {
 }
 
 /// Settings as a person compares them.
-pub(in crate::engine) fn in_words(settings: &RenderSettings, render: &Render) -> String {
+pub(crate) fn in_words(settings: &RenderSettings, render: &Render) -> String {
     let (ppm, sensor) = (&settings.ppm, &render.scene().sensors()[settings.sensor]);
     format!(
         "α {}, {} photons/pass, {} samples/pixel, radii {}, seed {}, {} x {} pixels",

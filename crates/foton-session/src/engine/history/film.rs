@@ -15,7 +15,7 @@ use crate::snapshot::{Look, next_run};
 const RATE: u32 = 8;
 
 /// A folder of frames.
-pub(in crate::engine) struct Film {
+pub(crate) struct Film {
     folder: PathBuf,
     frames: u32,
     look: Look,
@@ -25,7 +25,7 @@ pub(in crate::engine) struct Film {
 
 impl Film {
     /// Makes a folder for a film in another, such as `ring-film-001`.
-    pub(in crate::engine) fn new(home: &Path, name: &str, look: Look, ffmpeg: &Path) -> Result<Self, String> {
+    pub(crate) fn new(home: &Path, name: &str, look: Look, ffmpeg: &Path) -> Result<Self, String> {
         let home = std::path::absolute(home).unwrap_or_else(|_| home.to_owned());
         let failed = |cause| format!("cannot make a folder for the film in {}: {cause}", shown_path(&home));
         fs::create_dir_all(&home).map_err(failed)?;
@@ -40,7 +40,7 @@ impl Film {
     }
 
     /// Adds a frame.
-    pub(in crate::engine) fn add(&mut self, image: &Image, mut metadata: Metadata) -> Result<(), String> {
+    pub(crate) fn add(&mut self, image: &Image, mut metadata: Metadata) -> Result<(), String> {
         let path = self.folder.join(format!("frame-{:04}.png", self.frames + 1));
         let Look { tone_map, exposure_stops } = self.look;
         metadata.set("foton:look", format!("exposure={exposure_stops} tone_map={}", tone_map.key()));
@@ -51,7 +51,7 @@ impl Film {
     }
 
     /// Makes an MP4 of the frames, if there is a program for it. What there is to say of the film.
-    pub(in crate::engine) fn finish(&self) -> Event {
+    pub(crate) fn finish(&self) -> Event {
         let frames = format!("{} frames are in {}", self.frames, shown_path(&self.folder));
         if self.frames == 0 {
             return Event::Failed(format!(

@@ -24,26 +24,26 @@ const WAITING: usize = 2;
 
 /// A pass that was kept, with all that is needed to return to it.
 #[derive(Clone)]
-pub(in crate::engine) struct Kept {
-    pub(in crate::engine) shown: HistoryEntry,
-    pub(in crate::engine) description: Arc<SceneDescription>,
-    pub(in crate::engine) sensors: Vec<SensorDescription>,
-    pub(in crate::engine) settings: RenderSettings,
-    pub(in crate::engine) region: Option<Region>,
-    pub(in crate::engine) identity: SceneIdentity,
+pub(crate) struct Kept {
+    pub(crate) shown: HistoryEntry,
+    pub(crate) description: Arc<SceneDescription>,
+    pub(crate) sensors: Vec<SensorDescription>,
+    pub(crate) settings: RenderSettings,
+    pub(crate) region: Option<Region>,
+    pub(crate) identity: SceneIdentity,
     /// The file of its state.
-    pub(in crate::engine) state: PathBuf,
+    pub(crate) state: PathBuf,
 }
 
 /// What is written of an entry.
-pub(in crate::engine) struct Files {
-    pub(in crate::engine) id: u64,
-    pub(in crate::engine) picture: (PathBuf, Image, Metadata),
-    pub(in crate::engine) state: (PathBuf, Prepared),
+pub(crate) struct Files {
+    pub(crate) id: u64,
+    pub(crate) picture: (PathBuf, Image, Metadata),
+    pub(crate) state: (PathBuf, Prepared),
 }
 
 /// The history.
-pub(in crate::engine) struct History {
+pub(crate) struct History {
     home: Option<PathBuf>,
     limit: u64,
     teller: Teller,
@@ -80,7 +80,7 @@ impl Drop for Writer {
 impl History {
     /// An empty one, whose files go into a folder in `home` and take `limit` bytes at most.
     /// The end of the program waits for as many things as `unwritten` says.
-    pub(in crate::engine) fn new(
+    pub(crate) fn new(
         home: Option<PathBuf>,
         limit: u64,
         teller: Teller,
@@ -92,28 +92,28 @@ impl History {
     }
 
     /// The entries, the oldest first.
-    pub(in crate::engine) fn shown(&mut self) -> Arc<Vec<HistoryEntry>> {
+    pub(crate) fn shown(&mut self) -> Arc<Vec<HistoryEntry>> {
         self.mind_gone();
         Arc::clone(&self.shown)
     }
 
     /// Where the thread says that the files of an entry are gone; heard with the next [`History::shown`].
-    pub(in crate::engine) fn gone(&self) -> &Receiver<u64> {
+    pub(crate) fn gone(&self) -> &Receiver<u64> {
         &self.gone
     }
 
-    pub(in crate::engine) fn get(&mut self, id: u64) -> Option<&Kept> {
+    pub(crate) fn get(&mut self, id: u64) -> Option<&Kept> {
         self.mind_gone();
         self.kept.iter().find(|kept| kept.shown.id == id)
     }
 
     /// Entries of a render, in their order.
-    pub(in crate::engine) fn of_render(&self, render: u64) -> Vec<Kept> {
+    pub(crate) fn of_render(&self, render: u64) -> Vec<Kept> {
         self.kept.iter().filter(|kept| kept.shown.render == render).cloned().collect()
     }
 
     /// The folder for files, and the number of the next entry.
-    pub(in crate::engine) fn place(&mut self) -> Result<(PathBuf, u64), String> {
+    pub(crate) fn place(&mut self) -> Result<(PathBuf, u64), String> {
         if self.writer.is_none() {
             self.writer = Some(self.begin()?);
         }
@@ -140,12 +140,12 @@ impl History {
     }
 
     /// Forgets all of it, with its files.
-    pub(in crate::engine) fn end(&mut self) {
+    pub(crate) fn end(&mut self) {
         self.writer = None;
     }
 
     /// Takes an entry whose files are still to be written.
-    pub(in crate::engine) fn add(&mut self, kept: Kept, files: Files) {
+    pub(crate) fn add(&mut self, kept: Kept, files: Files) {
         self.kept.push(kept);
         self.renew();
         if let Some(writer) = &self.writer {

@@ -7,20 +7,20 @@ use foton_scene::description::SensorDescription;
 use super::film::Film;
 
 /// One that turns.
-pub(in crate::engine) struct Turntable {
-    pub(in crate::engine) steps: NonZeroU32,
+pub(crate) struct Turntable {
+    pub(crate) steps: NonZeroU32,
     /// Passes of each frame.
-    pub(in crate::engine) passes: u64,
+    pub(crate) passes: u64,
     /// Frames that are written.
-    pub(in crate::engine) done: u32,
-    pub(in crate::engine) film: Film,
+    pub(crate) done: u32,
+    pub(crate) film: Film,
     /// Cameras as they were.
-    pub(in crate::engine) before: Vec<SensorDescription>,
+    pub(crate) before: Vec<SensorDescription>,
 }
 
 impl Turntable {
     /// Frames that are written, and all.
-    pub(in crate::engine) fn progress(&self) -> [u32; 2] {
+    pub(crate) fn progress(&self) -> [u32; 2] {
         [self.done, self.steps.get()]
     }
 }

@@ -66,23 +66,23 @@ impl Worker {
             Command::SetView(mode) => self.view.mode = mode,
             Command::ShowPhotons(on) => self.view.photons = on,
             Command::Probe(pixel) => self.view.probed = pixel,
-            Command::Snapshot(folder) => self.snapshot(&folder),
-            Command::SetLook(look) => self.files.look = look,
-            Command::AutoSnapshots(folder) => self.files.auto_snapshots = folder,
-            Command::SaveScene(path) => self.save_scene(&path),
-            Command::KeepCheckpoint(path) => self.begin_checkpoint(&path),
             Command::ResumeCheckpoint(path) => {
                 self.restart();
                 self.files.resuming = Some(path);
             }
             Command::Quit => {}
-            _ => self.obey_history(command),
+            _ => self.write_or_keep(command),
         }
     }
 
-    /// Does what a command asks of the history.
-    fn obey_history(&mut self, command: Command) {
+    /// Does what a command asks of files and of the history.
+    fn write_or_keep(&mut self, command: Command) {
         match command {
+            Command::Snapshot(folder) => self.snapshot(&folder),
+            Command::SetLook(look) => self.files.look = look,
+            Command::AutoSnapshots(folder) => self.files.auto_snapshots = folder,
+            Command::SaveScene(path) => self.save_scene(&path),
+            Command::KeepCheckpoint(path) => self.begin_checkpoint(&path),
             Command::Remember => self.remember(),
             Command::ReturnTo(id) => self.return_to_entry(id),
             Command::ExportFilm { of, folder } => self.export_film(of, &folder),
