@@ -9,6 +9,9 @@ use foton_integrator::{LayerKind, Render};
 
 use crate::metadata::{self, SceneIdentity};
 
+/// Endings of scenes' files.
+const ENDINGS: [&str; 4] = ["xml", "obj", "ply", "stl"];
+
 /// How many letters of a scene's name stand in those of files.
 const LETTERS: usize = 80;
 
@@ -114,8 +117,16 @@ pub fn of_run(run: &str, pass: u64, is_taken: impl Fn(&str) -> bool) -> String {
     (2u64..).map(|n| format!("{name}-{n}")).find(|name| !is_taken(name)).unwrap_or(name)
 }
 
+/// A scene's name without the ending of its file.
+pub(crate) fn without_ending(scene: &str) -> &str {
+    let ended =
+        scene.rsplit_once('.').filter(|(_, e)| ENDINGS.iter().any(|known| e.eq_ignore_ascii_case(known)));
+    ended.map_or(scene, |(stem, _)| stem)
+}
+
 /// A scene's name as the beginning of a file's, on any system.
 fn file_stem(scene: &str) -> String {
+    let scene = without_ending(scene);
     let harmless = |c: char| if c.is_alphanumeric() || "-_+. ".contains(c) { c } else { '_' };
     let stem: String = scene.chars().map(harmless).take(LETTERS).collect();
     let stem = stem.trim_matches([' ', '.']);
@@ -149,6 +160,10 @@ mod tests {
         assert_eq!(next_run(&folder, "ring"), "ring-008");
         assert_eq!(next_run(&folder, "a/b:c"), "a_b_c-001");
         assert_eq!(next_run(&folder, ".."), "scene-001");
+        assert_eq!(
+            (next_run(&folder, "lamp.XML"), next_run(&folder, "v1.2")),
+            ("lamp-001".into(), "v1.2-001".into())
+        );
         assert_eq!(of_run("ring-008", 16, |_| false), "ring-008-p000016");
         let taken = ["ring-008-p000016", "ring-008-p000016-2"];
         assert_eq!(of_run("ring-008", 16, |name| taken.contains(&name)), "ring-008-p000016-3");

@@ -12,6 +12,7 @@ use super::command::{Event, Gesture};
 use super::history::{Film, Kept, Turntable};
 use super::worker::{Flow, Worker};
 use crate::metadata;
+use crate::snapshot::without_ending;
 
 impl Worker {
     /// Writes the kept passes of a render as a film, beside the engine's work.
@@ -19,7 +20,7 @@ impl Worker {
         let Some(first) = self.history.get(of) else {
             return self.event(Event::Failed("the history does not have that pass any more".to_owned()));
         };
-        let (render, name) = (first.shown.render, format!("{}-film", first.shown.scene));
+        let (render, name) = (first.shown.render, format!("{}-film", without_ending(&first.shown.scene)));
         let kept = self.history.of_render(render);
         let film = match Film::new(folder, &name, self.files.look, &self.setup.ffmpeg) {
             Ok(film) => film,
@@ -56,7 +57,8 @@ impl Worker {
         let Some(scene) = &self.scene else {
             return self.event(Event::Failed("there is no scene to turn around".to_owned()));
         };
-        let (name, before) = (format!("{}-turntable", scene.facts().title), scene.sensors().to_vec());
+        let (name, before) =
+            (format!("{}-turntable", without_ending(&scene.facts().title)), scene.sensors().to_vec());
         match Film::new(folder, &name, self.files.look, &self.setup.ffmpeg) {
             Ok(film) => {
                 self.turntable = Some(Turntable { steps, passes: passes.max(1), done: 0, film, before });

@@ -187,7 +187,7 @@ fn scenes_of_before_are_offered_again() {
         harness
     };
     let mut harness = menu();
-    assert!(harness.query_by_role_and_label(Role::Button, "lamp").is_some());
+    assert!(harness.query_by_role_and_label(Role::Button, "lamp.xml").is_some());
     // A file that is just called scene goes by its folder.
     click(&mut harness, Role::Button, "kitchen");
     assert_asked(&mut harness, &Command::Open(Source::File("/scenes/kitchen/scene.xml".into())));
