@@ -172,6 +172,7 @@ fn what_a_person_sees_steers_and_saves_is_what_the_program_renders() {
     it_opens_and_converges(&mut driver);
     what_is_saved_is_what_is_rendered(&mut driver, &foton, &scene);
     passes_go_on_while_alpha_moves(&mut driver);
+    numbers_are_what_was_typed(&mut driver);
     an_object_is_dragged(&mut driver);
     errors_are_none_and_it_closes(&mut driver);
 }
@@ -256,6 +257,36 @@ fn passes_go_on_while_alpha_moves(driver: &mut Driver) {
     driver.display.hand("mouseup 1");
     assert!(alphas[4] < 0.4, "{alphas:?}");
     driver.window.frame("passes after it", |f| (number(&f["pass"]) > during.0 + 1.0).then_some(()));
+}
+
+fn numbers_are_what_was_typed(driver: &mut Driver) {
+    for (place, figure, text, value) in
+        [("alpha field", "alpha", "0.5", 0.5), ("photons per pass", "photons_per_pass", "65432", 65_432.0)]
+    {
+        driver.click(place);
+        driver.window.log.skip();
+        driver.window.wait("the field", |line| (line["event"] == "drawn").then_some(()));
+        driver.window.wait("the field", |line| (line["event"] == "drawn").then_some(()));
+        for key in text.chars() {
+            driver.display.hand(&format!("type {key}"));
+            // Frames arrive meanwhile.
+            driver.window.wait("a frame", |line| (line["event"] == "drawn").then_some(()));
+        }
+        let before = driver.window.frame("a frame", |f| Some((number(&f["render"]), number(&f[figure]))));
+        assert!((before.1 - value).abs() > 1e-9, "{figure} before it is committed");
+        driver.key("Return");
+        let render = driver.window.frame(figure, |f| {
+            (number(&f[figure]) != before.1).then(|| (number(&f["render"]), number(&f[figure])))
+        });
+        assert_eq!(render, (before.0, value), "{figure}");
+    }
+    // Keys are shortcuts again after a click in the picture.
+    driver.point([5.0, 5.0]);
+    driver.display.hand("click 1");
+    driver.key("space");
+    driver.window.frame("the pause", |f| (f["activity"] == "paused").then_some(()));
+    driver.key("space");
+    driver.window.frame("it going on", |f| (f["activity"] == "rendering").then_some(()));
 }
 
 fn an_object_is_dragged(driver: &mut Driver) {

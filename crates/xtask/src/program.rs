@@ -49,13 +49,13 @@ pub(crate) fn pictures(foton: &Path, folder: &Path) -> Result<(), Trouble> {
     example("window_pictures", foton, folder.as_os_str())
 }
 
-/// Pictures of each state of the window, drawn by the program at `foton`.
+/// Pictures of each state of the window, drawn by the dev build.
 ///
 /// # Errors
 /// What could not be built, opened or written.
 pub(crate) fn screenshots(folder: &Path) -> Result<(), Trouble> {
-    tools::run(&mut tools::cargo(&["build", "--release", "--package", "foton"]))?;
-    example("screenshots", &foton("release"), folder.as_os_str())
+    tools::run(&mut tools::cargo(&["build", "--package", "foton"]))?;
+    example("screenshots", &foton("debug"), folder.as_os_str())
 }
 
 /// The program of a profile.

@@ -10,7 +10,7 @@ use foton_edit::DragMode;
 use foton_integrator::{Alpha, Cancel, PpmSettings, RenderSettings, SettingChange};
 use foton_scene::description::SceneDescription;
 use foton_session::engine::{
-    Activity, Command, Event, Frame, Loaded, Loader, SceneEdit, Setup, Source, ViewMode,
+    Activity, Command, Event, Frame, Loaded, Loader, SavedScene, SceneEdit, Setup, Source, ViewMode,
 };
 use foton_session::{Engine, SceneIdentity};
 
@@ -45,7 +45,12 @@ impl Loader for Default {
         })
     }
 
-    fn save(&self, _: &(dyn Any + Send + Sync), _: &SceneDescription, _: &Path) -> Result<String, String> {
+    fn save(
+        &self,
+        _: &(dyn Any + Send + Sync),
+        _: &SceneDescription,
+        _: &Path,
+    ) -> Result<SavedScene, String> {
         Err("nothing is saved here".into())
     }
 }

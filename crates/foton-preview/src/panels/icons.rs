@@ -25,7 +25,7 @@ pub(super) fn draw(painter: &Painter, rect: Rect, icon: Icon, colour: Color32) {
     let place = Place { rect: Rect::from_center_size(rect.center(), Vec2::splat(SIDE)), painter, colour };
     match icon {
         Icon::Play | Icon::Pause | Icon::Step | Icon::Restart | Icon::Snapshot | Icon::Pin => {
-            run(&place, icon)
+            run(&place, icon);
         }
         _ => look(&place, icon),
     }

@@ -56,13 +56,16 @@ fn rows(contents: &[Item]) -> Vec<Row<'_>> {
         .collect()
 }
 
+/// What a button does.
+type Act = fn(&mut State);
+
 /// What can be done to the list and to what is selected in it.
 fn buttons(ui: &mut Ui, state: &mut State) {
     ui.horizontal_wrapped(|ui| {
         let add = ui.menu_button("Add", |ui| add_menu(ui, state));
         add.response.on_hover_text("Puts a shape or a light where the camera looks");
         let is_selected = actions::selected(state).is_some();
-        let all: [(&str, &str, fn(&mut State)); 3] = [
+        let all: [(&str, &str, Act); 3] = [
             ("Rename", "Another name for what is selected (F2)", actions::rename),
             ("Duplicate", "A copy of what is selected (Ctrl+D)", actions::duplicate),
             ("Delete", "Takes what is selected out of the scene (Del)", actions::delete),

@@ -19,6 +19,8 @@ pub(super) struct Slider<'a> {
 #[derive(Clone, Copy, Debug, Default)]
 struct Memo {
     dragged: Option<f64>,
+    /// The frame in which it was last shown.
+    frame: u64,
     sent: Option<Sent>,
 }
 
@@ -52,7 +54,12 @@ impl<'a> Slider<'a> {
     fn slide(&self, ui: &mut Ui, value: f64, is_whole: bool) -> (Response, f64, Option<Change>) {
         let id = ui.make_persistent_id(("slider", self.name, self.salt));
         let mut memo: Memo = ui.data(|d| d.get_temp(id)).unwrap_or_default();
-        let now = ui.input(|i| i.time);
+        let (now, frame) = (ui.input(|i| i.time), ui.ctx().cumulative_frame_nr());
+        if frame > memo.frame + 1 {
+            // It was away meanwhile, with what was under way.
+            memo.dragged = None;
+        }
+        memo.frame = frame;
         let waiting = memo.sent.and_then(|sent| sent.shown(value, now));
         let before = memo.dragged.or(waiting).unwrap_or(value);
         let mut shown = before;

@@ -57,7 +57,7 @@ fn progress(ui: &mut Ui, cell: egui::Rect, share: f32) {
     let response = ui.interact(cell, ui.scope_id().with("pass"), egui::Sense::hover());
     let words = format!("Pass under way: {:.0} % done", 100.0 * share);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ProgressIndicator, true, &words));
-    response.on_hover_text(words.clone());
+    response.on_hover_text(words);
 }
 
 /// The time left; nothing where it is not known, or where nothing goes on.

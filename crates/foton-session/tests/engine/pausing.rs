@@ -71,7 +71,7 @@ fn a_checkpoint_from_within_a_pass_is_of_the_last_whole_one() {
     let (rig, paused) = paused_in_the_second_pass();
     let file = folder.0.join("within.ckpt");
     rig.send(Command::KeepCheckpoint(file.clone()));
-    assert_eq!(rig.saved(), [file.clone()]);
+    assert_eq!(rig.saved(), std::slice::from_ref(&file));
     rig.send(Command::ResumeCheckpoint(file));
     let resumed = rig.until("the checkpoint", |f| f.render != paused.render && f.stats.passes >= 1);
     // A pass that had refined hit points was finished for it.

@@ -65,6 +65,8 @@ struct Memo {
     sent: Option<Sent>,
     /// The value of a drag under way, before rounding.
     dragged: Option<f64>,
+    /// The frame in which it was last shown.
+    frame: u64,
     /// What was wrong, and until when it is said.
     trouble: Option<(String, f64)>,
 }
@@ -105,7 +107,12 @@ impl<'a> Number<'a> {
     pub(super) fn show(self, ui: &mut Ui, value: f64) -> (Response, Option<Change>) {
         let id = ui.make_persistent_id(("number", self.name, self.salt));
         let mut memo: Memo = ui.data(|d| d.get_temp(id)).unwrap_or_default();
-        let now = ui.input(|i| i.time);
+        let (now, frame) = (ui.input(|i| i.time), ui.ctx().cumulative_frame_nr());
+        if frame > memo.frame + 1 {
+            // It was away meanwhile, with what was under way.
+            (memo.draft, memo.dragged) = (None, None);
+        }
+        memo.frame = frame;
         let waiting = memo.sent.and_then(|sent| sent.shown(value, now));
         memo.sent = memo.sent.filter(|_| waiting.is_some());
         memo.trouble = memo.trouble.filter(|(_, until)| now < *until);

@@ -122,3 +122,13 @@ fn a_committed_value_is_shown_until_frames_have_it() {
     settle(&mut harness);
     assert_eq!(shown(&harness), "777", "what the engine says");
 }
+
+#[test]
+fn a_text_whose_field_goes_away_is_not_committed_when_it_comes_back() {
+    let mut harness = window(|state| state.frame.as_mut().expect("there").selection = Some(selection()));
+    type_into(&mut harness, "X", "77");
+    harness.state_mut().frame.as_mut().expect("there").selection = None;
+    assert_eq!(asked(&mut harness), [""; 0]);
+    harness.state_mut().frame.as_mut().expect("there").selection = Some(selection());
+    assert_eq!(asked(&mut harness), [""; 0]);
+}
