@@ -8,8 +8,8 @@ use foton_format::{Opened, Options, Saved, open, read_str, save_edited};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{
-    Bsdf, Colour, Conductor, Dielectric, Diffuse, EmitterKind, FovAxis, Geometry, MicrofacetDistribution,
-    Microfacets, Mirror, Plastic, SceneDescription, ShapeDescription,
+    Bsdf, Colour, Conductor, Dielectric, Diffuse, EmitterKind, FovAxis, Geometry, Mesh,
+    MicrofacetDistribution, Microfacets, Mirror, Plastic, SceneDescription, ShapeDescription,
 };
 
 const SCENE: &str = r#"<!-- A test scene, with a comment before it. -->

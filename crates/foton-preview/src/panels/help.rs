@@ -2,14 +2,17 @@
 
 use crate::state::State;
 
-const KEYS: [(&str, &str); 29] = [
+const KEYS: [(&str, &str); 32] = [
     ("Drag", "orbit the camera"),
     ("Shift+drag, right drag", "pan the camera"),
     ("Wheel", "camera nearer, farther"),
     ("W A S D Q E", "fly"),
     ("H", "reset the camera"),
     ("Click", "select a shape or light"),
-    ("Drag what is selected", "move it on the floor; its arrow or Alt: up and down"),
+    ("Drag a handle", "move, rotate or scale what is selected; Ctrl: round steps"),
+    ("M, R, X", "handles that move, rotate, scale"),
+    ("N", "round steps on and off"),
+    ("F2, Ctrl+D, Del", "rename, duplicate, delete what is selected"),
     ("Arrow keys, Page up, Page down", "move it a little"),
     ("Ctrl+Z, Ctrl+Shift+Z", "undo, redo"),
     ("Esc", "cancel, deselect, close"),
