@@ -2,15 +2,17 @@
 
 use crate::state::State;
 
-const KEYS: [(&str, &str); 25] = [
+const KEYS: [(&str, &str); 28] = [
     ("Drag", "orbit the camera"),
     ("Shift+drag, right drag", "pan the camera"),
     ("Wheel", "camera nearer, farther"),
     ("W A S D Q E", "fly"),
     ("H", "reset the camera"),
     ("Click", "select a shape or light"),
-    ("Drag what is selected", "move it on the floor; its arrow or Alt: up and down"),
-    ("Arrow keys, Page up, Page down", "move it a little"),
+    ("M, R, X", "handles that move, rotate, scale what is selected"),
+    ("Drag a handle", "along its axis or plane; with Ctrl in round steps (N: always)"),
+    ("Arrow keys, Page up, Page down", "move what is selected a little"),
+    ("F2, Ctrl+D, Del", "rename, duplicate, delete"),
     ("Ctrl+Z, Ctrl+Shift+Z", "undo, redo"),
     ("Esc", "cancel, deselect, close"),
     ("Ctrl+wheel, Ctrl+drag", "zoom and move the image"),
@@ -22,6 +24,7 @@ const KEYS: [(&str, &str); 25] = [
     ("O", "photons as dots"),
     ("K", "pin this pass, compare"),
     ("1 … 5", "radiance, luminance, radius, photons found, unlit hit points"),
+    ("Enter, Esc in a field", "commit what was typed, give it up"),
     ("Tab", "hide or show the panels"),
     ("F6, Shift+Tab", "from the picture to the controls, and back"),
     ("Ctrl+O", "open a scene"),

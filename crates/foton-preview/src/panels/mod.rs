@@ -63,7 +63,7 @@ const WIDTHS: [f32; 2] = [264.0, 272.0];
 const NARROW_WIDTHS: [f32; 2] = [236.0, 236.0];
 
 /// Share of the right panel's height that convergence and diagnostics take at most beside a selection, and without one.
-const LOWER: f32 = 0.65;
+const LOWER: f32 = 0.5;
 const LOWER_ALONE: f32 = 0.9;
 
 /// Points between the two parts of the right panel.

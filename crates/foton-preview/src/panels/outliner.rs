@@ -62,6 +62,9 @@ type Act = fn(&mut State);
 /// What can be done to the list and to what is selected in it.
 fn buttons(ui: &mut Ui, state: &mut State) {
     ui.horizontal_wrapped(|ui| {
+        // All of them in one line of a narrow panel.
+        ui.spacing_mut().button_padding.x = 5.0;
+        ui.spacing_mut().item_spacing.x = 4.0;
         let add = ui.menu_button("Add", |ui| add_menu(ui, state));
         add.response.on_hover_text("Puts a shape or a light where the camera looks");
         let is_selected = actions::selected(state).is_some();
