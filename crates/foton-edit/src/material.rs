@@ -4,7 +4,7 @@ use foton_math::Rgb;
 use foton_scene::bsdf::{MicrofacetDistribution, Microfacets};
 use foton_scene::description::{Bsdf, Colour, Material};
 use foton_scene::metals::METALS;
-use foton_scene::parameter::{Binding, Parameter, Slot};
+use foton_scene::parameter::{Binding, Parameter, Role, Slot};
 use foton_scene::plugins::wrappers::OPACITY;
 
 use super::field::{FieldId, Fields, Property, Side, Value};
@@ -57,26 +57,51 @@ pub(crate) fn fields(material: &Material, out: &mut Fields) -> bool {
 
 fn side_fields(bsdf: &Bsdf, side: Side, out: &mut Fields) -> bool {
     let id = |p| FieldId::Material(side, p);
-    let label = if side == Side::Front { "Material" } else { "Material behind" };
+    let label = if side == Side::Front { "Kind" } else { "Kind behind" };
     let kinds = Bsdf::defaults(false).map(|b| b.info().label.to_owned()).to_vec();
     out.choice(id(Property::Kind), label, kind_of(bsdf), kinds, "What the surface is made of.");
     let mut textured = false;
     let mut bsdf = *bsdf;
-    for Binding { parameters, slot } in bsdf.parameters() {
+    let mut bindings = bsdf.parameters();
+    bindings.sort_by_key(|binding| rank(&binding.slot));
+    for Binding { parameters, slot } in bindings {
         let parameter = &parameters[0];
         let own = id(Property::Parameter(parameter.name));
         match slot {
             Slot::Share(Colour::Constant(c)) => {
                 out.colour(own, parameter.label, c.to_array(), parameter.help);
+                // White is physical.
+                if parameter.role.is_none() && parameter.name == "specular_reflectance" {
+                    out.advance();
+                }
             }
             Slot::Share(Colour::Texture(_)) => textured = true,
-            Slot::Number(x) | Slot::Refraction(x) => out.parameter(own, parameter, f64::from(*x)),
-            Slot::Boolean(on) => out.toggle(own, parameter.label, *on, parameter.help),
+            Slot::Number(x) | Slot::Refraction(x) => {
+                out.parameter(own, parameter, f64::from(*x));
+                // Outside is nearly always air.
+                if parameter.role == Some(Role::OutsideIor) {
+                    out.advance();
+                }
+            }
+            Slot::Boolean(on) => {
+                out.toggle(own, parameter.label, *on, parameter.help);
+                out.advance();
+            }
             Slot::Metal { eta, k } => metal_fields(side, parameters, [*eta, *k], out),
             Slot::Roughness(roughness) => roughness_fields(side, parameters, *roughness, out),
         }
     }
     textured
+}
+
+/// What people look for first: the index of refraction or the metal, then roughness, then colours.
+const fn rank(slot: &Slot<'_>) -> u8 {
+    match slot {
+        Slot::Refraction(_) | Slot::Number(_) | Slot::Metal { .. } => 0,
+        Slot::Roughness(_) => 1,
+        Slot::Share(_) => 2,
+        Slot::Boolean(_) => 3,
+    }
 }
 
 /// The parameter of a name among those that say one thing together.
@@ -133,6 +158,7 @@ fn roughness_fields(
         let options = MicrofacetDistribution::ALL.map(|d| d.label().to_owned()).to_vec();
         let id = id(Property::Parameter("distribution"));
         out.choice(id, parameter.label, distribution as usize, options, parameter.help);
+        out.advance();
     }
 }
 

@@ -133,3 +133,36 @@ fn a_shared_material_says_so_and_can_be_made_ones_own() {
     );
     assert_eq!(format!("{:?}", red.materials[0]), format!("{:?}", description.materials[0]));
 }
+
+#[test]
+fn index_roughness_and_colour_come_first_and_what_physicists_set_is_advanced() {
+    let property = |f: &Field| match f.id {
+        FieldId::Material(Side::Front, Property::Parameter(name)) => Some(name),
+        FieldId::Material(Side::Front, Property::Channel(name, _)) => Some(name),
+        FieldId::Material(Side::Front, Property::Rough) => Some("rough"),
+        _ => None,
+    };
+    let parted = |d: &SceneDescription| {
+        let fields = inspect(d, BALL).unwrap().fields;
+        let of = |advanced: bool| {
+            let mut names: Vec<_> =
+                fields.iter().filter(|f| f.is_advanced == advanced).filter_map(property).collect();
+            names.dedup();
+            names
+        };
+        (of(false), of(true))
+    };
+    let kind =
+        |kind| set(&scene(), BALL, FieldId::Material(Side::Front, Property::Kind), Value::Choice(kind));
+    assert_eq!(
+        parted(&scene()),
+        (vec!["int_ior", "rough", "specular_transmittance"], vec!["ext_ior", "specular_reflectance"])
+    );
+    let (plain, advanced) = parted(&kind(4));
+    assert_eq!(
+        (plain, advanced.first(), advanced.last()),
+        (vec!["material", "rough"], Some(&"eta"), Some(&"specular_reflectance"))
+    );
+    assert_eq!(parted(&kind(5)).0, ["int_ior", "rough", "diffuse_reflectance"]);
+    assert_eq!(parted(&kind(3)).0, ["specular_reflectance"], "the colour of a mirror");
+}

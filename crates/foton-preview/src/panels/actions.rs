@@ -114,7 +114,8 @@ pub(super) fn open_dialog(state: &mut State) {
 }
 
 pub(super) fn save_dialog(state: &mut State) {
-    let path = beside_the_scene(state, "-edited.xml");
+    let is_edited_file = state.frame.as_ref().is_some_and(|f| f.scene.name.ends_with("-edited.xml"));
+    let path = beside_the_scene(state, if is_edited_file { ".xml" } else { "-edited.xml" });
     state.dialog = Some((DialogPurpose::SaveScene, FileDialog::save(&path, &["xml"])));
 }
 

@@ -6,7 +6,7 @@ use foton_session::engine::{Command, Gesture};
 
 use super::number::{Change, Digits, Number};
 use super::slider::Slider;
-use super::widgets::row;
+use super::widgets::{row, tight};
 use crate::state::State;
 
 const HELP: &str = "Angle of view along the camera's own axis, 1° to 170°";
@@ -37,6 +37,7 @@ pub(super) fn sides(ui: &mut Ui, state: &mut State) {
     const HELP: &str = "Looks along an axis at what the camera turns around, from the same distance. The camera stays a perspective one; \
                         a narrow field of view from afar comes near to an orthographic view";
     row(ui, "View from", HELP, |ui, _| {
+        tight(ui);
         for side in ViewSide::ALL {
             if ui.button(side.name()).on_hover_text(HELP).clicked() {
                 state.ask(Command::Camera { gesture: Gesture::Face(side), moving: false });

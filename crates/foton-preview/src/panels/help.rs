@@ -2,17 +2,18 @@
 
 use crate::state::State;
 
-const KEYS: [(&str, &str); 28] = [
+const KEYS: [(&str, &str); 29] = [
     ("Drag", "orbit the camera"),
     ("Shift+drag, right drag", "pan the camera"),
     ("Wheel", "camera nearer, farther"),
     ("W A S D Q E", "fly"),
     ("H", "reset the camera"),
     ("Click", "select a shape or light"),
-    ("M, R, X", "handles that move, rotate, scale what is selected"),
-    ("Drag a handle", "along its axis or plane; with Ctrl in round steps (N: always)"),
-    ("Arrow keys, Page up, Page down", "move what is selected a little"),
-    ("F2, Ctrl+D, Del", "rename, duplicate, delete"),
+    ("Drag a handle", "move, rotate or scale what is selected; Ctrl: round steps"),
+    ("M, R, X", "handles that move, rotate, scale"),
+    ("N", "round steps on and off"),
+    ("F2, Ctrl+D, Del", "rename, duplicate, delete what is selected"),
+    ("Arrow keys, Page up, Page down", "move it a little"),
     ("Ctrl+Z, Ctrl+Shift+Z", "undo, redo"),
     ("Esc", "cancel, deselect, close"),
     ("Ctrl+wheel, Ctrl+drag", "zoom and move the image"),

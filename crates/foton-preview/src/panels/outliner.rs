@@ -5,6 +5,7 @@ use foton_edit::{Item, NewThing, Target};
 use foton_session::engine::{Command, SceneEdit};
 
 use super::actions;
+use super::widgets::tight;
 use crate::editing::Renaming;
 use crate::files::{FileDialog, MESHES};
 use crate::state::{DialogPurpose, State};
@@ -61,10 +62,8 @@ type Act = fn(&mut State);
 
 /// What can be done to the list and to what is selected in it.
 fn buttons(ui: &mut Ui, state: &mut State) {
-    ui.horizontal_wrapped(|ui| {
-        // All of them in one line of a narrow panel.
-        ui.spacing_mut().button_padding.x = 5.0;
-        ui.spacing_mut().item_spacing.x = 4.0;
+    ui.horizontal(|ui| {
+        tight(ui);
         let add = ui.menu_button("Add", |ui| add_menu(ui, state));
         add.response.on_hover_text("Puts a shape or a light where the camera looks");
         let is_selected = actions::selected(state).is_some();

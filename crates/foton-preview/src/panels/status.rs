@@ -29,7 +29,7 @@ pub(super) fn show(ui: &mut Ui, state: &State) {
             ui.separator();
         }
         let probe = frame.probe.as_ref().filter(|p| Some(p.pixel) == state.probed);
-        let rest = probe.map_or_else(|| frame.scene.name.clone(), probed);
+        let rest = probe.map_or_else(|| frame.scene.title.clone(), probed);
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| ui.add(Label::new(rest).truncate()));
     });
 }

@@ -39,6 +39,12 @@ pub(super) fn row<R>(ui: &mut Ui, name: &str, help: &str, control: impl FnOnce(&
     .inner
 }
 
+/// Lets several buttons share a line of a narrow panel.
+pub(super) fn tight(ui: &mut Ui) {
+    ui.spacing_mut().item_spacing.x = 3.0;
+    ui.spacing_mut().button_padding.x = 5.0;
+}
+
 /// A button of the toolbar: an icon and its label.
 pub(super) struct Tool<'a> {
     pub(super) icon: Icon,

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 
-use crossbeam_channel::{Receiver, Sender, bounded};
+use crossbeam_channel::{Receiver, bounded};
 use foton_integrator::{Cancel, RenderSettings};
 use foton_scene::description::SceneDescription;
 use foton_scene::{BuildError, BuildOptions, Scene};
@@ -96,10 +96,18 @@ pub(super) struct Ready {
     pub(super) findings: Vec<Finding>,
 }
 
-/// A scene that is being opened; dropped it is given up.
+/// What was asked for of a file.
+pub(super) enum Arrival {
+    /// A scene, to take the place of the present one.
+    Scene(Box<Ready>),
+    /// A model, to be added to the present scene, by the name of its file.
+    Model(String, Arc<SceneDescription>),
+}
+
+/// A scene that is being opened, or a model; dropped it is given up.
 pub(super) struct Opening {
     pub(super) name: String,
-    pub(super) result: Receiver<Result<Box<Ready>, String>>,
+    pub(super) result: Receiver<Result<Arrival, String>>,
     at: Arc<Mutex<Option<BuildProgress>>>,
     cancel: Cancel,
 }
@@ -113,12 +121,35 @@ impl Drop for Opening {
 impl Opening {
     /// Begins to open a scene.
     pub(super) fn begin(loader: &Arc<dyn Loader>, source: Source) -> Self {
-        let (sender, result) = bounded(1);
         let loader = Arc::clone(loader);
-        let (name, cancel, at) = (source.to_string(), Cancel::default(), Arc::new(Mutex::new(None)));
-        let (told, asked) = (Arc::clone(&at), cancel.clone());
-        let work = move || open(&*loader, source, &sender, &told, asked);
-        if let Err(error) = thread::Builder::new().name("open".to_owned()).spawn(work) {
+        let name = source.to_string();
+        Self::of(name, move |at, cancel| open_and_build(&*loader, source, at, cancel).map(Arrival::Scene))
+    }
+
+    /// Begins to read a model.
+    pub(super) fn import(loader: &Arc<dyn Loader>, path: PathBuf) -> Self {
+        let loader = Arc::clone(loader);
+        let name =
+            foton_input::printable(&path.file_name().unwrap_or_default().to_string_lossy()).into_owned();
+        let of = name.clone();
+        Self::of(name, move |_, cancel| Ok(Arrival::Model(of, Arc::new(loader.import(&path, &cancel)?))))
+    }
+
+    /// Work on a file of that name, on a thread of its own.
+    fn of(
+        name: String,
+        work: impl FnOnce(&Mutex<Option<BuildProgress>>, Cancel) -> Result<Arrival, String> + Send + 'static,
+    ) -> Self {
+        let (sender, result) = bounded(1);
+        let (cancel, at) = (Cancel::default(), Arc::new(Mutex::new(None)));
+        let (told, asked, of) = (Arc::clone(&at), cancel.clone(), name.clone());
+        let guarded = move || {
+            let result = catch_panic(|| work(&told, asked));
+            let result = result.unwrap_or_else(|message| Err(format!("{of}: foton has a fault: {message}")));
+            // Nobody listens any more when it was given up.
+            let _ = sender.send(result);
+        };
+        if let Err(error) = thread::Builder::new().name("open".to_owned()).spawn(guarded) {
             let (sender, result) = bounded(1);
             let _ = sender.send(Err(format!("cannot make a thread: {error}")));
             return Self { name, result, at, cancel };
@@ -130,21 +161,6 @@ impl Opening {
     pub(super) fn building(&self) -> Option<BuildProgress> {
         *self.at.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-fn open(
-    loader: &dyn Loader,
-    source: Source,
-    sender: &Sender<Result<Box<Ready>, String>>,
-    at: &Mutex<Option<BuildProgress>>,
-    cancel: Cancel,
-) {
-    let name = source.to_string();
-    let work = || open_and_build(loader, source, at, cancel);
-    let result =
-        catch_panic(work).unwrap_or_else(|message| Err(format!("{name}: foton has a fault: {message}")));
-    // Nobody listens any more when opening was cancelled.
-    let _ = sender.send(result);
 }
 
 fn open_and_build(

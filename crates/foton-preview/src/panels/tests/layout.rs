@@ -26,6 +26,12 @@ pub(super) fn fill(state: &mut State) {
     let mut scene = SceneFacts::clone(&frame.scene);
     scene.name = "a scene whose name is as long as names of files may be, and then some ".repeat(3) + ".xml";
     scene.sensors[0].name = "the camera above the door at the far end of the long corridor".repeat(2);
+    scene.title = scene.name.clone();
+    let long = |mut item: Item| {
+        item.name = format!("{} with a name that no panel has room for", item.name).repeat(2);
+        item
+    };
+    scene.contents = Arc::new(contents().into_iter().map(long).collect());
     frame.scene = Arc::new(scene);
     frame.stats.passes = 123_456_789;
     frame.stats.photons = u64::MAX / 3;

@@ -1,15 +1,14 @@
 //! Edits as the window asks for them, and those that change which things a scene has.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use foton_edit::{Edit, Make, Site, Target, UpAxis, anchor, focus_distance};
 use foton_math::glam::DVec3;
+use foton_scene::description::SceneDescription;
 
 use super::chosen::Chosen;
 use super::{EditableScene, Effect};
 use crate::engine::command::SceneEdit;
-use crate::engine::loader::Loader;
 
 /// How large a new thing is: its half, as a share of half the view.
 const NEW_SIZE: f64 = 0.16;
@@ -19,12 +18,7 @@ const BESIDE: f64 = 0.08;
 
 impl EditableScene {
     /// Makes an edit, seen by a camera.
-    pub(in crate::engine) fn obey(
-        &mut self,
-        sensor: usize,
-        edit: SceneEdit,
-        loader: &dyn Loader,
-    ) -> Result<Effect, String> {
+    pub(in crate::engine) fn obey(&mut self, sensor: usize, edit: SceneEdit) -> Result<Effect, String> {
         match edit {
             SceneEdit::BeginDrag { handle, film, reach } => {
                 self.begin_drag(sensor, handle, film, reach);
@@ -49,7 +43,8 @@ impl EditableScene {
                 let site = self.site(sensor);
                 self.restructure(&Edit::Add { thing, site })
             }
-            SceneEdit::Import(path) => self.import(sensor, &path, loader),
+            // Read first, on a thread of its own.
+            SceneEdit::Import(_) => Ok(Effect::None),
             SceneEdit::Undo => self.undo(),
             SceneEdit::Redo => self.redo(),
         }
@@ -102,12 +97,15 @@ impl EditableScene {
         }
     }
 
-    fn import(&mut self, sensor: usize, path: &Path, loader: &dyn Loader) -> Result<Effect, String> {
-        let from = loader.import(path, &self.cancels.quit)?;
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let name = foton_input::printable(&name).into_owned();
+    /// Adds the shapes of a model, by the name of its file.
+    pub(in crate::engine) fn import(
+        &mut self,
+        sensor: usize,
+        name: String,
+        from: Arc<SceneDescription>,
+    ) -> Result<Effect, String> {
         let site = self.site(sensor);
-        self.restructure(&Edit::Import { name, from: Arc::new(from), site })
+        self.restructure(&Edit::Import { name, from, site })
     }
 
     /// Where a new thing goes: what is in the middle of the image.

@@ -9,17 +9,18 @@ mod sensors;
 mod tests;
 
 use std::any::Any;
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use foton_edit::{Camera, History, Item, camera_xml, contents, focus_distance};
+use foton_edit::{Camera, History, Item, Target, camera_xml, contents, focus_distance};
 use foton_scene::Scene;
 use foton_scene::description::{SceneDescription, SensorDescription};
 
 use self::chosen::Chosen;
 use super::cancels::Cancels;
 use super::command::{Gesture, Source};
-use super::frame::{SceneFacts, SensorFacts};
+use super::frame::{SceneFacts, Selection, SensorFacts};
 use super::loader::{Ready, SavedScene};
 use crate::metadata::SceneIdentity;
 
@@ -44,6 +45,9 @@ impl PartialEq for SceneState {
         Arc::ptr_eq(&self.description, &other.description) && self.sensors == other.sensors
     }
 }
+
+/// What a selection is of: the description, the thing, and the camera that sees it.
+type Shown = (Arc<SceneDescription>, Target, usize);
 
 /// The camera of a sensor that was moved.
 struct MovedCamera {
@@ -78,6 +82,8 @@ pub(super) struct EditableScene {
     /// The camera of a sensor, once it was moved.
     moved: Option<MovedCamera>,
     chosen: Option<Chosen>,
+    /// The selection as frames have it, and what it is of: the description, the thing and the camera.
+    shown: RefCell<Option<(Shown, Selection)>>,
     /// The history's description with the sensors as they are.
     description: Arc<SceneDescription>,
     scene: Arc<Scene>,
@@ -106,6 +112,7 @@ impl EditableScene {
             sensors,
             moved: None,
             chosen: None,
+            shown: RefCell::default(),
             description: Arc::clone(&description),
             scene,
             built: Arc::clone(&description),

@@ -34,6 +34,7 @@ impl EditableScene {
     /// Selects a shape, light or camera, if it is there.
     pub(in crate::engine) fn select(&mut self, target: Option<Target>) {
         let there = target.filter(|target| inspect(&self.description, *target).is_some());
+        self.shown.take();
         self.chosen = there.map(|target| Chosen::new(&self.description, target, None));
     }
 
@@ -185,16 +186,27 @@ impl EditableScene {
         self.rebuild()
     }
 
-    /// What is chosen, as the window shows it.
+    /// What is selected, as the window shows it. Frames ask for it often, and sizes of large meshes take a while: it is made again only
+    /// where something changed.
     pub(in crate::engine) fn selection(&self, sensor: usize) -> Option<Selection> {
         let chosen = self.chosen.as_ref()?;
-        Some(Selection {
-            target: chosen.target,
-            inspection: inspect(&self.description, chosen.target)?,
-            outline: chosen.outline.segments(&self.description, sensor),
-            gizmo: self.gizmo(chosen, sensor),
-            drag: chosen.drag.as_ref().map(|d| d.words.clone()).filter(|words| !words.is_empty()),
-        })
+        let words = chosen.drag.as_ref().map(|d| d.words.clone()).filter(|words| !words.is_empty());
+        let key = (Arc::clone(&self.description), chosen.target, sensor);
+        let mut shown = self.shown.borrow_mut();
+        let is_known = shown
+            .as_ref()
+            .is_some_and(|(known, _)| Arc::ptr_eq(&known.0, &key.0) && (known.1, known.2) == (key.1, key.2));
+        if !is_known {
+            let selection = Selection {
+                target: chosen.target,
+                inspection: inspect(&self.description, chosen.target)?,
+                outline: chosen.outline.segments(&self.description, sensor),
+                gizmo: self.gizmo(chosen, sensor),
+                drag: None,
+            };
+            *shown = Some((key, selection));
+        }
+        shown.as_ref().map(|(_, selection)| Selection { drag: words, ..selection.clone() })
     }
 
     /// Where lights without a surface are.

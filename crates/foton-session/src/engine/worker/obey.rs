@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use foton_integrator::SettingChange;
+use foton_scene::description::SceneDescription;
 
 use super::Worker;
 use super::state::Flow;
@@ -182,8 +183,20 @@ impl Worker {
     }
 
     fn edit(&mut self, edit: SceneEdit) {
-        self.plan.moving = self.scene.is_some() && edit.is_moving();
-        let (sensor, loader) = (self.plan.settings.sensor, Arc::clone(&self.setup.loader));
-        self.change_scene(|scene| scene.obey(sensor, edit, &*loader));
+        let sensor = self.plan.settings.sensor;
+        match edit {
+            // A large file takes a while; the render goes on.
+            SceneEdit::Import(path) => self.opening = Some(Opening::import(&self.setup.loader, path)),
+            edit => {
+                self.plan.moving = self.scene.is_some() && edit.is_moving();
+                self.change_scene(|scene| scene.obey(sensor, edit));
+            }
+        }
+    }
+
+    /// Adds a model that was read to the scene.
+    pub(super) fn add_model(&mut self, name: String, model: Arc<SceneDescription>) {
+        let sensor = self.plan.settings.sensor;
+        self.change_scene(|scene| scene.import(sensor, name, model));
     }
 }

@@ -11,7 +11,7 @@ use super::publish::When;
 use super::state::Flow;
 use crate::engine::command::Event;
 use crate::engine::editable_scene::EditableScene;
-use crate::engine::loader::Ready;
+use crate::engine::loader::{Arrival, Ready};
 use crate::engine::render::{Level, LevelRender};
 use crate::engine::starting::Starting;
 use crate::session::{PassError, Session, StartError};
@@ -21,13 +21,14 @@ use crate::threads::{self, Rank};
 const SLICE: Duration = Duration::from_millis(200);
 
 impl Worker {
-    /// Takes a scene that was opened meanwhile.
+    /// Takes a scene or a model that was opened meanwhile.
     pub(super) fn take_opened(&mut self) {
         let Some(result) = self.opening.as_ref().and_then(|o| o.result.try_recv().ok()) else { return };
         self.opening = None;
         self.published.unseen = true;
         match result {
-            Ok(ready) => self.show(*ready),
+            Ok(Arrival::Scene(ready)) => self.show(*ready),
+            Ok(Arrival::Model(name, model)) => self.add_model(name, model),
             Err(message) => self.event(Event::Failed(message)),
         }
     }
