@@ -38,9 +38,16 @@ struct Shots {
 
 fn main() {
     let arguments: Vec<PathBuf> = env::args_os().skip(1).map(PathBuf::from).collect();
-    let [foton, target] = arguments.as_slice() else { panic!("usage: screenshots FOTON FOLDER") };
+    let [foton, target, only @ ..] = arguments.as_slice() else {
+        panic!("usage: screenshots FOTON FOLDER [SIZE]")
+    };
     std::fs::create_dir_all(target).expect("a folder");
     for (size, scale) in SIZES {
+        let pixels = size.map(|v| (f64::from(v) * scale) as u32);
+        let name = format!("{}x{}", pixels[0], pixels[1]);
+        if only.first().is_some_and(|only| *only != PathBuf::from(&name)) {
+            continue;
+        }
         for is_dark in [true, false] {
             shoot(foton, target, size, scale, is_dark);
         }
