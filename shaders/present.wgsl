@@ -16,6 +16,8 @@ override COMPARES: bool;
 /// compile a shader anew for every value that alone decides a branch, and keep them all.
 override SHRINKS_A: bool;
 override SHRINKS_B: bool;
+/// Whether pixels are marked that the tone map brings to the ends of a byte.
+override MARKS_CLIPPING: bool;
 
 /// Radiance through exposure and tone map, or the luminance as a position in the range, by value or by logarithm.
 const RADIANCE: u32 = 0u;
@@ -28,6 +30,11 @@ const PBR_NEUTRAL: u32 = 1u;
 /// As in foton_film::tone_map.
 const BRIGHTEST: f32 = 65504.0;
 const NOT_FINITE = vec3f(1.0, 0.0, 1.0);
+
+/// Stripes over what is too bright in a channel, and what stands for black.
+const CLIPPED = vec3f(1.0, 0.0, 0.0);
+const BLACK = vec3f(0.0, 0.2, 0.8);
+const STRIPE: u32 = 4u;
 
 /// A pixel of the screen looks at no more texels than this along each axis.
 const MAX_TAPS: f32 = 32.0;
@@ -101,7 +108,21 @@ fn seen(image: texture_2d<f32>, extent: vec2f, shrinks: bool, pixel: vec2f) -> v
     if any(uv < vec2f(0.0)) || any(uv >= vec2f(1.0)) {
         return view.background;
     }
-    return colour(look_up(image, extent, shrinks, uv));
+    let shown = colour(look_up(image, extent, shrinks, uv));
+    if MARKS_CLIPPING && MODE == RADIANCE {
+        return marked(shown, vec2u(pixel));
+    }
+    return shown;
+}
+
+/// A colour as it is, or what says that its bytes are at an end.
+fn marked(shown: vec3f, pixel: vec2u) -> vec3f {
+    if all(shown < vec3f(0.5 / 255.0)) {
+        return BLACK;
+    }
+    let is_clipped = any(shown >= vec3f(254.5 / 255.0));
+    let is_stripe = ((pixel.x + pixel.y) / STRIPE) % 2u == 0u;
+    return select(shown, CLIPPED, is_clipped && is_stripe);
 }
 
 /// The mean over the pixel's box where the image shrinks, else the texel below `uv`.

@@ -247,7 +247,7 @@ pub fn read_checkpoint(data: &[u8]) -> String {
             return "no place to write".into();
         }
         let Genuine { session, identity, .. } = &mut *genuine;
-        match checkpoint::resume(&path, session, identity) {
+        match checkpoint::resume(&path, session, identity, false) {
             // What was taken up must render.
             Ok(()) if session.render().settings().ppm.photons_per_pass.get() <= 1 << 16 => {
                 let report = session.advance(&Cancel::default()).expect("not cancelled");

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use foton_integrator::{
-    Alpha, Cancel, DirectLight, PpmSettings, RadiusRule, Render, RenderSettings, SettingChange,
+    Alpha, Cancel, DirectLight, LayerKind, PpmSettings, RadiusRule, Render, RenderSettings, SettingChange,
 };
 use foton_math::glam::DVec3;
 use foton_session::checkpoint::{self, ResumeError};
@@ -88,7 +88,7 @@ fn a_render_that_was_taken_up_has_the_bits_of_one_that_never_stopped() {
         let (elapsed, rays) = (whole.elapsed(), whole.rays());
         advance(&mut whole, 4);
         let mut taken_up = start(&settings, 1);
-        checkpoint::resume(&path, &mut taken_up, &identity()).expect("taken up");
+        checkpoint::resume(&path, &mut taken_up, &identity(), false).expect("taken up");
         assert_eq!((taken_up.elapsed(), taken_up.rays()), (elapsed, rays));
         assert_eq!(taken_up.render().changes(), whole.render().changes());
         advance(&mut taken_up, 4);
@@ -100,6 +100,43 @@ fn a_render_that_was_taken_up_has_the_bits_of_one_that_never_stopped() {
     }
 }
 
+/// Light by path class is beside the rest: with it or without, a state goes on with the same image.
+#[test]
+fn a_state_with_light_by_class_goes_on_without_and_the_other_way_round() {
+    let with = |layers| RenderSettings { layers, ..settings() };
+    let resumed = |from: bool, to: bool, needs_classes| {
+        let mut session = start(&with(from), 2);
+        advance(&mut session, 2);
+        let path = keep(&session, &format!("classes-{from}-{to}-{needs_classes}"));
+        let mut taken_up = start(&with(to), 2);
+        let result = checkpoint::resume(&path, &mut taken_up, &identity(), needs_classes);
+        let _ = fs::remove_file(path);
+        result.map(|()| {
+            advance(&mut taken_up, 2);
+            taken_up
+        })
+    };
+    let mut straight = start(&with(true), 2);
+    advance(&mut straight, 4);
+    let caustic = |session: &Session| session.render().colour_layer(LayerKind::Caustic);
+    for (from, to) in [(true, false), (false, true), (true, true)] {
+        let session = resumed(from, to, false).expect("taken up");
+        assert_eq!(session.render().image(), straight.render().image(), "{from} {to}");
+        let photons = session.render().photons_by_class();
+        let all = session.render().photons_emitted();
+        let counted = [None, Some(all)][usize::from(to)];
+        if from {
+            assert_eq!(photons, counted);
+        } else {
+            assert!(photons.is_some_and(|n| n > 0 && n < all), "{photons:?} of {all}");
+        }
+        assert!(!(from && to) || caustic(&session) == caustic(&straight));
+    }
+    assert!(resumed(true, true, true).is_ok());
+    let refused = resumed(false, true, true).map(|_| ()).expect_err("it has none");
+    assert!(refused.to_string().contains("kinds of light summed, not kept apart"), "{refused}");
+}
+
 #[test]
 fn other_scenes_settings_and_versions_and_damaged_files_are_refused() {
     let mut session = start(&settings(), 2);
@@ -107,7 +144,7 @@ fn other_scenes_settings_and_versions_and_damaged_files_are_refused() {
     let path = keep(&session, "refused");
     let bytes = fs::read(&path).expect("there");
     let try_with = |settings: &RenderSettings, scene: &SceneIdentity| {
-        checkpoint::resume(&path, &mut start(settings, 1), scene)
+        checkpoint::resume(&path, &mut start(settings, 1), scene, false)
     };
     let other = RenderSettings { seed: 1, ..settings() };
     assert!(matches!(try_with(&other, &identity()), Err(ResumeError::OtherRender { .. })));

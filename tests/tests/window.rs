@@ -203,10 +203,13 @@ fn what_is_saved_is_what_is_rendered(driver: &mut Driver, foton: &Path, scene: &
         probed.push((pixel, radiance));
     }
     driver.key("p");
-    driver
-        .window
-        .wait("it saved", |l| l["message"].as_str().filter(|m| m.contains("foton-001.png")).map(|_| ()));
-    let saved = driver.folder.join("foton-001.exr");
+    let saved = driver.window.wait("it saved", |l| {
+        let path = l["message"].as_str()?.strip_prefix("Saved ")?;
+        path.ends_with(".exr").then(|| PathBuf::from(path))
+    });
+    driver.window.wait("the other", |l| l["message"].as_str().filter(|m| m.ends_with(".png")).map(|_| ()));
+    let name = format!("Pictures/foton/small-001-p{pass:06}.exr");
+    assert_eq!(saved, driver.folder.join(name), "among the user's pictures, by scene, run and pass");
     let (image, metadata) = read_exr(&saved).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(metadata.get("foton:passes"), Some(format!("{pass}").as_str()));
     for (pixel, radiance) in probed {

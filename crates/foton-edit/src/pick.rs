@@ -27,10 +27,10 @@ pub struct Picked {
     pub normal: [f64; 3],
 }
 
-/// The first surface through a film position in pixels, (0, 0) being the image's top left corner. Glass counts.
+/// The first surface through a film position in pixels, (0, 0) being the whole image's top left corner. Glass counts.
 #[must_use]
 pub fn pick(scene: &Scene, sensor: usize, film: [f64; 2]) -> Option<Picked> {
-    let ray = scene.sensors().get(sensor)?.ray(DVec2::from(film).as_vec2());
+    let ray = scene.sensors().get(sensor)?.ray_of_whole(DVec2::from(film).as_vec2());
     let surface = scene.nearest(ray)?;
     let shape = &scene.shapes()[surface.shape as usize];
     let to_world = scene.normalisation();
@@ -86,11 +86,13 @@ pub fn pick_any(
 #[must_use]
 pub fn focus_distance(scene: &Scene, sensor: usize) -> f64 {
     let Some(s) = scene.sensors().get(sensor) else { return 1.0 };
-    let middle = Vec2::new(s.width as f32, s.height as f32) * 0.5;
+    let window = s.window();
+    let middle =
+        Vec2::new(window.x as f32 + 0.5 * window.width as f32, window.y as f32 + 0.5 * window.height as f32);
     if let Some(picked) = pick(scene, sensor, middle.as_dvec2().to_array()) {
         return picked.distance;
     }
-    let (ray, bounds) = (s.ray(middle), scene.bounds());
+    let (ray, bounds) = (s.ray_of_whole(middle), scene.bounds());
     let ahead = (bounds.centre() - ray.origin).dot(ray.direction).max(0.1 * bounds.radius());
     scene.normalisation().world_length(f64::from(ahead))
 }

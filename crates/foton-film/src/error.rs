@@ -62,6 +62,24 @@ pub enum WriteError {
 }
 
 impl WriteError {
+    /// Whether something has the name already that a new file was to have: see [`write_new`](crate::write_new).
+    #[must_use]
+    pub fn is_taken(&self) -> bool {
+        matches!(self, Self::Io { cause, .. } if cause.kind() == io::ErrorKind::AlreadyExists)
+    }
+
+    /// The same of another file.
+    pub(crate) fn about(mut self, of: &Path) -> Self {
+        let (Self::NoFolder { path, .. }
+        | Self::ReadOnly { path }
+        | Self::Folder { path, .. }
+        | Self::Special { path, .. }
+        | Self::Io { path, .. }
+        | Self::Content { path, .. }) = &mut self;
+        of.clone_into(path);
+        self
+    }
+
     /// For `map_err`: an I/O failure while writing `path`.
     pub(crate) fn io(path: &Path) -> impl Fn(io::Error) -> Self {
         move |cause| Self::Io { path: path.into(), cause }

@@ -36,6 +36,16 @@ impl ToneMap {
         }
     }
 
+    /// Its name in metadata and on the command line.
+    #[must_use]
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::PbrNeutral => "pbr-neutral",
+            Self::AgX => "agx",
+        }
+    }
+
     /// The mapped colour, linear in [0, 1]³, of a colour in [0, [`BRIGHTEST`]]³.
     #[must_use]
     pub fn apply(self, c: Rgb) -> Rgb {

@@ -224,6 +224,13 @@ impl Render {
         each!(&self.0, r => r.colour_layer(kind))
     }
 
+    /// Photons of the passes whose light was summed by class, fewer than [`Render::photons_emitted`] where a state without that was
+    /// restored; `None` without [`RenderSettings::layers`].
+    #[must_use]
+    pub fn photons_by_class(&self) -> Option<u64> {
+        each!(&self.0, r => r.photons_by_class())
+    }
+
     /// How wrong the image still is; `None` without [`RenderSettings::error`], in the first passes, and in the dark.
     #[must_use]
     pub fn error(&self) -> Option<ErrorEstimate> {

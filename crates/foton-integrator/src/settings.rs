@@ -41,7 +41,8 @@ pub struct RenderSettings {
     pub seed: u64,
     /// Index of the sensor.
     pub sensor: usize,
-    /// Whether direct, caustic and indirect light are summed separately (costs 24 to 72 bytes a hit point and pixel).
+    /// Whether direct, caustic and indirect light are summed separately beside all light, whose bits that does not change (costs 24
+    /// bytes a hit point, 72 a pixel and some time).
     pub layers: bool,
     /// Whether the error is estimated pass by pass (costs 8 bytes a hit point, 64 more where radii do not adapt, 32 a pixel and
     /// some time).

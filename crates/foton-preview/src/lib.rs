@@ -4,8 +4,11 @@
 //! [`run`] is all there is to call. Inside, `state` holds what is known and set, `panels` draw it, `present` puts pictures on
 //! the screen, and `window` ties them to the system.
 
+mod difference;
 mod editing;
 mod files;
+mod light_scale;
+mod looking;
 mod panels;
 mod preferences;
 mod present;
@@ -13,4 +16,5 @@ mod state;
 mod themes;
 mod window;
 
+pub use looking::BuiltIn;
 pub use window::{Close, Options, WindowError, run};

@@ -7,9 +7,11 @@ use std::path::PathBuf;
 use foton_film::ToneMap;
 use foton_session::SettingChange;
 use foton_session::engine::{Command, Configuration, Event, Frame, Picture, Source, ViewMode};
+use foton_session::snapshot::Look;
 
 use crate::editing::Editing;
 use crate::files::FileDialog;
+use crate::looking::{BuiltIn, Looking};
 use crate::preferences::Preferences;
 
 /// Points of a plot at most; older ones are thinned.
@@ -41,6 +43,8 @@ pub(crate) struct Message {
 pub(crate) struct Pinned {
     pub(crate) picture: Picture,
     pub(crate) label: String,
+    /// The number of the pass in the history, if it is from there.
+    pub(crate) entry: Option<u64>,
 }
 
 /// How the image lies in the window.
@@ -132,10 +136,15 @@ pub(crate) struct State {
     pub(crate) placement: Placement,
     pub(crate) exposure_stops: f32,
     pub(crate) tone_map: ToneMap,
+    /// How PNGs show radiance, as the engine was told.
+    told_look: Look,
+    /// Whether the scene that is being opened is the present one, read again.
+    pub(crate) reloads: bool,
     pub(crate) view: ViewMode,
     pub(crate) show_photons: bool,
     pub(crate) auto_snapshots: bool,
     pub(crate) pinned: Option<Pinned>,
+    pub(crate) looking: Looking,
     /// Where the wipe's line is, as a share of the view's width.
     pub(crate) wipe: f32,
     pub(crate) show_help: bool,
@@ -155,7 +164,7 @@ pub(crate) struct State {
     pub(crate) traced: Traced,
     /// The scene's file changed on the disk.
     pub(crate) changed_on_disk: bool,
-    pub(crate) built_in: Vec<String>,
+    pub(crate) built_in: Vec<BuiltIn>,
     /// Where controls are, in points, by name: for scripts that drive the window.
     pub(crate) places: Vec<(&'static str, egui::Rect)>,
     /// What there is to say of the adapter.
@@ -185,7 +194,7 @@ pub(crate) struct State {
 }
 
 impl State {
-    pub(crate) fn new(preferences: Preferences, built_in: Vec<String>) -> Self {
+    pub(crate) fn new(preferences: Preferences, built_in: Vec<BuiltIn>) -> Self {
         Self {
             frame: None,
             outbox: Vec::new(),
@@ -194,10 +203,13 @@ impl State {
             placement: Placement::FIT,
             exposure_stops: 0.0,
             tone_map: ToneMap::default(),
+            told_look: Look::default(),
+            reloads: false,
             view: ViewMode::Radiance,
             show_photons: false,
             auto_snapshots: false,
             pinned: None,
+            looking: Looking::default(),
             wipe: 0.5,
             show_help: false,
             dialog: None,
@@ -254,6 +266,9 @@ impl State {
                 self.pinned = None;
                 self.draft = None;
                 self.changed_on_disk = false;
+                if !std::mem::take(&mut self.reloads) {
+                    self.reset_view();
+                }
                 self.notice(format!("Opened {name}"));
                 for warning in warnings {
                     self.notice(warning);
@@ -273,6 +288,7 @@ impl State {
             }
             Event::Notice(text) => self.notice(text),
             Event::Failed(text) => {
+                self.reloads = false;
                 // What could not be saved is not left.
                 self.after_save = None;
                 self.error(text);
@@ -340,7 +356,29 @@ impl State {
         }
     }
 
+    /// Shows the next scene as it is: exposure, tone map and kinds of light were chosen for the one before.
+    fn reset_view(&mut self) {
+        self.exposure_stops = 0.0;
+        self.tone_map = ToneMap::default();
+        self.choose_view(ViewMode::Radiance);
+    }
+
+    /// Where snapshots go.
     pub(crate) fn snapshot_folder(&self) -> PathBuf {
-        self.preferences.snapshot_folder.clone()
+        let folder = &self.preferences.snapshot_folder;
+        if folder.as_os_str().is_empty() { foton_session::folders::pictures() } else { folder.clone() }
+    }
+
+    /// Tells the engine how PNGs are to show radiance, as a person last saw it, where that has changed.
+    pub(crate) fn tell_look(&mut self) {
+        let look = if self.preferences.png_as_shown {
+            Look { tone_map: self.tone_map, exposure_stops: self.exposure_stops }
+        } else {
+            Look::default()
+        };
+        if look != self.told_look {
+            self.told_look = look;
+            self.ask(Command::SetLook(look));
+        }
     }
 }

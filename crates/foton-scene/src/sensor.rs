@@ -81,6 +81,37 @@ impl Sensor {
         }
     }
 
+    /// The part of the whole image that is rendered.
+    #[must_use]
+    pub fn window(&self) -> Crop {
+        let [x, y] = self.corner.to_array().map(|v| v as u32);
+        Crop { x, y, width: self.width, height: self.height }
+    }
+
+    /// Width and height in pixels of the whole image.
+    #[must_use]
+    pub fn whole(&self) -> [u32; 2] {
+        self.film.to_array().map(|v| v as u32)
+    }
+
+    /// Whether a part of the whole image is rendered, and not all of it.
+    #[must_use]
+    pub fn is_cropped(&self) -> bool {
+        [self.width, self.height] != self.whole()
+    }
+
+    /// The ray through a position in pixels of the whole image.
+    #[must_use]
+    pub fn ray_of_whole(&self, film: Vec2) -> Ray {
+        self.ray(film - self.corner)
+    }
+
+    /// The same position as [`Sensor::project`] finds, in pixels of the whole image.
+    #[must_use]
+    pub fn project_on_whole(&self, point: Vec3) -> Option<(Vec2, f32)> {
+        self.project(point).map(|(film, depth)| (film + self.corner, depth))
+    }
+
     /// The film position that a point is seen at, and its depth along the view axis in scene units; `None` behind the camera.
     #[must_use]
     pub fn project(&self, point: Vec3) -> Option<(Vec2, f32)> {

@@ -22,6 +22,7 @@ pub mod checkpoint;
 mod clock;
 pub mod engine;
 pub mod findings;
+pub mod folders;
 mod interrupt;
 mod metadata;
 mod panic;

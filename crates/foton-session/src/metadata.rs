@@ -1,7 +1,8 @@
 //! What travels with an image: enough to make it again. Nothing of when or where, so that equal renders give equal files.
 
 use foton_film::Metadata;
-use foton_integrator::{DirectLight, RadiusScale, Render};
+use foton_integrator::{DirectLight, LayerKind, RadiusScale, Render};
+use foton_scene::Sensor;
 
 /// The scene as metadata names it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -12,8 +13,17 @@ pub struct SceneIdentity {
     pub hash: u64,
 }
 
-/// Metadata of a render as it stands.
-pub(crate) fn of(render: &Render, scene: &SceneIdentity) -> Metadata {
+/// The part of an image that is rendered, if it is not all of it.
+fn region(sensor: &Sensor) -> String {
+    if !sensor.is_cropped() {
+        return String::new();
+    }
+    let [width, height] = sensor.whole();
+    format!(" region={} of={width}x{height}", sensor.window())
+}
+
+/// Metadata of an image with layers of a render as it stands.
+pub(crate) fn of(render: &Render, layers: &[LayerKind], scene: &SceneIdentity) -> Metadata {
     let s = render.settings();
     let sensor = &render.scene().sensors()[s.sensor];
     let radius = s.ppm.radius.map_or("footprint".to_owned(), |r| r.to_string());
@@ -27,9 +37,10 @@ pub(crate) fn of(render: &Render, scene: &SceneIdentity) -> Metadata {
         DirectLight::Photons => "photons",
         DirectLight::ShadowRays => "shadow-rays",
     };
+    let region = region(sensor);
     let settings = format!(
         "integrator={} alpha={} photons={} first_pass={} radius={radius} radius_rule={rule} radius_floor={} direct={direct} max_depth={} spp={} \
-         size={}x{} sensor={} hit_points_per_sample={} layers={}",
+         size={}x{} sensor={} hit_points_per_sample={} layers={}{region}",
         s.method.name(),
         s.ppm.alpha,
         s.ppm.photons_per_pass,
@@ -41,7 +52,7 @@ pub(crate) fn of(render: &Render, scene: &SceneIdentity) -> Metadata {
         sensor.height,
         sensor.name,
         s.ppm.hit_points_per_sample,
-        s.layers,
+        layers.iter().any(|layer| layer.needs_classes()),
     );
     let changes: Vec<String> =
         render.changes().iter().map(|(pass, change)| format!("{pass} {change}")).collect();

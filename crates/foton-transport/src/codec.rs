@@ -62,6 +62,12 @@ impl<'a> Reader<'a> {
         if self.0.is_empty() { Ok(()) } else { Err(StateError::Length(self.0.len() as i64)) }
     }
 
+    /// Whether no bytes are left.
+    #[must_use]
+    pub const fn is_at_end(&self) -> bool {
+        self.0.is_empty()
+    }
+
     fn take<const N: usize>(&mut self) -> Result<[u8; N], StateError> {
         let (head, tail) =
             self.0.split_first_chunk::<N>().ok_or(StateError::Length(self.0.len() as i64 - N as i64))?;

@@ -10,6 +10,9 @@ pub(crate) struct Embedded {
     /// Its name in messages and metadata.
     pub(crate) name: &'static str,
     xml: &'static str,
+    /// A picture of it, as a PNG.
+    #[cfg_attr(not(feature = "window"), allow(dead_code, reason = "the window shows it"))]
+    pub(crate) thumbnail: &'static [u8],
     files: &'static [(&'static str, &'static [u8])],
 }
 
@@ -19,6 +22,7 @@ macro_rules! scene {
         Embedded {
             name: $name,
             xml: include_str!(concat!("../../../assets/", $name, "/scene.xml")),
+            thumbnail: include_bytes!(concat!("../../../assets/", $name, "/thumbnail.png")),
             files: &[$((
                 concat!("meshes/", $mesh),
                 include_bytes!(concat!("../../../assets/", $name, "/meshes/", $mesh)),

@@ -25,8 +25,8 @@ pub(crate) fn print(args: &Info, console: &Console) -> Result<(), Failure> {
     refuse_two_roles(args.roles(), &opened)?;
     let name = file_name(&args.scene);
     let sensor = choose_sensor(&opened, args.scene_options.sensor.as_deref())?;
-    let probed = opened.description.clone();
-    let bounds = Bounds { size: None, memory: args.memory };
+    let mut probed = opened.description.clone();
+    let bounds = Bounds { size: None, region: args.region, memory: args.memory };
     let (scene, identity) = build(opened, &name, sensor, bounds, console, &cancel)?;
     let settings = RenderSettings { sensor, ..RenderSettings::default() };
     if args.json {
@@ -35,6 +35,10 @@ pub(crate) fn print(args: &Info, console: &Console) -> Result<(), Failure> {
         for line in as_text(&scene, &settings, &name, identity.hash) {
             console.out(&line);
         }
+    }
+    if let Some(region) = args.region {
+        // It was checked when the scene was built.
+        let _ = probed.sensors[sensor].show_only(region);
     }
     // The probe builds its own: both at once would take twice the memory that was asked for.
     drop(scene);

@@ -23,7 +23,7 @@ pub(crate) fn run(args: &Measure, console: &mut Console) -> Result<(), Failure> 
     let name = file_name(&args.scene);
     let sensor = choose_sensor(&opened, args.scene_options.sensor.as_deref())?;
     let suggested = opened.suggested;
-    let bounds = Bounds { size: args.settings.size, memory: None };
+    let bounds = Bounds { size: args.settings.size, ..Bounds::default() };
     let (scene, identity) = build(opened, &name, sensor, bounds, console, interrupt.cancel())?;
     let centre = SettingsBuilder::of_scene(&suggested).options(&args.settings).sensor(sensor).build();
     let given = given.map(|(image, _)| {

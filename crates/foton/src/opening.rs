@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use foton_format::{Opened, Options, Severity};
 use foton_integrator::{Cancel, MemoryEstimate, RenderSettings};
-use foton_scene::description::SceneDescription;
+use foton_scene::description::{Crop, SceneDescription};
 use foton_scene::{BuildOptions, Scene};
 use foton_session::findings::{self, FindingKind, SettingNames};
 use foton_session::{SceneIdentity, Session};
@@ -34,6 +34,8 @@ pub(crate) fn open(
 pub(crate) struct Bounds {
     /// Size of the whole image in pixels; `None`: as the scene says.
     pub(crate) size: Option<Size>,
+    /// The part of the sensor's image that is rendered; `None`: as the scene says.
+    pub(crate) region: Option<Crop>,
     /// Bytes at most; `None`: what the system leaves.
     pub(crate) memory: Option<u64>,
 }
@@ -57,6 +59,9 @@ pub(crate) fn build(
         for sensor in &mut opened.description.sensors {
             sensor.resize(width, height);
         }
+    }
+    if let Some((region, sensor)) = bounds.region.zip(opened.description.sensors.get_mut(sensor)) {
+        sensor.show_only(region).map_err(Failure::Region)?;
     }
     refuse_to_build(&opened.description, bounds.memory)?;
     let tell = console.building();

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use foton_film::check_writable;
 use foton_format::Options;
-use foton_session::snapshot::{self, Format};
+use foton_session::snapshot::{self, Format, Look};
 use foton_session::{Session, StopRule};
 
 use crate::console::{Console, Failure};
@@ -14,7 +14,7 @@ use crate::interrupts::{begin_step, interrupt_on_signals, say_limit};
 use crate::memory::limit;
 use crate::opening::{Bounds, build, refuse_beyond_memory};
 use crate::settings::SettingsBuilder;
-use crate::writing::finish;
+use crate::writing::{Content, Output, finish};
 
 /// When to stop, writing included.
 const TIME: Duration = Duration::from_secs(55);
@@ -41,26 +41,29 @@ pub(crate) fn render(scene: Option<&Path>, console: &mut Console) -> Result<(), 
     let settings = SettingsBuilder::of_scene(&suggested).error(true).build();
     refuse_beyond_memory(&scene, &settings, None, None)?;
     let stem = snapshot::next_free(Path::new(""));
-    let (png, exr) = (stem.with_extension("png"), stem.with_extension("exr"));
-    for path in [&png, &exr] {
+    let output = |extension, format| Output { path: stem.with_extension(extension), format, is_new: true };
+    let (mut png, exr) = (output("png", Format::Png), output("exr", Format::Exr));
+    for path in [&png.path, &exr.path] {
         check_writable(path)?;
     }
+    let content = Content { layers: &[], look: Look::default(), identity: &identity };
     begin_step("collecting hit points");
     console.stage("collecting hit points");
     let mut session = Session::start(scene, settings, None, cancel)?;
     interrupt.begin_passes();
-    console.line(&format!("rendering {name} for a minute to {}; Ctrl-C stops earlier", png.display()));
+    console.line(&format!("rendering {name} for a minute to {}; Ctrl-C stops earlier", png.path.display()));
     let rule = StopRule::time(TIME);
     let mut first_picture = false;
     let cause = session.run(&rule, &interrupt, &mut |progress| {
         console.pass(progress, &rule);
         if !first_picture && progress.elapsed >= FIRST_PICTURE {
             first_picture = true;
-            if let Err(error) = snapshot::write(&png, Format::Png, progress.render, &[], &identity) {
-                console.warning(&format!("the first picture is missing: {error}"));
+            match png.write(&content, progress.render) {
+                Ok(()) => png.is_new = false,
+                Err(error) => console.warning(&format!("the first picture is missing: {error}")),
             }
         }
     });
     say_limit(cause, console);
-    finish(&session, &[(png, Format::Png), (exr, Format::Exr)], &[], &identity, Vec::new(), console)
+    finish(&session, &[png, exr], &content, Vec::new(), console)
 }

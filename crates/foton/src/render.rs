@@ -17,7 +17,7 @@ use crate::console::{Console, Failure};
 use crate::interrupts::{begin_step, interrupt_on_signals, say_limit};
 use crate::opening::{Bounds, build, choose_sensor, file_name, open, refuse_beyond_memory, refuse_two_roles};
 use crate::settings::SettingsBuilder;
-use crate::writing::finish;
+use crate::writing::{Content, Output, finish};
 
 /// How long a render without a stop rule takes.
 const DEFAULT_TIME: Duration = Duration::from_secs(60);
@@ -32,7 +32,7 @@ pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Fai
     let name = file_name(&args.scene);
     let sensor = choose_sensor(&opened, args.scene_options.sensor.as_deref())?;
     let suggested = opened.suggested;
-    let bounds = Bounds { size: args.settings.size, memory: args.memory };
+    let bounds = Bounds { size: args.settings.size, region: args.region, memory: args.memory };
     let (scene, identity) = build(opened, &name, sensor, bounds, console, interrupt.cancel())?;
     let settings = SettingsBuilder::of_scene(&suggested)
         .preset(args.preset.map(Preset::from))
@@ -112,7 +112,7 @@ fn resume(
     rule: &StopRule,
     console: &Console,
 ) -> Result<(), Failure> {
-    checkpoint::resume(path, session, identity)?;
+    checkpoint::resume(path, session, identity, session.render().settings().layers)?;
     if args.strict && session.render().ledger().dropped > 0 {
         return Err(Failure::LeftOut { path: path.to_owned(), values: session.render().ledger().dropped });
     }
@@ -133,6 +133,7 @@ fn run(
 ) -> Result<(), Failure> {
     let (path, format) = &args.output;
     let layers = if *format == Format::Exr { &args.layers[..] } else { &[] };
+    let content = Content { layers, look: args.look(), identity };
     let elapsed = session.elapsed();
     let keeper = |path| Keeper::new(path, identity.clone(), args.checkpoint_every, elapsed);
     let mut keeper = args.checkpoint.as_deref().map(keeper);
@@ -141,7 +142,7 @@ fn run(
         console.pass(progress, rule);
         if args.every.is_some_and(|e| e.is_due(progress.report.pass)) {
             let path = snapshot::numbered(path, progress.report.pass);
-            match snapshot::write(&path, *format, progress.render, layers, identity) {
+            match content.write(&path, *format, progress.render) {
                 Ok(()) => outputs.push(path.display().to_string()),
                 // The passes are still there for the next image.
                 Err(error) => console.warning(&format!("an image on the way is missing: {error}")),
@@ -160,7 +161,8 @@ fn run(
         let instead = unwritten.spare.map(|spare| format!("; the state is in {} instead", spare.display()));
         console.warning(&format!("no checkpoint: {}{}", unwritten.cause, instead.unwrap_or_default()));
     }
-    finish(session, &[(path.clone(), *format)], layers, identity, outputs, console)
+    let output = Output { path: path.clone(), format: *format, is_new: false };
+    finish(session, &[output], &content, outputs, console)
 }
 
 /// Says where a resumed render goes on from. Settings that are asked for by name and may change between passes change with the

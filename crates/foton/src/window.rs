@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use foton_format::{OpenError, Opened, Options, Saved, Severity, save_edited};
 use foton_input::printable;
 use foton_integrator::Cancel;
-use foton_preview::{Close, WindowError};
+use foton_preview::{BuiltIn, Close, WindowError};
 use foton_scene::BuildError;
 use foton_scene::description::SceneDescription;
 use foton_session::SceneIdentity;
@@ -25,7 +25,10 @@ pub(crate) fn show(scene: Option<&Path>, frame_log: Option<&Path>) -> Result<(),
     let outcome = foton_preview::run(foton_preview::Options {
         scene: scene.map_or_else(first, |path| Source::File(path.to_owned())),
         loader: Arc::new(Files),
-        built_in: embedded::ALL.iter().map(|scene| scene.name.to_owned()).collect(),
+        built_in: embedded::ALL
+            .iter()
+            .map(|scene| BuiltIn { name: scene.name.to_owned(), thumbnail: scene.thumbnail })
+            .collect(),
         memory_limit: memory::limit(None),
         frame_log: frame_log.map(PathBuf::from),
         closes: close_on_signals,

@@ -2,19 +2,50 @@
 
 use std::path::{Path, PathBuf};
 
-use foton_film::write_spare;
-use foton_integrator::LayerKind;
-use foton_session::snapshot::{self, Format};
+use foton_film::{WriteError, write_new, write_spare};
+use foton_integrator::{LayerKind, Render};
+use foton_session::snapshot::{self, Format, Look};
 use foton_session::{SceneIdentity, Session, checkpoint};
 
 use crate::console::{Console, Failure};
 
+/// What images hold beside the radiance of a render.
+pub(crate) struct Content<'a> {
+    /// Layers of an EXR.
+    pub(crate) layers: &'a [LayerKind],
+    /// How a PNG shows radiance.
+    pub(crate) look: Look,
+    /// The scene.
+    pub(crate) identity: &'a SceneIdentity,
+}
+
+impl Content<'_> {
+    /// Writes an image of a render as it stands.
+    pub(crate) fn write(&self, path: &Path, format: Format, render: &Render) -> Result<(), WriteError> {
+        snapshot::write(path, format, render, self.layers, self.look, self.identity)
+    }
+}
+
+/// An image to write.
+pub(crate) struct Output {
+    pub(crate) path: PathBuf,
+    pub(crate) format: Format,
+    /// Whether nothing may be written over: the name was chosen by the program, and nothing of its own has it yet.
+    pub(crate) is_new: bool,
+}
+
+impl Output {
+    pub(crate) fn write(&self, content: &Content<'_>, render: &Render) -> Result<(), WriteError> {
+        let write = |path: &Path| content.write(path, self.format, render);
+        if self.is_new { write_new(&self.path, write) } else { write(&self.path) }
+    }
+}
+
 /// Writes the last images and says so.
 pub(crate) fn finish(
     session: &Session,
-    files: &[(PathBuf, Format)],
-    layers: &[LayerKind],
-    identity: &SceneIdentity,
+    files: &[Output],
+    content: &Content<'_>,
     mut outputs: Vec<String>,
     console: &Console,
 ) -> Result<(), Failure> {
@@ -33,11 +64,11 @@ pub(crate) fn finish(
     }
     // One that cannot be written does not keep the others from it.
     let mut unwritten = None;
-    for (path, format) in files {
-        match snapshot::write(path, *format, session.render(), layers, identity) {
-            Ok(()) => outputs.push(path.display().to_string()),
+    for file in files {
+        match file.write(content, session.render()) {
+            Ok(()) => outputs.push(file.path.display().to_string()),
             Err(error) => {
-                match rescue(path, *format, session, layers, identity) {
+                match rescue(&file.path, file.format, session, content) {
                     Some((what, spare)) => {
                         console.warning(&format!("{error}; the {what} is {} instead", spare.display()));
                         outputs.push(spare.display().to_string());
@@ -66,19 +97,19 @@ fn rescue(
     path: &Path,
     format: Format,
     session: &Session,
-    layers: &[LayerKind],
-    identity: &SceneIdentity,
+    content: &Content<'_>,
 ) -> Option<(&'static str, PathBuf)> {
     let render = session.render();
-    let image = write_spare(path, |path| snapshot::write(path, format, render, layers, identity));
+    let image = write_spare(path, |path| content.write(path, format, render));
     let image = image.or_else(|| {
         let path = path.with_extension("exr");
-        write_spare(&path, |path| snapshot::write(path, Format::Exr, render, &[], identity))
+        let bare = Content { layers: &[], ..*content };
+        write_spare(&path, |path| bare.write(path, Format::Exr, render))
     });
     let state = || {
         let path = path.with_extension("checkpoint");
         write_spare(&path, |path| {
-            checkpoint::write(path, render, session.elapsed(), session.rays(), identity)
+            checkpoint::write(path, render, session.elapsed(), session.rays(), content.identity)
         })
     };
     image.map(|image| ("image", image)).or_else(|| Some(("state of the render", state()?)))

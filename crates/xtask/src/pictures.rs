@@ -19,16 +19,30 @@ struct Picture {
     passes: u32,
     /// Eye samples a pixel: more where gloss is seen, whose noise passes do not lower.
     samples: u32,
+    /// The size of its picture in the window's gallery, and eye samples a pixel of that, if it is there.
+    thumbnail: Option<(&'static str, u32)>,
 }
 
 const PICTURES: &[Picture] = &[
-    Picture { scene: "pool", size: "480x320", passes: 64, samples: 4 },
-    Picture { scene: "ring", size: "480x320", passes: 48, samples: 16 },
-    Picture { scene: "cornell-spheres", size: "480x480", passes: 32, samples: 4 },
-    Picture { scene: "cornell-diffuse", size: "480x480", passes: 24, samples: 4 },
-    Picture { scene: "box-spheres", size: "480x480", passes: 32, samples: 4 },
-    Picture { scene: "furnace", size: "128x128", passes: 8, samples: 1 },
-    Picture { scene: "glass-and-ring", size: "960x640", passes: 64, samples: 4 },
+    Picture { scene: "pool", size: "480x320", passes: 64, samples: 4, thumbnail: Some(("144x96", 16)) },
+    Picture { scene: "ring", size: "480x320", passes: 48, samples: 16, thumbnail: Some(("144x96", 32)) },
+    Picture {
+        scene: "cornell-spheres",
+        size: "480x480",
+        passes: 32,
+        samples: 4,
+        thumbnail: Some(("96x96", 16)),
+    },
+    Picture { scene: "cornell-diffuse", size: "480x480", passes: 24, samples: 4, thumbnail: None },
+    Picture { scene: "box-spheres", size: "480x480", passes: 32, samples: 4, thumbnail: Some(("96x96", 16)) },
+    Picture { scene: "furnace", size: "128x128", passes: 8, samples: 1, thumbnail: None },
+    Picture {
+        scene: "glass-and-ring",
+        size: "960x640",
+        passes: 64,
+        samples: 4,
+        thumbnail: Some(("144x96", 32)),
+    },
 ];
 
 /// Renders all pictures with the release build, made once. Takes minutes.
@@ -67,12 +81,18 @@ impl Picture {
         let scene = format!("assets/{}/scene.xml", self.scene);
         let output = format!("docs/pictures/{}.png", self.scene);
         let (passes, samples) = (self.passes.to_string(), self.samples.to_string());
-        println!("{output}: {} at {passes} passes", self.size);
-        tools::run(
-            Command::new(foton)
-                .args(["render", &scene, "-o", &output, "--direct", "shadow-rays"])
-                .args(["--size", self.size, "--passes", &passes, "--spp", &samples]),
-        )
+        let render = |output: &str, size: &str, samples: &str| {
+            println!("{output}: {size} at {passes} passes");
+            tools::run(
+                Command::new(foton)
+                    .args(["render", &scene, "-o", output, "--direct", "shadow-rays"])
+                    .args(["--size", size, "--passes", &passes, "--spp", samples]),
+            )
+        };
+        if let Some((size, samples)) = self.thumbnail {
+            render(&format!("assets/{}/thumbnail.png", self.scene), size, &samples.to_string())?;
+        }
+        render(&output, self.size, &samples)
     }
 }
 

@@ -73,7 +73,7 @@ fn let_it_work(round: usize) {
 }
 
 pub(crate) fn print() {
-    let setup = Setup { loader: Arc::new(Default), wake: Box::new(|| ()), memory_limit: None };
+    let setup = Setup::new(Arc::new(Default), Box::new(|| ()), None);
     let engine = Engine::spawn(setup).expect("a thread");
     engine.send(Command::Open(Source::File(PathBuf::new())));
     until(&engine, &|f| f.activity == Activity::Rendering && f.pass_share > 0.0);

@@ -144,7 +144,8 @@ impl Window {
         let mut command = Command::new(opening.foton);
         command.args(opening.scene).arg("--frame-log").arg(&log).current_dir(folder);
         command.env("DISPLAY", &display.name).env_remove("WAYLAND_DISPLAY");
-        command.env("XDG_CONFIG_HOME", folder.join("config"));
+        command.env("XDG_CONFIG_HOME", folder.join("config")).env("XDG_CACHE_HOME", folder.join("cache"));
+        command.env("HOME", folder);
         command.env("WINIT_X11_SCALE_FACTOR", scale.to_string());
         command.envs(opening.fault.map(|fault| ("FOTON_FAULT", fault)));
         command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(errors);

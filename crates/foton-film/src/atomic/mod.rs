@@ -1,11 +1,12 @@
 //! Files that appear whole: written beside their target, then renamed over it. No locking between writers: the last wins.
 
+mod fresh;
 mod spare;
 mod stale;
 mod target;
 mod temporary;
 
-use std::fs::{File, Metadata};
+use std::fs::File;
 use std::io::{self, BufWriter, Read, Write};
 use std::path::Path;
 
@@ -13,6 +14,7 @@ use crate::WriteError;
 use target::Target;
 use temporary::Temporary;
 
+pub use fresh::write_new;
 pub use spare::write_spare;
 pub use target::{is_same_file, stands_for};
 
@@ -38,7 +40,7 @@ pub fn atomic_write(
         }
         Target::File { target, old } => {
             stale::remove(&target);
-            let (temporary, file) = make(path, &target, old.as_ref())?;
+            let (temporary, file) = Temporary::make(path, &target, old.as_ref())?;
             put(file, fill)
                 .and_then(|file| file.sync_all())
                 .and_then(|()| temporary.rename(&target))
@@ -57,7 +59,7 @@ pub fn check_writable(path: &Path) -> Result<(), WriteError> {
     if old.is_some() {
         File::options().write(true).open(&target).map_err(WriteError::io(path))?;
     }
-    let (_temporary, file) = make(path, &target, old.as_ref())?;
+    let (_temporary, file) = Temporary::make(path, &target, old.as_ref())?;
     match &old {
         Some(old) => target::check_replaceable(&file, &target, old).map_err(WriteError::io(path)),
         None => Ok(()),
@@ -85,15 +87,6 @@ pub fn create_log(path: &Path, begins: &str) -> Result<File, WriteError> {
             File::create(target).map_err(to_error)
         }
     }
-}
-
-/// The temporary file for a target, which stands for `path`.
-fn make(path: &Path, target: &Path, old: Option<&Metadata>) -> Result<(Temporary, File), WriteError> {
-    Temporary::create(target, old).map_err(|cause| WriteError::Folder {
-        path: path.into(),
-        folder: target::folder_of(target).into(),
-        cause,
-    })
 }
 
 /// Fills a file.

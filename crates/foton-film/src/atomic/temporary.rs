@@ -10,6 +10,7 @@ use std::process;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::target::folder_of;
+use crate::WriteError;
 
 /// A name up to this many bytes stands in that of its temporary file; of a longer one there is a hash, for names may not have more
 /// than 255, on some file systems 143.
@@ -25,8 +26,21 @@ pub(super) struct Temporary {
 }
 
 impl Temporary {
+    /// Makes one for a target, which stands for `path`.
+    pub(super) fn make(
+        path: &Path,
+        target: &Path,
+        old: Option<&Metadata>,
+    ) -> Result<(Self, File), WriteError> {
+        Self::create(target, old).map_err(|cause| WriteError::Folder {
+            path: path.into(),
+            folder: folder_of(target).into(),
+            cause,
+        })
+    }
+
     /// Makes `.NAME.tmp-PID-RANDOM` beside `target`. What is there already by that name, link or not, is left alone.
-    pub(super) fn create(target: &Path, old: Option<&Metadata>) -> io::Result<(Self, File)> {
+    fn create(target: &Path, old: Option<&Metadata>) -> io::Result<(Self, File)> {
         let prefix = prefix(target).ok_or(ErrorKind::InvalidInput)?;
         let mut failure = io::Error::from(ErrorKind::AlreadyExists);
         for _ in 0..TRIES {
@@ -54,6 +68,11 @@ impl Temporary {
             }
         }
         Err(failure)
+    }
+
+    /// Where it is.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Gives it the name of its target. On failure it is removed.

@@ -136,7 +136,7 @@ impl ErrorSums {
 
     /// Standard deviation and bias of each pixel's luminance. The bias is a root mean square over the 5 × 5 pixels around it,
     /// since a single pixel's is hardly known.
-    pub(crate) fn planes<const LAYERS: usize>(&self, radiance: &Radiance<LAYERS>) -> (Vec<f32>, Vec<f32>) {
+    pub(crate) fn planes(&self, radiance: &Radiance) -> (Vec<f32>, Vec<f32>) {
         let shares = self.weights.shares();
         let of = |(index, pixel): (usize, &Pixel)| {
             let mut sums = Sums::default();

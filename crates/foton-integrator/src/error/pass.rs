@@ -1,6 +1,5 @@
 //! Adding a pass to the sums behind the error.
 
-use foton_math::Rgb;
 use rayon::prelude::*;
 
 use super::classes::Question;
@@ -13,7 +12,7 @@ use crate::ppm::{HitPoints, Irradiance, Radiance};
 pub(crate) struct Pass<'a, const LAYERS: usize> {
     pub(crate) hit_points: &'a HitPoints,
     pub(crate) irradiance_slots: &'a [Irradiance<LAYERS>],
-    pub(crate) radiance: &'a Radiance<LAYERS>,
+    pub(crate) radiance: &'a Radiance,
     pub(crate) facts: PassFacts,
 }
 
@@ -74,7 +73,7 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
                 focus += square;
                 focus_variance += square * square * (1.0 + excess);
             }
-            let irradiance: Rgb = self.irradiance_slots[slot as usize].iter().copied().sum();
+            let irradiance = self.irradiance_slots[slot as usize][0];
             let luminance = irradiance.luminance();
             if luminance > 0.0 {
                 let seen = (weight * irradiance).luminance() / luminance;
@@ -85,7 +84,7 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
                     f64::from(seen * if self.facts.question.noise { of_class.sqrt() } else { of_class });
             }
         }
-        let light: Rgb = self.radiance.last[pixel].iter().copied().sum();
+        let light = self.radiance.last[pixel];
         answer *= per_sample;
         if self.facts.question.noise {
             answer *= answer;

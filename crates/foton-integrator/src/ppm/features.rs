@@ -160,7 +160,6 @@ fn emitters(census: &Census, aims_at_casters: bool) -> [Feature; 2] {
 }
 
 fn asked_for(settings: &RenderSettings) -> [Feature; 4] {
-    let layers = Radiance::<3>::BYTES_PER_PIXEL - Radiance::<1>::BYTES_PER_PIXEL;
     [
         Feature::new(
             "shadow rays",
@@ -173,9 +172,9 @@ fn asked_for(settings: &RenderSettings) -> [Feature; 4] {
             "light by path class",
             settings.layers,
             ["asked for by --layers", "no layer asks for it"],
-            "sums three times as large",
+            "sums of caustic and indirect light beside those of all",
         )
-        .with_bytes(24, layers),
+        .with_bytes(24, Radiance::BYTES_BY_CLASS),
         Feature::new(
             "radii that adapt",
             settings.ppm.radius_rule == RadiusRule::Adaptive,

@@ -36,13 +36,9 @@ pub(super) fn collect<const LAYERS: usize, const SHADED: bool, const MOMENTS: bo
                 factor[l] = f32::from_bits(factor[l].to_bits() & counts[l]);
             }
         }
-        let layer = &mut found.flux[Found::<LAYERS>::layer(photon)];
-        for (channel, power) in [photon.power.r, photon.power.g, photon.power.b].into_iter().enumerate() {
-            let sums = &mut layer[channel];
-            for l in 0..LANES {
-                sums[l] +=
-                    if SHADED { power * factor[l] } else { f32::from_bits(power.to_bits() & counts[l]) };
-            }
+        add_power::<SHADED>(&mut found.flux[0], photon, &factor, &counts);
+        if let Some(class) = Found::<LAYERS>::class_layer(photon) {
+            add_power::<SHADED>(&mut found.flux[class], photon, &factor, &counts);
         }
         for l in 0..LANES {
             found.count[l] += counts[l] & 1;
@@ -74,6 +70,22 @@ pub(super) fn collect<const LAYERS: usize, const SHADED: bool, const MOMENTS: bo
     }
 }
 
+/// Adds a photon to the sums of the lanes in which it counts, weighed there by `factor` if normals are interpolated.
+#[inline(always)]
+fn add_power<const SHADED: bool>(
+    sums: &mut [[f32; LANES]; 3],
+    photon: &Photon,
+    factor: &[f32; LANES],
+    counts: &[u32; LANES],
+) {
+    for (channel, power) in [photon.power.r, photon.power.g, photon.power.b].into_iter().enumerate() {
+        let sums = &mut sums[channel];
+        for l in 0..LANES {
+            sums[l] += if SHADED { power * factor[l] } else { f32::from_bits(power.to_bits() & counts[l]) };
+        }
+    }
+}
+
 /// Sums the photons that count for hit points with a BSDF of their own, weighed by it one by one.
 #[inline(always)]
 pub(super) fn collect_gloss<const LAYERS: usize, const MOMENTS: bool>(
@@ -94,7 +106,7 @@ pub(super) fn collect_gloss<const LAYERS: usize, const MOMENTS: bool>(
         let face = Face::of(photon);
         let distance2 = if MOMENTS { distances2(packet, photon) } else { [0.0; LANES] };
         let offset = if MOMENTS { offsets(packet, photon) } else { [[0.0; LANES]; 3] };
-        let layer = &mut found.flux[Found::<LAYERS>::layer(photon)];
+        let class = Found::<LAYERS>::class_layer(photon);
         for l in (0..LANES).filter(|&l| counts[l] != 0) {
             // Gathered lobes weigh all photons, specular ones only those whose light no eye path can find.
             let Some(gloss) = gloss[l].as_ref().filter(|g| !g.specular || photon.is_lone()) else { continue };
@@ -106,9 +118,12 @@ pub(super) fn collect_gloss<const LAYERS: usize, const MOMENTS: bool>(
                 tally.leave_out(Quantity::GatheredLight, packet, l);
                 continue;
             }
-            layer[0][l] += weighed.r;
-            layer[1][l] += weighed.g;
-            layer[2][l] += weighed.b;
+            for layer in [Some(0), class].into_iter().flatten() {
+                let [r, g, b] = &mut found.flux[layer];
+                r[l] += weighed.r;
+                g[l] += weighed.g;
+                b[l] += weighed.b;
+            }
             if MOMENTS {
                 let luminance = weighed.luminance();
                 found.moment[l] += luminance * distance2[l];

@@ -16,14 +16,14 @@ use crate::settings::RenderSettings;
 /// Light of one pass at the hit points, and of all passes in the pixels.
 pub(crate) struct Sums<const LAYERS: usize> {
     irradiance_slots: Vec<Irradiance<LAYERS>>,
-    radiance: Radiance<LAYERS>,
+    radiance: Radiance,
 }
 
 /// Picks at start what is summed, so that a render without layers neither stores nor moves them.
 pub(crate) enum Light {
     /// All classes in one.
     Whole(Sums<1>),
-    /// Direct, caustic, indirect.
+    /// All classes in one, with the same bits; and caustic and indirect light once more.
     ByClass(Sums<3>),
 }
 
@@ -36,16 +36,8 @@ impl<const LAYERS: usize> Sums<LAYERS> {
     fn new(emission: Vec<Rgb>, hit_points: &HitPoints, samples: u32) -> Self {
         Self {
             irradiance_slots: vec![[Rgb::BLACK; LAYERS]; hit_points.packets.len() * LANES],
-            radiance: Radiance::new(emission, samples),
+            radiance: Radiance::new(emission, samples, LAYERS > 1),
         }
-    }
-
-    pub(crate) fn write(&self, out: &mut Writer) {
-        self.radiance.write(out);
-    }
-
-    pub(crate) fn read(&mut self, input: &mut Reader<'_>) -> Result<(), StateError> {
-        self.radiance.read(input)
     }
 
     fn bytes(&self) -> usize {
@@ -84,9 +76,9 @@ impl Light {
         each!(self, s => shadow_rays::add(scene, hit_points, &mut s.irradiance_slots, key, by_block));
     }
 
-    /// Adds the pass to the pixels; says what was left out because it was not finite.
-    pub(crate) fn add_pass(&mut self, hit_points: &HitPoints) -> Omissions {
-        each!(self, s => s.radiance.add(hit_points, &s.irradiance_slots))
+    /// Adds the pass of so many photons to the pixels; says what was left out because it was not finite.
+    pub(crate) fn add_pass(&mut self, hit_points: &HitPoints, photons: u64) -> Omissions {
+        each!(self, s => s.radiance.add(hit_points, &s.irradiance_slots, photons))
     }
 
     /// Adds a pass, which is in the pixels already, to the error.
@@ -115,16 +107,34 @@ impl Light {
     }
 
     /// Reflected radiance of one class; `None` where classes are not summed separately.
-    pub(crate) fn class(&self, class: PathClass, photons: u64) -> Option<Vec<Rgb>> {
-        match self {
-            Self::Whole(_) => None,
-            Self::ByClass(s) => Some(s.radiance.layer(class as usize, photons)),
-        }
+    pub(crate) fn class(&self, class: PathClass) -> Option<Vec<Rgb>> {
+        each!(self, s => s.radiance.class(class))
+    }
+
+    /// Photons of the passes whose light was summed by class.
+    pub(crate) fn photons_by_class(&self) -> Option<u64> {
+        each!(self, s => s.radiance.photons_by_class())
+    }
+
+    pub(crate) fn write(&self, out: &mut Writer) {
+        each!(self, s => s.radiance.write(out));
+    }
+
+    pub(crate) fn read(&mut self, input: &mut Reader<'_>) -> Result<(), StateError> {
+        each!(self, s => s.radiance.read(input))
+    }
+
+    pub(crate) fn write_classes(&self, out: &mut Writer) {
+        each!(self, s => s.radiance.write_classes(out));
+    }
+
+    pub(crate) fn read_classes(&mut self, input: &mut Reader<'_>) -> Result<(), StateError> {
+        each!(self, s => s.radiance.read_classes(input))
     }
 
     /// The last pass's own estimate of reflected radiance, times the photons it emitted.
     pub(crate) fn last_pass(&self) -> Vec<Rgb> {
-        each!(self, s => s.radiance.last.iter().map(|l| l.iter().copied().sum()).collect())
+        each!(self, s => s.radiance.last.clone())
     }
 
     /// Radiance of emitters, seen directly or by specular bounces.

@@ -117,7 +117,7 @@ impl MemoryEstimate {
             + if shaded { 3 * size_of::<f32>() } else { 0 };
         let slot = slot as f64 + layers * size_of::<Irradiance<1>>() as f64;
         let per_pixel =
-            if settings.layers { Radiance::<3>::BYTES_PER_PIXEL } else { Radiance::<1>::BYTES_PER_PIXEL };
+            Radiance::BYTES_PER_PIXEL + if settings.layers { Radiance::BYTES_BY_CLASS } else { 0 };
         let per_pixel = per_pixel + if settings.error { ErrorSums::BYTES_PER_PIXEL } else { 0 };
         let photon = 2.0 * size_of::<Photon>() as f64 + size_of::<u32>() as f64;
         let pass = settings.ppm.photons_per_pass.get().into();

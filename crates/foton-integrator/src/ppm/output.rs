@@ -68,7 +68,7 @@ impl Ppm {
     /// A layer of light; `None` for one that is not summed, or not of light.
     #[must_use]
     pub(crate) fn colour_layer(&self, kind: LayerKind) -> Option<Image> {
-        let class = |class| self.light.class(class, self.photons_emitted);
+        let class = |class| self.light.class(class);
         let pixels = match kind {
             LayerKind::Direct => class(PathClass::Direct)?,
             LayerKind::Caustic => class(PathClass::Caustic)?,
@@ -77,6 +77,12 @@ impl Ppm {
             _ => return None,
         };
         Some(self.as_image(pixels))
+    }
+
+    /// Photons of the passes whose light was summed by class; `None` where none is.
+    #[must_use]
+    pub(crate) fn photons_by_class(&self) -> Option<u64> {
+        self.light.photons_by_class()
     }
 
     /// How wrong the image still is; `None` without [`RenderSettings::error`](crate::RenderSettings::error), in the first passes, and in the dark.

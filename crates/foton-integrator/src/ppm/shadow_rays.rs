@@ -6,7 +6,7 @@
 use foton_math::{Purpose, Rgb, Stream};
 use foton_scene::Scene;
 use foton_transport::direct_light::estimate;
-use foton_transport::photon_map::{LANES, PathClass};
+use foton_transport::photon_map::LANES;
 use foton_transport::{LeftOut, Omissions, Quantity, Surface};
 use rayon::prelude::*;
 
@@ -36,7 +36,6 @@ pub(crate) fn add<const LAYERS: usize>(
     PassKey { seed, pass, photons }: PassKey,
     by_block: ByBlock<'_, (u64, Omissions)>,
 ) {
-    let layer = if LAYERS == 1 { 0 } else { PathClass::Direct as usize };
     let places = by_block.places(irradiance_slots.len().div_ceil(BLOCK));
     let blocks = irradiance_slots.par_chunks_mut(BLOCK).zip(places).enumerate();
     blocks.for_each(|(block, (irradiance, place))| {
@@ -62,7 +61,7 @@ pub(crate) fn add<const LAYERS: usize>(
                     let term = light * value * photons as f32;
                     // A point light that lies on the surface is infinitely bright there.
                     if term.is_finite() {
-                        irradiance[layer] += term;
+                        irradiance[0] += term;
                     } else {
                         let mut stream = Stream::new(seed, Purpose::ShadowRay, pass, slot as u64);
                         let light = scene.choose_emitter(f64::from(stream.next_1d()));

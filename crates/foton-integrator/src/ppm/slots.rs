@@ -4,7 +4,7 @@
 use std::f32::consts::PI;
 
 use foton_math::Rgb;
-use foton_transport::photon_map::{LANES, Packet, Photon};
+use foton_transport::photon_map::{LANES, Packet, PathClass, Photon};
 
 use super::adaptive::{DiscMoments, RadiusStatistics};
 use super::hit_points::Irradiance;
@@ -13,6 +13,8 @@ use crate::error::{Question, SlotMoments};
 
 /// Light found by a packet's lanes.
 pub(crate) struct Found<const LAYERS: usize> {
+    /// All of it, and where there are three layers caustic and indirect light once more: the rest is direct. So the whole is
+    /// summed in one order whether classes are asked for or not, and has the same bits.
     pub(crate) flux: [[[f32; LANES]; 3]; LAYERS],
     pub(crate) count: [u32; LANES],
     /// Σ d² Φ in luminance, where the error is asked for.
@@ -62,14 +64,17 @@ impl<const LAYERS: usize> Found<LAYERS> {
         disc: DiscMoments::NONE,
     };
 
+    /// The layer of a photon's class beside that of all light, if it has one.
     #[inline(always)]
-    pub(crate) const fn layer(photon: &Photon) -> usize {
-        if LAYERS == 1 { 0 } else { photon.class_index() }
+    pub(crate) const fn class_layer(photon: &Photon) -> Option<usize> {
+        let class = photon.class_index();
+        if LAYERS == 1 || class == PathClass::Direct as usize { None } else { Some(class) }
     }
 
     /// Flux of a lane, all classes together.
     pub(crate) fn luminance(&self, lane: usize) -> f32 {
-        self.flux.iter().map(|f| Rgb::new(f[0][lane], f[1][lane], f[2][lane]).luminance()).sum()
+        let [r, g, b] = &self.flux[0];
+        Rgb::new(r[lane], g[lane], b[lane]).luminance()
     }
 
     /// Adds what the pass has found to what radii go by.

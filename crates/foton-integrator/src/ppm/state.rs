@@ -8,7 +8,6 @@ use foton_transport::{Ledger, LightUse, Loss};
 
 use super::adaptive::RadiusStatistics;
 use super::algorithm::Ppm;
-use super::light::Light;
 use super::settings::Alpha;
 use super::statistics::Statistics;
 use crate::changes::Changes;
@@ -56,14 +55,12 @@ impl Ppm {
         out.u64(statistics.len() as u64);
         statistics.iter().for_each(|s| s.write(&mut out));
         self.hit_points.radius_statistics_slots.iter().for_each(|e| e.write(&mut out));
-        match &self.light {
-            Light::Whole(sums) => sums.write(&mut out),
-            Light::ByClass(sums) => sums.write(&mut out),
-        }
+        self.light.write(&mut out);
         out.u64(u64::from(self.error.is_some()));
         if let Some(error) = &self.error {
             error.write(&mut out);
         }
+        self.light.write_classes(&mut out);
         out.finish()
     }
 
@@ -84,15 +81,13 @@ impl Ppm {
         self.settings.ppm.photons_per_pass = photons;
         self.restore_accounts(&mut input)?;
         self.restore_hit_points(&mut input)?;
-        match &mut self.light {
-            Light::Whole(sums) => sums.read(&mut input)?,
-            Light::ByClass(sums) => sums.read(&mut input)?,
-        }
+        self.light.read(&mut input)?;
         let error = self.error.as_mut();
         input.expect(usize::from(error.is_some()))?;
         if let Some(error) = error {
             error.read(&mut input)?;
         }
+        self.light.read_classes(&mut input)?;
         input.finish()?;
         self.mark_all_cells();
         Ok(())

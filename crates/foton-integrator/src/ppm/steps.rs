@@ -183,7 +183,7 @@ impl Ppm {
     pub(super) fn accumulate(&mut self, pass: UnderWay, watch: &mut dyn FnMut(Stage)) -> PassReport {
         watch(Stage::Radiance);
         let mut counts = pass.counts;
-        counts.leave_out(self.light.add_pass(&self.hit_points));
+        counts.leave_out(self.light.add_pass(&self.hit_points, counts.photons));
         let Counts { ledger, lights, losses, photons, rays, stored, tally, left_out } = counts;
         (self.ledger, self.lights, self.losses) = (ledger, lights, losses);
         if let (None, Some(left_out)) = (&self.not_finite, left_out) {

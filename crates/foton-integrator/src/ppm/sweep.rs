@@ -32,7 +32,8 @@ pub(super) struct Photons<'a> {
 /// Gathers the photons of a batch for all hit points. With the last batch of a pass they are refined, and `irradiance_slots`
 /// hold the pass's estimates; before, they and the other slots hold sums.
 ///
-/// `LAYERS` is 3 to sum path classes separately, or 1. `moment_slots` get what the bias is estimated from, where there are any.
+/// `LAYERS` is 3 to sum caustic and indirect light beside all of it, or 1. `moment_slots` get what the bias is estimated from, where
+/// there are any.
 /// `earlier` has room where a pass has more than one batch. `tallies` get what each block counts; where the work was suspended, blocks
 /// that have theirs are not gathered again.
 pub(super) fn sweep<const LAYERS: usize>(

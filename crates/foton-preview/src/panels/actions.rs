@@ -41,13 +41,15 @@ pub(super) fn toggle_pin(state: &mut State) {
     }
     let Some(frame) = &state.frame else { return };
     let label = format!("pass {}", frame.stats.passes);
-    state.pinned = frame.picture.clone().map(|picture| Pinned { picture, label });
+    state.pinned = frame.picture.clone().map(|picture| Pinned { picture, label, entry: None });
 }
 
 /// Ends what is under way, or else the selection.
 pub(super) fn escape(state: &mut State) {
     if state.show_help {
         state.show_help = false;
+    } else if state.looking.choosing_region.take().is_some() {
+        // That was to be given up.
     } else if state.grip == Grip::Object {
         state.grip = Grip::None;
         state.ask(Command::Edit(SceneEdit::CancelDrag));
@@ -103,6 +105,7 @@ pub(super) fn copy_camera(ctx: &egui::Context, state: &mut State) {
 /// Opens the scene's file again.
 pub(super) fn reload(state: &mut State) {
     state.changed_on_disk = false;
+    state.reloads = true;
     if let Some(file) = state.frame.as_ref().and_then(|f| f.scene.file.clone()) {
         state.open(file);
     }

@@ -6,7 +6,7 @@ use foton_session::engine::Picture;
 use super::icons::Icon;
 use super::number::{Change, Digits, Number};
 use super::slider::Slider;
-use super::widgets;
+use super::{histogram, widgets};
 use crate::state::State;
 
 /// Stops either way that can be set.
@@ -30,7 +30,13 @@ pub(super) fn show(ui: &mut Ui, state: &mut State, has_slider: bool) {
     } else {
         number.show(ui, stops)
     };
-    response.on_hover_text("Each stop doubles the light on the screen; nothing is rendered again");
+    state.place("exposure", &response);
+    if response.enabled() {
+        histogram::turn(ui, state, &response);
+    }
+    response.on_hover_text(
+        "Each stop doubles the light on the screen; nothing is rendered again. The wheel changes it too",
+    );
     if let Some(Change::Moving(stops) | Change::Done(stops)) = change {
         state.exposure_stops = ((stops * 10.0).round() / 10.0) as f32;
     }

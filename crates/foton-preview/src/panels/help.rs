@@ -2,7 +2,7 @@
 
 use crate::state::State;
 
-const KEYS: [(&str, &str); 29] = [
+const KEYS: [(&str, &str); 33] = [
     ("Drag", "orbit the camera"),
     ("Shift+drag, right drag", "pan the camera"),
     ("Wheel", "camera nearer, farther"),
@@ -24,6 +24,10 @@ const KEYS: [(&str, &str); 29] = [
     ("P", "snapshot: EXR and PNG"),
     ("O", "photons as dots"),
     ("K", "pin this pass, compare"),
+    ("B", "keep this pass in the history"),
+    ("T", "the history: compare, return, films"),
+    ("L", "histogram"),
+    ("C", "mark clipped and black pixels"),
     ("1 … 5", "radiance, luminance, radius, photons found, unlit hit points"),
     ("Enter, Esc in a field", "commit what was typed, give it up"),
     ("Tab", "hide or show the panels"),

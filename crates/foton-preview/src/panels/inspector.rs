@@ -47,7 +47,7 @@ fn camera(ui: &mut egui::Ui, state: &mut State, sensor: usize) {
         views::sides(ui, state);
         return;
     }
-    let configuration = Configuration { sensor, ..Configuration::of(&frame.settings, frame.threads) };
+    let configuration = Configuration { sensor, ..Configuration::of(&frame.settings, frame.threads, None) };
     if ui.button("Look through it").on_hover_text("Renders what this camera sees; restarts").clicked() {
         state.ask(Command::Configure(configuration));
     }

@@ -23,13 +23,17 @@ const ANYWHERE: [(Key, Act); 4] = [
 ];
 
 /// Keys that are letters or signs.
-const LETTERS: [(Key, Act); 10] = [
+const LETTERS: [(Key, Act); 14] = [
     (Key::Period, |s| s.ask(Command::Step)),
     (Key::F, |s| s.placement = Placement::FIT),
     (Key::H, |s| s.ask(Command::ResetCamera)),
     (Key::P, actions::snapshot),
     (Key::O, actions::toggle_photons),
     (Key::K, actions::toggle_pin),
+    (Key::L, |s| s.looking.show_histogram = !s.looking.show_histogram),
+    (Key::C, |s| s.looking.marks_clipping = !s.looking.marks_clipping),
+    (Key::B, |s| s.ask(Command::Remember)),
+    (Key::T, |s| s.looking.show_history = !s.looking.show_history),
     (Key::M, |s| s.editing.tool = Tool::Move),
     (Key::R, |s| s.editing.tool = Tool::Rotate),
     (Key::X, |s| s.editing.tool = Tool::Scale),

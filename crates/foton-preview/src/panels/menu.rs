@@ -1,9 +1,9 @@
 //! The menu bar: all that can be done, by name and with its key.
 
 use egui::{Button, Ui};
-use foton_session::engine::{Command, SceneEdit, Source};
+use foton_session::engine::{Command, SceneEdit};
 
-use super::{actions, views};
+use super::{actions, gallery, region, views};
 use crate::state::{Leaving, Placement, State};
 
 pub(super) fn show(ui: &mut Ui, state: &mut State) {
@@ -35,19 +35,18 @@ fn file(ui: &mut Ui, state: &mut State) {
     if entry(ui, true, "Open…", "Ctrl+O").clicked() {
         actions::open_dialog(state);
     }
-    ui.menu_button("Built in", |ui| {
-        for name in state.built_in.clone() {
-            if ui.button(&name).clicked() {
-                state.leave(Leaving::Open(Source::BuiltIn(name)));
-            }
-        }
-    });
+    ui.menu_button("Open recent", |ui| gallery::recent(ui, state));
+    ui.menu_button("Gallery", |ui| gallery::built_in(ui, state));
     ui.separator();
     if entry(ui, has_scene, "Save edited scene…", "Ctrl+S").clicked() {
         actions::save_dialog(state);
     }
     if entry(ui, has_scene, "Save snapshot", "P").on_hover_text("This pass as EXR and PNG").clicked() {
         actions::snapshot(state);
+    }
+    let keep = entry(ui, has_scene, "Keep in history", "B");
+    if keep.on_hover_text("Keeps this pass with its state, to compare with and to return to").clicked() {
+        state.ask(Command::Remember);
     }
     ui.separator();
     let keep = entry(ui, has_scene, "Keep checkpoint…", "").on_hover_text(
@@ -108,6 +107,9 @@ fn view(ui: &mut Ui, state: &mut State) {
     if entry(ui, true, "Photons as dots", "O").clicked() {
         actions::toggle_photons(state);
     }
+    views::over_the_picture(ui, state);
+    ui.separator();
+    region::entry(ui, state);
     if entry(ui, true, "Fit image", "F").clicked() {
         state.placement = Placement::FIT;
     }

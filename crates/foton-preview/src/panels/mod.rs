@@ -5,13 +5,18 @@ mod camera;
 mod canvas;
 mod convergence;
 mod diagnostics;
+mod dot_legend;
 mod dropping;
 mod exposure;
 mod fields;
 mod figures;
 mod film_place;
+mod gallery;
 mod gizmo;
 mod help;
+mod hint;
+mod histogram;
+mod history;
 mod icons;
 mod inspector;
 mod keys;
@@ -25,8 +30,10 @@ mod opening;
 mod outliner;
 mod output;
 mod overlay;
+mod pixel_values;
 mod pointer;
 mod presets;
+mod region;
 mod setup;
 mod slider;
 mod status;
@@ -36,6 +43,7 @@ mod tools;
 mod typing;
 mod unsaved;
 mod views;
+mod warnings;
 mod widgets;
 
 #[cfg(test)]
@@ -45,7 +53,7 @@ use foton_session::engine::{Command, SceneEdit};
 
 use crate::files::Outcome;
 use crate::state::{DialogPurpose, State};
-use widgets::{section, within};
+use widgets::{as_wide_as_seen, section, within};
 
 /// Height of the menu bar in points.
 const MENU: f32 = 26.0;
@@ -55,6 +63,9 @@ const TOOLBAR: f32 = 30.0;
 
 /// Height of the line at the bottom in points.
 const STATUS: f32 = 26.0;
+
+/// Height of the strip of kept passes in points.
+const HISTORY: f32 = 148.0;
 
 /// Widths of the panels at the sides in points, left and right; they go by the window alone.
 const WIDTHS: [f32; 2] = [264.0, 272.0];
@@ -80,6 +91,7 @@ pub(crate) fn ground(visuals: &egui::Visuals) -> egui::Color32 {
 /// Everything in the window, over a [`ground`].
 pub(crate) fn show(ui: &mut egui::Ui, state: &mut State) {
     state.places.clear();
+    state.tell_look();
     if ui.input(|i| i.pointer.any_pressed()) {
         state.editing.is_press_spent = egui::Popup::is_any_open(ui.ctx());
     }
@@ -102,6 +114,10 @@ pub(crate) fn show(ui: &mut egui::Ui, state: &mut State) {
         .frame(bar)
         .exact_size(STATUS)
         .show(ui, |ui| within(ui, |ui| status::show(ui, state)));
+    if state.looking.show_history && !state.hides_panels {
+        let strip = egui::Panel::bottom("history").frame(frame).resizable(false).exact_size(HISTORY);
+        strip.show(ui, |ui| within(ui, |ui| history::show(ui, state)));
+    }
     if !state.hides_panels {
         // Of constant width: the picture stays where it is, whatever they show.
         let widths = if ui.available_width() < NARROW { NARROW_WIDTHS } else { WIDTHS };
@@ -111,6 +127,7 @@ pub(crate) fn show(ui: &mut egui::Ui, state: &mut State) {
     }
     let canvas =
         egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| canvas::show(ui, state));
+    histogram::show(ui.ctx(), state, canvas.response.rect);
     messages::show(ui.ctx(), state);
     help::show(ui.ctx(), state);
     unsaved::show(ui.ctx(), state);
@@ -148,7 +165,7 @@ fn right(ui: &mut egui::Ui, state: &mut State) {
     egui::ScrollArea::vertical()
         .id_salt("selection")
         .auto_shrink(false)
-        .show(&mut ui.new_child(upper), |ui| inspector::show(ui, state));
+        .show(&mut ui.new_child(upper), |ui| as_wide_as_seen(ui, |ui| inspector::show(ui, state)));
     ui.painter().hline(all.x_range(), split - 0.5 * GAP, ui.visuals().widgets.noninteractive.bg_stroke);
     let lower = egui::UiBuilder::new().max_rect(all.with_min_y(split));
     let shown = egui::ScrollArea::vertical().id_salt("progress").auto_shrink(false);

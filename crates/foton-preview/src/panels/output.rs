@@ -8,19 +8,15 @@ use super::widgets::row;
 use crate::state::State;
 
 pub(super) fn show(ui: &mut Ui, state: &mut State) {
-    row(ui, "Folder", "Where snapshots are saved", |ui, label| {
-        let mut edited = state.preferences.snapshot_folder.display().to_string();
-        let width = ui.available_width() - 8.0;
-        let field = ui.add(egui::TextEdit::singleline(&mut edited).desired_width(width)).labelled_by(label);
-        if field.changed() {
-            state.preferences.snapshot_folder = edited.into();
-        }
-    });
+    folder(ui, state);
+    ui.checkbox(&mut state.preferences.png_as_shown, "PNG as shown").on_hover_text(
+        "On: the PNG of a snapshot has the exposure and the tone map of the screen. Off: exposure 0 and PBR Neutral, the defaults of \
+         `foton render`. The EXR is linear either way.",
+    );
     let auto = ui.checkbox(&mut state.auto_snapshots, "Snapshots at passes 1, 2, 4, 8, …");
     if auto.on_hover_text("Writes a picture at powers of two: frames of a film of the convergence").changed()
     {
-        let folder = state.auto_snapshots.then(|| state.snapshot_folder());
-        state.ask(Command::AutoSnapshots(folder));
+        tell(state);
     }
     ui.horizontal_wrapped(|ui| {
         if ui
@@ -35,4 +31,29 @@ pub(super) fn show(ui: &mut Ui, state: &mut State) {
             actions::resume_dialog(state);
         }
     });
+}
+
+fn folder(ui: &mut Ui, state: &mut State) {
+    let help = format!(
+        "Snapshots are saved in {}. Scene, run and pass make their names, and nothing is written over. The folder is made when it is \
+         needed.",
+        foton_input::shown_path(&state.snapshot_folder())
+    );
+    row(ui, "Folder", &help, |ui, label| {
+        let mut edited = state.preferences.snapshot_folder.display().to_string();
+        let width = ui.available_width() - 8.0;
+        let field = ui.add(egui::TextEdit::singleline(&mut edited).desired_width(width)).labelled_by(label);
+        if field.changed() {
+            state.preferences.snapshot_folder = edited.into();
+        }
+        if field.lost_focus() && state.auto_snapshots {
+            tell(state);
+        }
+    });
+}
+
+/// Tells the engine whether, and where, snapshots are to come by themselves.
+fn tell(state: &mut State) {
+    let folder = state.auto_snapshots.then(|| state.snapshot_folder());
+    state.ask(Command::AutoSnapshots(folder));
 }

@@ -2,10 +2,11 @@
 
 use egui::{Color32, Pos2, Shape, Stroke};
 use foton_edit::Segment;
-use foton_session::PathClass;
 use foton_session::engine::{Dot, Frame};
 
+use super::dot_legend;
 use super::film_place::Film;
+use crate::looking::Compare;
 use crate::state::State;
 
 const CHOSEN: Color32 = Color32::from_rgb(255, 170, 40);
@@ -31,7 +32,7 @@ pub(super) fn draw(painter: &egui::Painter, state: &State, frame: &Frame, film: 
         }
         dots(painter, &probe.photons, film, 1.6);
     }
-    if let Some(pinned) = &state.pinned {
+    if let Some(pinned) = state.pinned.as_ref().filter(|_| state.looking.compare == Compare::Wipe) {
         let x = film.rect.left() + film.rect.width() * state.wipe;
         let font = egui::FontId::proportional(12.0);
         let at = Pos2::new(x + 8.0, film.rect.bottom() - 10.0);
@@ -51,12 +52,10 @@ fn dots(painter: &egui::Painter, dots: &[Dot], film: Film, radius: f32) {
         dots.iter().map(|d| (film.to_points(d.film), d.class)).filter(|(at, _)| film.rect.contains(*at));
     let mut mesh = egui::Mesh::default();
     for (at, class) in inside {
-        let colour = match class {
-            PathClass::Direct => Color32::from_rgb(255, 215, 70),
-            PathClass::Caustic => Color32::WHITE,
-            PathClass::Indirect => Color32::from_rgb(110, 170, 255),
-        };
-        mesh.add_colored_rect(egui::Rect::from_center_size(at, egui::Vec2::splat(2.0 * radius)), colour);
+        mesh.add_colored_rect(
+            egui::Rect::from_center_size(at, egui::Vec2::splat(2.0 * radius)),
+            dot_legend::colour(class),
+        );
     }
     painter.add(mesh);
 }

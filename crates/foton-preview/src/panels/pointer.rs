@@ -5,6 +5,7 @@ use foton_session::engine::{Command, Gesture, SceneEdit};
 
 use super::film_place::Film;
 use super::gizmo;
+use crate::looking::Compare;
 use crate::state::{Grip, Placement, State};
 
 /// Radians that the camera turns for each point that the pointer moves.
@@ -107,7 +108,8 @@ fn zoom_image(state: &mut State, film: Film, at: Pos2, factor: f32) {
 
 fn begin(state: &mut State, response: &egui::Response, film: Film, at: Pos2, modifiers: egui::Modifiers) {
     let wipe = film.rect.left() + film.rect.width() * state.wipe;
-    state.grip = if state.pinned.is_some() && (at.x - wipe).abs() < WIPE_REACH {
+    let wipes = state.pinned.is_some() && state.looking.compare == Compare::Wipe;
+    state.grip = if wipes && (at.x - wipe).abs() < WIPE_REACH {
         Grip::Wipe
     } else if response.dragged_by(egui::PointerButton::Primary) && gizmo::take(state, film, at) {
         Grip::Object

@@ -13,7 +13,7 @@ use crate::state::State;
 
 pub(super) fn show(ui: &mut Ui, state: &mut State) {
     let Some(frame) = state.frame.clone() else { return };
-    let now = Configuration::of(&frame.settings, frame.threads);
+    let now = Configuration::of(&frame.settings, frame.threads, frame.region);
     let mut draft = match state.draft.take() {
         Some((base, draft)) => rebased(draft, &base, &now),
         None => now.clone(),
@@ -60,7 +60,7 @@ fn rebased(draft: Configuration, base: &Configuration, now: &Configuration) -> C
         samples_per_pixel,
         seed,
         sensor,
-        layers,
+        region,
         max_depth,
         threads
     )

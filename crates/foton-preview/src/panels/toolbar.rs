@@ -64,8 +64,7 @@ fn run(ui: &mut Ui, state: &mut State, room: Room) {
         state.ask(Command::Restart);
     }
     let snapshot = ui.add_enabled_ui(there, |ui| tool(Icon::Snapshot, "Snapshot").show(ui)).inner;
-    let snapshot =
-        snapshot.on_hover_text("Saves this pass as EXR and PNG, as `foton render` would write them (P)");
+    let snapshot = snapshot.on_hover_text("Saves this pass as EXR and PNG, and keeps it in the history (P)");
     state.place("snapshot", &snapshot);
     if snapshot.clicked() {
         actions::snapshot(state);

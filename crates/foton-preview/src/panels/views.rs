@@ -1,7 +1,7 @@
 //! The views by name, and which kinds of light they show.
 
 use egui::Ui;
-use foton_session::engine::{Command, Configuration, ErrorPart, ViewMode};
+use foton_session::engine::{ErrorPart, ViewMode};
 
 use crate::state::State;
 
@@ -48,7 +48,6 @@ pub(super) fn light_paths(ui: &mut Ui, state: &mut State) {
         ui.checkbox(on, name);
     }
     ui.checkbox(&mut emission, "Emitters");
-    ui.weak("Separate kinds take more memory;\nswitching them on restarts the render.");
     if (reflected, emission) == before {
         return;
     }
@@ -57,10 +56,15 @@ pub(super) fn light_paths(ui: &mut Ui, state: &mut State) {
         return;
     }
     state.choose_view(ViewMode::Classes { reflected, emission });
-    let apart = state.frame.as_ref().map(|f| (f.settings.clone(), f.threads));
-    if let Some((settings, threads)) = apart.filter(|(settings, _)| !settings.layers) {
-        let configuration = Configuration { layers: true, ..Configuration::of(&settings, threads) };
-        state.ask(Command::Configure(configuration));
-        state.notice("Restarted, with direct, caustic and indirect light separate");
-    }
+}
+
+/// A switch for each thing that is drawn over the picture.
+pub(super) fn over_the_picture(ui: &mut Ui, state: &mut State) {
+    ui.checkbox(&mut state.looking.show_histogram, "Histogram (L)")
+        .on_hover_text("How bright the pixels are, in stops");
+    ui.checkbox(&mut state.looking.marks_clipping, "Mark clipping (C)").on_hover_text(
+        "Red stripes over pixels that are 255 in a channel, blue over black ones: what a PNG clips",
+    );
+    ui.checkbox(&mut state.looking.show_history, "History (T)")
+        .on_hover_text("The passes that were kept: to compare with, to return to, and to make films of");
 }

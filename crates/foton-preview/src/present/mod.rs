@@ -73,6 +73,8 @@ pub(crate) struct View {
     pub(crate) tone_map: ToneMap,
     /// Radiance or false colour.
     pub(crate) mode: Mode,
+    /// Whether pixels of radiance are marked that are black, or as bright as a byte gets.
+    pub(crate) marks_clipping: bool,
     /// Where the whole image lies, in physical pixels of the window; zoom and pan move it beyond the view.
     pub(crate) image_rect: egui::Rect,
     /// Where the pinned picture takes over, as a part of the width of the view. Without a pinned picture it has no effect.

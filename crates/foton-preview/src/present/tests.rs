@@ -18,6 +18,7 @@ fn plain(width: u32, height: u32) -> View {
         exposure_stops: 0.0,
         tone_map: ToneMap::Linear,
         mode: Mode::Radiance,
+        marks_clipping: false,
         image_rect: rect(0.0, 0.0, width as f32, height as f32),
         wipe: None,
         background: egui::Color32::from_rgb(10, 20, 30),
@@ -158,4 +159,31 @@ fn false_colour_of_light_is_that_of_its_luminance() {
     let mode = Mode::FalseColour { low: 0.0, high: 1.0, logarithmic: false };
     let drawn = screen.draw(&View { mode, ..plain(2, 2) }, &rgb(2, vec![c; 4]), None);
     assert_eq!(drawn, [colour_map::at(c.luminance()); 4]);
+}
+
+/// What is marked is what the PNG writer writes as 255 in a channel, or as black.
+#[test]
+fn clipping_is_marked_where_bytes_are_at_their_ends() {
+    let light = [0.0, 1e-5, 1e-3, 0.2, 0.9, 0.999, 1.0, 8.0];
+    let pixels: Vec<Rgb> = light.iter().map(|&v| Rgb::new(v, 0.5 * v, 0.25 * v)).collect();
+    let picture = rgb(8, pixels.clone());
+    let mut screen = Screen::new([64, 8]);
+    for exposure_stops in [-2.0, 0.0, 3.0] {
+        let image_rect = rect(0.0, 0.0, 64.0, 8.0);
+        let view = View { marks_clipping: true, exposure_stops, image_rect, ..plain(8, 1) };
+        let drawn = screen.draw(&view, &picture, None);
+        for (i, &c) in pixels.iter().enumerate() {
+            let of_pixel: Vec<[u8; 3]> = (0..64).map(|p| drawn[(p / 8) * 64 + 8 * i + p % 8]).collect();
+            let shown = tone_map::display(c, ToneMap::Linear, exposure_stops);
+            let has = |colour: [u8; 3]| of_pixel.iter().filter(|found| **found == colour).count();
+            let (black, red) = (has([0, 51, 204]), has([255, 0, 0]));
+            assert_eq!(black == 64, shown == [0; 3], "{c:?} at {exposure_stops}: {shown:?}");
+            let stripes = if shown.contains(&255) { 32 } else { 0 };
+            assert_eq!(red, stripes, "{c:?} at {exposure_stops}: {shown:?}");
+        }
+    }
+    // Measures have no ends.
+    let mode = Mode::FalseColour { low: 0.0, high: 1.0, logarithmic: false };
+    let drawn = screen.draw(&View { mode, marks_clipping: true, ..plain(8, 1) }, &picture, None);
+    assert_eq!(drawn[7], colour_map::at(1.0));
 }

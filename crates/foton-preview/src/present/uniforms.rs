@@ -52,6 +52,7 @@ pub(super) struct Kind {
     tone_map: u8,
     compares: bool,
     shrinks: [bool; 2],
+    marks_clipping: bool,
 }
 
 impl Kind {
@@ -75,17 +76,19 @@ impl Kind {
                 width > MAX_TEXEL_COUNT * size.x || height > MAX_TEXEL_COUNT * size.y
             })
         });
-        Self { mode, tone_map, compares, shrinks: [shrinks[0], shrinks[1] && compares] }
+        let marks_clipping = view.marks_clipping && mode == 0;
+        Self { mode, tone_map, compares, shrinks: [shrinks[0], shrinks[1] && compares], marks_clipping }
     }
 
     /// By the names of the shader.
-    pub(super) fn constants(self) -> [(&'static str, f64); 5] {
+    pub(super) fn constants(self) -> [(&'static str, f64); 6] {
         [
             ("MODE", self.mode.into()),
             ("TONE_MAP", self.tone_map.into()),
             ("COMPARES", self.compares.into()),
             ("SHRINKS_A", self.shrinks[0].into()),
             ("SHRINKS_B", self.shrinks[1].into()),
+            ("MARKS_CLIPPING", self.marks_clipping.into()),
         ]
     }
 }

@@ -16,6 +16,7 @@ use super::event::UserEvent;
 use super::frame_log::FrameLog;
 use super::live::Live;
 use super::pace::Pace;
+use super::recent::Recent;
 use crate::state::{Leaving, State, Tone};
 
 /// How often to check whether the scene's file has changed.
@@ -37,6 +38,7 @@ pub(super) struct App {
     occluded: bool,
     watched: Option<(PathBuf, Option<SystemTime>)>,
     looked: Instant,
+    recent: Recent,
 }
 
 impl App {
@@ -58,6 +60,7 @@ impl App {
             occluded: false,
             watched: None,
             looked: Instant::now(),
+            recent: Recent::default(),
         }
     }
 
@@ -86,6 +89,7 @@ impl App {
             let place = |f: &Frame| (f.activity, f.render, f.pictured);
             is_news = before.is_none_or(|old| place(old) != place(&frame));
             self.state.show(frame);
+            self.recent.mind(&mut self.state);
         }
         while let Some(event) = self.engine.event() {
             if matches!(event, Event::SceneSaved(_)) {

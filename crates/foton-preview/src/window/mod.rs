@@ -7,6 +7,7 @@ mod event;
 mod frame_log;
 mod live;
 mod pace;
+mod recent;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -21,6 +22,7 @@ use error::reason;
 use event::UserEvent;
 use frame_log::FrameLog;
 
+use crate::looking::BuiltIn;
 use crate::preferences::Preferences;
 use crate::state::State;
 
@@ -30,8 +32,8 @@ pub struct Options {
     pub scene: Source,
     /// How scenes are opened and saved.
     pub loader: Arc<dyn Loader>,
-    /// Names of the scenes that ship with the program.
-    pub built_in: Vec<String>,
+    /// Scenes that ship with the program.
+    pub built_in: Vec<BuiltIn>,
     /// Renders beyond this many bytes are refused.
     pub memory_limit: Option<f64>,
     /// Where to write a line for each frame drawn.
@@ -53,21 +55,20 @@ pub fn run(options: Options) -> Result<(), WindowError> {
     let events = events.map_err(|cause| WindowError::NoDisplay(reason(&cause)))?;
     let proxy = events.create_proxy();
     let wake = proxy.clone();
-    let setup = Setup {
-        loader: options.loader,
-        wake: Box::new(move || {
-            // The loop is gone when the window is closed.
-            let _ = wake.send_event(UserEvent::Wake);
-        }),
-        memory_limit: options.memory_limit,
-    };
+    let wake = Box::new(move || {
+        // The loop is gone when the window is closed.
+        let _ = wake.send_event(UserEvent::Wake);
+    });
+    let setup = Setup::new(options.loader, wake, options.memory_limit);
     let close = events.create_proxy();
     (options.closes)(Box::new(move || {
         let _ = close.send_event(UserEvent::Close);
     }));
     let engine = Engine::spawn(setup).map_err(|cause| WindowError::NoDisplay(cause.to_string()))?;
     engine.send(Command::Open(options.scene));
-    let state = State::new(Preferences::load(), options.built_in);
+    let mut preferences = Preferences::load();
+    preferences.starts = preferences.starts.saturating_add(1);
+    let state = State::new(preferences, options.built_in);
     let mut app = App::new(engine, proxy, state, log);
     let ended = events.run_app(&mut app);
     app.finish();

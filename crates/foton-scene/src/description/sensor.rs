@@ -1,5 +1,7 @@
 //! Cameras: where they are, what they see, how their pixels are filtered.
 
+use std::fmt;
+
 use foton_math::glam::DAffine3;
 
 /// A camera.
@@ -28,6 +30,25 @@ pub struct SensorDescription {
 }
 
 impl SensorDescription {
+    /// Renders a part of the image alone, in place of any other.
+    ///
+    /// # Errors
+    /// Where the part is empty or not all inside, in words.
+    pub fn show_only(&mut self, region: Crop) -> Result<(), String> {
+        let Crop { x, y, width, height } = region;
+        let fits = |first: u32, count: u32, all: u32| {
+            count > 0 && u64::from(first) + u64::from(count) <= u64::from(all)
+        };
+        if !fits(x, width, self.width) || !fits(y, height, self.height) {
+            return Err(format!(
+                "the region {region} is not inside the image of {} x {} pixels",
+                self.width, self.height
+            ));
+        }
+        self.crop = Some(region);
+        Ok(())
+    }
+
     /// The same view at another size in pixels, a crop in proportion.
     pub fn resize(&mut self, width: u32, height: u32) {
         if let Some(crop) = &mut self.crop {
@@ -56,6 +77,12 @@ pub struct Crop {
     pub width: u32,
     /// Rows.
     pub height: u32,
+}
+
+impl fmt::Display for Crop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{},{},{},{}", self.x, self.y, self.width, self.height)
+    }
 }
 
 /// The image axis that a field of view spans.

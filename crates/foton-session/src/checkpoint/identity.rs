@@ -3,11 +3,19 @@
 
 use foton_input::shown;
 use foton_integrator::{DirectLight, Render};
+use foton_scene::Sensor;
 
 use crate::metadata::SceneIdentity;
 
 /// The name of the scene's hash, which no option sets.
 const SCENE: &str = "scene";
+
+/// The line that says whether a state has light by path class.
+const CLASSES: &str = "kinds of light";
+
+/// Why a state without light by path class does not do where that is asked for.
+pub(super) const WITHOUT_CLASSES: &str =
+    "was made with kinds of light summed, not kept apart, which cannot change on the way";
 
 /// Differences that are said at most.
 const MAX: usize = 20;
@@ -24,7 +32,7 @@ pub(super) fn of(render: &Render, scene: &SceneIdentity) -> String {
     let lines = [
         (SCENE, format!("{:016x}", scene.hash)),
         ("sensor", sensor.name.replace('\n', " ")),
-        ("size", format!("{}x{}", sensor.width, sensor.height)),
+        ("size", size(sensor)),
         ("seed", s.seed.to_string()),
         ("spp", s.samples_per_pixel.to_string()),
         ("radius", radius),
@@ -32,13 +40,24 @@ pub(super) fn of(render: &Render, scene: &SceneIdentity) -> String {
         ("radius-floor", s.ppm.radius_floor.to_string()),
         ("direct", direct.to_owned()),
         ("max-depth", s.max_depth_in(render.scene()).to_string()),
-        ("kinds of light", (if s.layers { "kept apart" } else { "summed" }).to_owned()),
+        (CLASSES, (if s.layers { "kept apart" } else { "summed" }).to_owned()),
         ("error", (if s.error { "estimated" } else { "off" }).to_owned()),
         ("photons of the first pass", s.ppm.first_pass.to_string()),
         ("hit points a sample", s.ppm.hit_points_per_sample.to_string()),
         ("hit points", render.start_report().hit_points.to_string()),
     ];
     lines.map(|(name, value)| format!("{name}={value}\n")).concat()
+}
+
+/// Pixels that are rendered, and where in the image if that is not all of it.
+fn size(sensor: &Sensor) -> String {
+    let size = format!("{}x{}", sensor.width, sensor.height);
+    if !sensor.is_cropped() {
+        return size;
+    }
+    let [width, height] = sensor.whole();
+    let window = sensor.window();
+    format!("{size} at {},{} of {width}x{height}", window.x, window.y)
 }
 
 /// What differs between a checkpoint's lines and those of a render, in words; `None` if nothing does.
@@ -48,7 +67,9 @@ pub(super) fn difference(stored: &str, here: &str) -> Option<String> {
     }
     let pairs = |text: &str| -> Vec<(String, String)> {
         let pairs = text.lines().filter_map(|line| line.split_once('='));
-        pairs.map(|(name, value)| (name.to_owned(), value.to_owned())).collect()
+        // Light by path class is beside the rest and changes nothing of it.
+        let all = pairs.filter(|(name, _)| *name != CLASSES);
+        all.map(|(name, value)| (name.to_owned(), value.to_owned())).collect()
     };
     let (stored, here) = (pairs(stored), pairs(here));
     let mut differing = stored.iter().zip(&here).filter(|(stored, here)| stored != here).peekable();
@@ -71,6 +92,7 @@ pub(super) fn difference(stored: &str, here: &str) -> Option<String> {
             };
             Some(format!("was made with {}, which cannot change on the way", caused.join("; ")))
         }
+        None if stored == here && !here.is_empty() => None,
         None => Some("is of another render".to_owned()),
     }
 }

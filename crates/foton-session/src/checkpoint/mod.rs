@@ -94,30 +94,59 @@ pub fn write(
     rays: u64,
     scene: &SceneIdentity,
 ) -> Result<(), WriteError> {
-    let state = render.save();
-    let nanoseconds = u64::try_from(elapsed.as_nanos()).unwrap_or(u64::MAX);
-    atomic_write(path, |file| {
-        let packed = zstd::bulk::compress(&state, COMPRESSION)?;
-        let text = identity::of(render, scene);
-        let mut bytes = Vec::with_capacity(HEADER + text.len() + packed.len() + TRAILER);
-        bytes.extend_from_slice(&MAGIC);
-        bytes.extend_from_slice(&VERSION.to_le_bytes());
-        for number in [text.len() as u64, nanoseconds, rays, state.len() as u64] {
-            bytes.extend_from_slice(&number.to_le_bytes());
-        }
-        bytes.extend_from_slice(text.as_bytes());
-        bytes.extend_from_slice(&packed);
-        bytes.extend_from_slice(&hash(&bytes).to_le_bytes());
-        file.write_all(&bytes)
-    })
+    Prepared::of(render, elapsed, rays, scene).write(path)
+}
+
+/// A render's state that is still to be written, apart from the render.
+pub struct Prepared {
+    state: Vec<u8>,
+    text: String,
+    nanoseconds: u64,
+    rays: u64,
+}
+
+impl Prepared {
+    /// Of a render as it stands, with the time and the rays that it has taken.
+    #[must_use]
+    pub fn of(render: &Render, elapsed: Duration, rays: u64, scene: &SceneIdentity) -> Self {
+        let nanoseconds = u64::try_from(elapsed.as_nanos()).unwrap_or(u64::MAX);
+        Self { state: render.save(), text: identity::of(render, scene), nanoseconds, rays }
+    }
+
+    /// Writes it; the file that was there before stays whole until the new one is.
+    ///
+    /// # Errors
+    /// [`WriteError`] with the path.
+    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
+        let Self { state, text, nanoseconds, rays } = self;
+        atomic_write(path, |file| {
+            let packed = zstd::bulk::compress(state, COMPRESSION)?;
+            let mut bytes = Vec::with_capacity(HEADER + text.len() + packed.len() + TRAILER);
+            bytes.extend_from_slice(&MAGIC);
+            bytes.extend_from_slice(&VERSION.to_le_bytes());
+            for number in [text.len() as u64, *nanoseconds, *rays, state.len() as u64] {
+                bytes.extend_from_slice(&number.to_le_bytes());
+            }
+            bytes.extend_from_slice(text.as_bytes());
+            bytes.extend_from_slice(&packed);
+            bytes.extend_from_slice(&hash(&bytes).to_le_bytes());
+            file.write_all(&bytes)
+        })
+    }
 }
 
 /// Resumes a checkpoint in a render that was started with the same scene and settings. α and photons a pass come from the
-/// checkpoint.
+/// checkpoint. `needs_classes` says that light by path class must be that of all passes; otherwise, where the checkpoint has none, it
+/// is summed from here on ([`Render::photons_by_class`]).
 ///
 /// # Errors
 /// When the file is no checkpoint of this render; see [`ResumeError`]. The session is then not to be used.
-pub fn resume(path: &Path, session: &mut Session, scene: &SceneIdentity) -> Result<(), ResumeError> {
+pub fn resume(
+    path: &Path,
+    session: &mut Session,
+    scene: &SceneIdentity,
+    needs_classes: bool,
+) -> Result<(), ResumeError> {
     let owned = || path.to_owned();
     let expected = session.render().save().len() as u64;
     // Each change of a setting takes 24 bytes; no render has so many that the state grows eightfold.
@@ -158,7 +187,13 @@ pub fn resume(path: &Path, session: &mut Session, scene: &SceneIdentity) -> Resu
     let state = zstd::bulk::decompress(packed, length as usize).map_err(|_| damaged())?;
     session
         .restore(&state, Duration::from_nanos(number(20)), number(28))
-        .map_err(|cause| ResumeError::State { path: owned(), cause })
+        .map_err(|cause| ResumeError::State { path: owned(), cause })?;
+    let render = session.render();
+    if needs_classes && render.photons_by_class() != Some(render.photons_emitted()) {
+        let difference = identity::WITHOUT_CLASSES.to_owned();
+        return Err(ResumeError::OtherRender { path: owned(), difference });
+    }
+    Ok(())
 }
 
 /// FNV-1a, 64 bits.

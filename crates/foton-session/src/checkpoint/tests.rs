@@ -32,7 +32,7 @@ fn identity() -> SceneIdentity {
 /// Passes of a checkpoint.
 fn passes(path: &Path) -> u64 {
     let mut session = session(0);
-    resume(path, &mut session, &identity()).expect("of the discs");
+    resume(path, &mut session, &identity(), false).expect("of the discs");
     session.render().passes()
 }
 

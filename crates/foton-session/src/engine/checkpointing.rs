@@ -89,8 +89,9 @@ impl Worker {
     /// is no render: the next one begins at its first pass.
     pub(super) fn resume_in(&mut self, mut render: LevelRender) -> Option<LevelRender> {
         let Some(path) = self.files.resuming.take() else { return Some(render) };
-        let resumed = self.named_by_its_file().and_then(|scene| {
-            checkpoint::resume(&path, render.session_mut(), &scene).map_err(|error| error.to_string())
+        let scene = self.files.resuming_as.take().map_or_else(|| self.named_by_its_file(), Ok);
+        let resumed = scene.and_then(|scene| {
+            checkpoint::resume(&path, render.session_mut(), &scene, false).map_err(|error| error.to_string())
         });
         if let Err(message) = resumed {
             // What it left behind is not to be used.
@@ -100,7 +101,14 @@ impl Worker {
         let settings = render.render().settings();
         self.plan.settings.ppm.alpha = settings.ppm.alpha;
         self.plan.settings.ppm.photons_per_pass = settings.ppm.photons_per_pass;
-        self.event(Event::Notice(format!("Going on after {} passes", render.render().passes())));
+        let resumed = render.render();
+        let passes = resumed.passes();
+        let by_class = if resumed.photons_by_class() == Some(resumed.photons_emitted()) {
+            ""
+        } else {
+            "; light by path is of the passes from here on"
+        };
+        self.event(Event::Notice(format!("Going on after {passes} passes{by_class}")));
         Some(render.resumed())
     }
 

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use foton_edit::{DragMode, FieldId, Handle, Make, NewThing, Target, Value, ViewSide};
 use foton_integrator::{DirectLight, RadiusFloor, RadiusRule, RenderSettings};
+pub use foton_scene::description::Crop as Region;
 
+use crate::snapshot::Look;
 use crate::stop::StopRule;
 
 /// A scene to open.
@@ -33,8 +35,8 @@ pub struct Configuration {
     pub seed: u64,
     /// Index of the sensor.
     pub sensor: usize,
-    /// Whether direct, caustic and indirect light are separated.
-    pub layers: bool,
+    /// The part of the sensor's image that is rendered; `None`: what the scene says.
+    pub region: Option<Region>,
     /// Longest path in edges; `None`: what the scene says.
     pub max_depth: Option<u32>,
     /// Threads; `None`: as many as the machine has.
@@ -42,9 +44,9 @@ pub struct Configuration {
 }
 
 impl Configuration {
-    /// What these settings say.
+    /// What these settings say, of a part of the image.
     #[must_use]
-    pub fn of(settings: &RenderSettings, threads: Option<usize>) -> Self {
+    pub fn of(settings: &RenderSettings, threads: Option<usize>, region: Option<Region>) -> Self {
         Self {
             radius: settings.ppm.radius,
             radius_floor: settings.ppm.radius_floor,
@@ -53,7 +55,7 @@ impl Configuration {
             samples_per_pixel: settings.samples_per_pixel,
             seed: settings.seed,
             sensor: settings.sensor,
-            layers: settings.layers,
+            region,
             max_depth: settings.max_depth,
             threads,
         }
@@ -68,7 +70,6 @@ impl Configuration {
         settings.samples_per_pixel = self.samples_per_pixel;
         settings.seed = self.seed;
         settings.sensor = self.sensor;
-        settings.layers = self.layers;
         settings.max_depth = self.max_depth;
     }
 }
@@ -211,7 +212,7 @@ impl SceneEdit {
 pub enum ViewMode {
     /// All radiance.
     Radiance,
-    /// Reflected light of some path classes, in their order, and emitters; the render must separate classes.
+    /// Reflected light of some path classes, in their order, and emitters.
     Classes {
         /// Direct, caustic, indirect.
         reflected: [bool; 3],
@@ -285,10 +286,34 @@ pub enum Command {
     ShowPhotons(bool),
     /// The pixel that a person points at.
     Probe(Option<[u32; 2]>),
-    /// Writes the render as it stands: an EXR and a PNG into a folder, under the next free number.
+    /// Writes the render as it stands: an EXR and a PNG into a folder, such as `ring-001-p000016.exr`. The number counts runs.
     Snapshot(PathBuf),
+    /// How the PNGs of snapshots show radiance from now on.
+    SetLook(Look),
     /// Snapshots at powers of two, into a folder.
     AutoSnapshots(Option<PathBuf>),
+    /// Keeps the pass in the history.
+    Remember,
+    /// Goes on from a pass of the history, by its number.
+    ReturnTo(u64),
+    /// Writes the kept passes of the render that one of them is of as a film into a new folder in this one.
+    ExportFilm {
+        /// The number of one of them.
+        of: u64,
+        /// Where the new folder goes.
+        folder: PathBuf,
+    },
+    /// Turns the camera once around what it looks at, with a frame of a film for each step.
+    Turntable {
+        /// Steps of the way around.
+        steps: std::num::NonZeroU32,
+        /// Passes of each frame.
+        passes: u64,
+        /// Where the folder of the film goes.
+        folder: PathBuf,
+    },
+    /// Gives the turntable up.
+    EndTurntable,
     /// Writes the scene with its edits to a file.
     SaveScene(PathBuf),
     /// Writes the render to a checkpoint, and again every half minute and at the end, until it restarts.
@@ -305,6 +330,22 @@ impl Command {
         matches!(self, Self::Snapshot(_) | Self::SaveScene(_) | Self::KeepCheckpoint(_))
     }
 
+    /// Whether a camera that turns by itself is then somebody's else.
+    pub(super) const fn ends_turntable(&self) -> bool {
+        matches!(
+            self,
+            Self::Open(_)
+                | Self::Configure(_)
+                | Self::Restart
+                | Self::ResumeCheckpoint(_)
+                | Self::ReturnTo(_)
+                | Self::EndTurntable
+                | Self::Camera { .. }
+                | Self::ResetCamera
+                | Self::Edit(_)
+        )
+    }
+
     /// Whether a scene that is being built, or a small picture, would be for nothing.
     pub(super) const fn interrupts(&self) -> bool {
         matches!(
@@ -312,6 +353,9 @@ impl Command {
             Self::Configure(_)
                 | Self::Restart
                 | Self::ResumeCheckpoint(_)
+                | Self::ReturnTo(_)
+                | Self::Turntable { .. }
+                | Self::EndTurntable
                 | Self::Camera { .. }
                 | Self::ResetCamera
                 | Self::Choose(_)

@@ -9,7 +9,8 @@ use foton_integrator::{ErrorEstimate, Ledger, PathClass, Radii, RenderSettings};
 use foton_math::Rgb;
 use foton_scene::BuildStep;
 
-use super::command::ViewMode;
+use super::command::{Region, ViewMode};
+use super::history::HistoryEntry;
 use crate::clock::StageTimes;
 use crate::findings::Finding;
 use crate::stop::StopRule;
@@ -154,6 +155,8 @@ pub struct SceneFacts {
     pub contents: Arc<Vec<Item>>,
     /// Whether the scene differs from its file.
     pub is_edited: bool,
+    /// What its file says without effect, and what else a person should know of it, as when it was opened.
+    pub warnings: Arc<Vec<String>>,
     /// Whether it has edits that no file holds; where its cameras stand does not count.
     pub is_unsaved: bool,
     /// What undoing would take back.
@@ -212,7 +215,11 @@ pub struct Frame {
     pub building: Option<BuildProgress>,
     /// Size of the whole image in pixels.
     pub size: [u32; 2],
-    /// The picture; smaller than `size` while things move.
+    /// The part of that which the picture is of.
+    pub window: Region,
+    /// The part that a person has chosen to render alone.
+    pub region: Option<Region>,
+    /// The picture of the window; of fewer pixels while things move.
     pub picture: Option<Picture>,
     /// What the picture is of.
     pub view: ViewMode,
@@ -228,6 +235,10 @@ pub struct Frame {
     pub threads: Option<usize>,
     /// When it will stop.
     pub stop: StopRule,
+    /// Passes that were kept, the oldest first.
+    pub history: Arc<Vec<HistoryEntry>>,
+    /// Frames of a turntable that are written, and all of them, while one turns.
+    pub turntable: Option<[u32; 2]>,
     /// How much rendering the render's checkpoint does not have yet; `None` without a checkpoint.
     pub checkpoint_age: Option<Duration>,
     /// The scene.

@@ -96,6 +96,14 @@ pub(super) struct Ready {
     pub(super) findings: Vec<Finding>,
 }
 
+impl Ready {
+    /// What a person should know of the scene and its file, in words.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let findings = self.findings.iter().map(|finding| finding.text.clone());
+        self.loaded.warnings.iter().cloned().chain(findings).collect()
+    }
+}
+
 /// What was asked for of a file.
 pub(super) enum Arrival {
     /// A scene, to take the place of the present one.

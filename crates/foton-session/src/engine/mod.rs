@@ -7,15 +7,20 @@ mod cancels;
 mod checkpointing;
 mod command;
 mod editable_scene;
+mod filming;
 mod frame;
+mod history;
+mod keeping;
 mod kept;
 mod loader;
 mod newest;
 mod probe;
 mod rates;
 mod render;
+mod run;
 mod setup;
 mod starting;
+mod teller;
 mod worker;
 mod writing;
 
@@ -27,12 +32,13 @@ use std::time::{Duration, Instant};
 use crossbeam_channel::{Receiver, Sender, bounded};
 
 use cancels::Cancels;
-pub use command::{Command, Configuration, ErrorPart, Event, Gesture, SceneEdit, Source, ViewMode};
+pub use command::{Command, Configuration, ErrorPart, Event, Gesture, Region, SceneEdit, Source, ViewMode};
 pub use foton_scene::BuildStep;
 pub use frame::{
     Activity, BuildProgress, Dot, Frame, Picture, Probe, RenderStats, SceneFacts, Selection, SensorFacts,
     SurfaceNames,
 };
+pub use history::{HistoryEntry, Thumbnail, shrunk};
 pub use loader::{Loaded, Loader, Reopened, SavedScene};
 pub use setup::Setup;
 

@@ -6,6 +6,7 @@ use foton_integrator::{Disc, Render, StoredPhoton};
 use foton_math::Ray;
 use foton_math::glam::{DVec3, Vec2};
 use foton_scene::Scene;
+use foton_scene::description::Crop;
 use rayon::prelude::*;
 
 use super::frame::{Dot, Probe, SurfaceNames};
@@ -31,11 +32,8 @@ fn dot(render: &Render, photon: &StoredPhoton, only_seen: bool) -> Option<Dot> {
     let scene = render.scene();
     let sensor = &scene.sensors()[render.settings().sensor];
     let point = scene.normalisation().point(photon.position);
-    let (film, _) = sensor.project(point)?;
-    let size = Vec2::new(sensor.width as f32, sensor.height as f32);
-    if film.cmplt(Vec2::ZERO).any() || film.cmpge(size).any() {
-        return None;
-    }
+    let (film, _) = sensor.project_on_whole(point)?;
+    pixel_in(&sensor.window(), film)?;
     if only_seen {
         let way = point - sensor.origin();
         let ray = Ray { t_max: way.length() * (1.0 - SEEN), ..Ray::new(sensor.origin(), way.normalize()) };
@@ -46,20 +44,26 @@ fn dot(render: &Render, photon: &StoredPhoton, only_seen: bool) -> Option<Dot> {
     Some(Dot { film: film.to_array(), class: photon.class })
 }
 
-/// What is known of a pixel; `None` outside the image.
+/// The column and row in what is rendered of a position in the whole image; `None` outside.
+fn pixel_in(window: &Crop, film: Vec2) -> Option<[u32; 2]> {
+    let within = |at: f32, first: u32, count: u32| {
+        let at = at - first as f32;
+        (at >= 0.0 && at < count as f32).then_some(at as u32)
+    };
+    Some([within(film.x, window.x, window.width)?, within(film.y, window.y, window.height)?])
+}
+
+/// What is known of a pixel of the whole image; `None` outside what is rendered.
 pub(super) fn probe(render: &Render, pixel: [u32; 2]) -> Option<Probe> {
     let scene = render.scene();
     let sensor = &scene.sensors()[render.settings().sensor];
-    let [x, y] = pixel;
-    if x >= sensor.width || y >= sensor.height {
-        return None;
-    }
+    let film = Vec2::new(pixel[0] as f32 + 0.5, pixel[1] as f32 + 0.5);
+    let [x, y] = pixel_in(&sensor.window(), film)?;
     let index = y as usize * sensor.width as usize + x as usize;
     let discs = render.discs(index);
     let first = discs.first();
     let photons = first.map_or_else(Vec::new, |d| render.photons_near(d.position, d.radius, DISC_DOTS));
     let eye = scene.normalisation().world_point(sensor.origin());
-    let film = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
     Some(Probe {
         pixel,
         radiance: render.radiance(index),
@@ -67,7 +71,7 @@ pub(super) fn probe(render: &Render, pixel: [u32; 2]) -> Option<Probe> {
         photons_found: discs.iter().map(|d| d.photons_found).sum(),
         hit_points: discs.len(),
         distance: first.map(|d| d.position.distance(eye)),
-        surface: surface(scene, sensor.ray(film)),
+        surface: surface(scene, sensor.ray_of_whole(film)),
         disc: first.map_or_else(Vec::new, |d| outline(scene, render.settings().sensor, d)),
         photons: photons.iter().filter_map(|p| dot(render, p, false)).collect(),
     })
@@ -86,7 +90,7 @@ fn outline(scene: &Scene, sensor: usize, disc: &Disc) -> Vec<[f32; 2]> {
     let corner = |i: u32| -> Option<[f32; 2]> {
         let (sin, cos) = (TAU * f64::from(i) / f64::from(CORNERS)).sin_cos();
         let point: DVec3 = disc.position + (tangent * cos + bitangent * sin) * disc.radius;
-        let (film, _) = scene.sensors()[sensor].project(scene.normalisation().point(point))?;
+        let (film, _) = scene.sensors()[sensor].project_on_whole(scene.normalisation().point(point))?;
         Some(film.to_array())
     };
     (0..CORNERS).map(corner).collect::<Option<_>>().unwrap_or_default()

@@ -117,7 +117,8 @@ impl LevelRender {
         }
         let mut sensors = sensors.to_vec();
         for sensor in &mut sensors {
-            let pixels = f64::from(sensor.width) * f64::from(sensor.height);
+            let [width, height] = sensor.crop.map_or([sensor.width, sensor.height], |c| [c.width, c.height]);
+            let pixels = f64::from(width) * f64::from(height);
             let factor = (f64::from(level.pixels()) / pixels).sqrt().min(1.0);
             let shrink = |n: u32| ((f64::from(n) * factor).round() as u32).max(1);
             sensor.resize(shrink(sensor.width), shrink(sensor.height));

@@ -19,7 +19,7 @@ fn failure(rig: &Rig) -> String {
 
 fn passes(path: &Path) -> u64 {
     let mut session = headless(0, settings(), |_, _| ());
-    checkpoint::resume(path, &mut session, &identity()).expect("of the room");
+    checkpoint::resume(path, &mut session, &identity(), false).expect("of the room");
     session.render().passes()
 }
 
@@ -161,13 +161,15 @@ fn nothing_is_written_over_what_the_scene_is_read_from_or_its_checkpoint() {
     let busy =
         |path: &Path| format!("cannot write {}: it is the checkpoint {}", path.display(), last.display());
     assert_eq!(failure(&rig), busy(&last));
-    let [exr, png] = ["exr", "png"].map(|e| folder.0.join("room-000004").with_extension(e));
+    let [exr, png] = ["exr", "png"].map(|e| folder.0.join(format!("room-002-p000004.{e}")));
+    rig.send(Command::AutoSnapshots(Some(folder.0.clone())));
+    std::fs::hard_link(scene_file(), folder.0.join("room-001-p000002.exr")).expect("a link");
     std::fs::hard_link(scene_file(), &exr).expect("a link");
     std::fs::hard_link(&last, &png).expect("a link");
-    rig.send(Command::AutoSnapshots(Some(folder.0.clone())));
     rig.send(Command::StopAt(StopRule::passes(4)));
     rig.done(4);
-    assert_eq!([failure(&rig), failure(&rig)], [over(&exr, &scene_file()), busy(&png)]);
+    let made = ["exr", "png"].map(|e| folder.0.join(format!("room-003-p000004.{e}")));
+    assert_eq!(rig.saved(), made, "beside them");
     assert_eq!(std::fs::read_to_string(scene_file()).expect("there"), "the scene");
     assert_eq!(passes(&last), 2);
     std::fs::remove_file(scene_file()).expect("ours");

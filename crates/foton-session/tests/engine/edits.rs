@@ -233,7 +233,7 @@ fn what_was_asked_to_be_written_is_written_before_the_end() {
     rig.send(Command::Snapshot(folder.0.clone()));
     rig.engine.finish_writing();
     let there = |name: &str| folder.0.join(name).exists();
-    assert!(there("foton-001.exr") && there("foton-001.png"));
+    assert!(there("room-001-p000001.exr") && there("room-001-p000001.png"));
 }
 
 #[test]

@@ -2,7 +2,9 @@
 
 mod checkpoints;
 mod edits;
+mod history;
 mod pausing;
+mod regions;
 mod rig;
 mod things;
 
@@ -10,9 +12,11 @@ use std::num::NonZeroU32;
 use std::path::PathBuf;
 use std::time::Duration;
 
+use foton_film::ToneMap;
 use foton_integrator::PpmSettings;
 use foton_session::engine::{Activity, Command, Configuration, Event, Picture, SurfaceNames, ViewMode};
-use foton_session::snapshot::{self, Format};
+use foton_session::findings::{self, FindingKind};
+use foton_session::snapshot::{self, Format, Look};
 use foton_session::{Alpha, DirectLight, RenderSettings, SettingChange, StopRule};
 use rig::{Folder, Rig, SIZE, headless, identity, image, settings};
 
@@ -76,11 +80,11 @@ fn a_configuration_restarts_the_render() {
         direct_light: DirectLight::ShadowRays,
         radius: Some(0.125),
         threads: Some(1),
-        ..Configuration::of(&before.settings, before.threads)
+        ..Configuration::of(&before.settings, before.threads, None)
     };
     rig.send(Command::Configure(configuration.clone()));
     let after = rig.until("another render", |f| f.render != before.render && f.activity == Activity::Done);
-    assert_eq!(Configuration::of(&after.settings, after.threads), configuration);
+    assert_eq!(Configuration::of(&after.settings, after.threads, after.region), configuration);
     let asked = RenderSettings {
         seed: 5,
         ppm: PpmSettings { direct_light: DirectLight::ShadowRays, radius: Some(0.125), ..settings().ppm },
@@ -117,32 +121,62 @@ fn a_snapshot_is_the_file_that_a_headless_render_writes() {
     let (rig, _) = Rig::at_pass(3);
     rig.send(Command::Snapshot(folder.0.clone()));
     rig.send(Command::Snapshot(folder.0.clone()));
-    let names = |stem: &str| ["exr", "png"].map(|e| folder.0.join(stem).with_extension(e)).to_vec();
-    assert_eq!(rig.saved(), names("foton-001"));
-    assert_eq!(rig.saved(), names("foton-002"), "nothing is written over");
+    let names = |stem: &str| ["exr", "png"].map(|e| folder.0.join(format!("{stem}.{e}"))).to_vec();
+    assert_eq!(rig.saved(), names("room-001-p000003"));
+    assert_eq!(rig.saved(), names("room-001-p000003-2"), "nothing is written over");
     let session = headless(3, settings(), |_, _| ());
-    for (extension, format) in [("exr", Format::Exr), ("png", Format::Png)] {
-        let expected = folder.0.join("expected").with_extension(extension);
-        snapshot::write(&expected, format, session.render(), &[], &identity()).expect("written");
-        let read = |path: PathBuf| std::fs::read(path).expect("it is there");
-        assert_eq!(read(folder.0.join("foton-001").with_extension(extension)), read(expected), "{extension}");
-    }
-    rig.send(Command::Snapshot(folder.0.join("nowhere")));
-    assert!(rig.failure().contains("nowhere"));
+    let same = |look, of: &str| {
+        for (extension, format) in [("exr", Format::Exr), ("png", Format::Png)] {
+            let expected = folder.0.join("expected").with_extension(extension);
+            snapshot::write(&expected, format, session.render(), &[], look, &identity()).expect("written");
+            let read = |path: PathBuf| std::fs::read(path).expect("it is there");
+            assert!(read(folder.0.join(format!("{of}.{extension}"))) == read(expected), "{of}.{extension}");
+        }
+    };
+    same(Look::default(), "room-001-p000003");
+    // As shown: the PNG has the exposure and the tone map of the screen, and the EXR stays linear.
+    let look = Look { tone_map: ToneMap::AgX, exposure_stops: 1.5 };
+    rig.send(Command::SetLook(look));
+    rig.send(Command::Snapshot(folder.0.join("made/when needed")));
+    let made = "made/when needed/room-001-p000003";
+    assert_eq!(rig.saved(), names(made));
+    same(look, made);
+    let metadata = png_text(&folder.0.join(format!("{made}.png")));
+    assert!(metadata.contains("exposure=1.5 tone_map=agx"), "{metadata}");
+    rig.send(Command::Snapshot(folder.0.join("expected.png/no folder")));
+    assert!(rig.failure().contains("expected.png/no folder for pictures"));
+}
+
+/// The bytes of a PNG's texts, as far as they are letters.
+fn png_text(path: &std::path::Path) -> String {
+    String::from_utf8_lossy(&std::fs::read(path).expect("it is there")).into_owned()
 }
 
 #[test]
-fn snapshots_come_by_themselves_at_powers_of_two() {
+fn snapshots_come_by_themselves_at_powers_of_two_and_no_run_writes_over_another() {
     let folder = Folder::new("powers");
+    // Somebody's, from an earlier day, by the name that the first run would have had.
+    let earlier = folder.0.join("room-001-p000002.png");
+    std::fs::write(&earlier, "somebody's").expect("written");
     let rig = Rig::new(settings(), None);
     rig.send(Command::AutoSnapshots(Some(folder.0.clone())));
     rig.send(Command::StopAt(StopRule::passes(5)));
     rig.open("room");
-    for pass in [1, 2, 4] {
-        assert_eq!(rig.saved()[0], folder.0.join(format!("room-{pass:06}.exr")));
-    }
-    rig.done(5);
-    assert_eq!(std::fs::read_dir(&folder.0).expect("there").count(), 6);
+    let saves = |run: u32| {
+        for pass in [1, 2, 4] {
+            assert_eq!(rig.saved()[0], folder.0.join(format!("room-{run:03}-p{pass:06}.exr")));
+        }
+        rig.done(5);
+    };
+    saves(2);
+    let before = std::fs::read(folder.0.join("room-002-p000004.exr")).expect("there");
+    rig.send(Command::Configure(Configuration { seed: 9, ..Configuration::of(&settings(), None, None) }));
+    saves(3);
+    rig.open("room");
+    saves(4);
+    assert_eq!(std::fs::read_dir(&folder.0).expect("there").count(), 3 * 6 + 1);
+    assert!(std::fs::read(folder.0.join("room-002-p000004.exr")).expect("there") == before);
+    assert_eq!(std::fs::read_to_string(&earlier).expect("there"), "somebody's");
 }
 
 #[test]
@@ -226,6 +260,27 @@ fn an_image_of_32768_by_32768_is_refused_with_the_numbers() {
     rig.done(1);
 }
 
+/// Light that is cut off, a light that nothing seen gets, a goal beyond reach: frames carry what the console prints.
+#[test]
+fn frames_carry_what_the_console_warns_of() {
+    let (rig, before) = Rig::at_pass(2);
+    assert_eq!(before.scene.warnings[0], "room.xml:1:1: a warning");
+    let now = Configuration::of(&before.settings, before.threads, None);
+    rig.send(Command::Configure(Configuration { max_depth: Some(2), radius: Some(1e6), ..now }));
+    let frame = rig.until("less depth", |f| f.activity == Activity::Done && f.settings.max_depth == Some(2));
+    let headless = headless(2, frame.settings.clone(), |_, _| ());
+    let names = &findings::SettingNames::CONTROLS;
+    let mut console = findings::of_settings(headless.render().scene(), &frame.settings, names);
+    console.extend(findings::of_ledger(headless.render(), names));
+    console.extend(findings::of_emitters(headless.render()));
+    assert_eq!(*frame.stats.findings, console);
+    let kinds: Vec<FindingKind> = console.iter().map(|finding| finding.kind).collect();
+    assert!(
+        kinds.contains(&FindingKind::PowerCutOff) && kinds.contains(&FindingKind::RadiusBeyondScene),
+        "{kinds:?}"
+    );
+}
+
 #[test]
 fn measures_and_kinds_of_light_are_shown_instead_of_radiance() {
     let (rig, before) = Rig::at_pass(2);
@@ -236,14 +291,15 @@ fn measures_and_kinds_of_light_are_shown_instead_of_radiance() {
         assert!(plane.values.iter().any(|v| *v > 0.0), "{view:?}");
         assert_eq!(frame.render, before.render);
     }
-    let layers = Configuration { layers: true, ..Configuration::of(&before.settings, before.threads) };
-    rig.send(Command::Configure(layers));
+    // Kinds of light are there from the first pass on, of whole and small pictures, and cost the radiance no bit.
+    assert_eq!(*image(&before), headless(2, settings(), |_, _| ()).render().image());
     let one = |i: usize| ViewMode::Classes { reflected: std::array::from_fn(|k| k == i), emission: false };
     let mut sum = vec![0.0; image(&before).pixels.len()];
     for i in 0..3 {
         rig.send(Command::SetView(one(i)));
         let frame = rig.until("a kind of light", |f| f.view == one(i) && f.activity == Activity::Done);
         let kind = image(&frame);
+        assert_eq!(frame.render, before.render, "a view restarts nothing");
         assert!(i == 2 || kind.pixels.iter().any(|c| c.luminance() > 0.0), "kind {i}");
         sum.iter_mut().zip(&kind.pixels).for_each(|(s, c)| *s += f64::from(c.luminance()));
     }

@@ -220,6 +220,15 @@ pub(crate) struct Rig {
 
 impl Rig {
     pub(crate) fn new(settings: RenderSettings, memory_limit: Option<f64>) -> Self {
+        Self::with(settings, memory_limit, |setup| setup)
+    }
+
+    /// The same with other folders and limits.
+    pub(crate) fn with(
+        settings: RenderSettings,
+        memory_limit: Option<f64>,
+        change: impl FnOnce(Setup) -> Setup,
+    ) -> Self {
         let (go, wait) = crossbeam_channel::bounded(1);
         let (held, thread) = crossbeam_channel::bounded::<()>(0);
         let (told, given_up) = crossbeam_channel::unbounded();
@@ -228,7 +237,8 @@ impl Rig {
         let wake = Box::new(move || {
             let _ = held.try_send(());
         });
-        let engine = Engine::spawn(Setup { loader, wake, memory_limit }).expect("a thread");
+        let setup = Setup { history_folder: None, ..Setup::new(loader, wake, memory_limit) };
+        let engine = Engine::spawn(change(setup)).expect("a thread");
         Self { engine, go, given_up, thread }
     }
 

@@ -91,7 +91,7 @@ fn the_camera_in_use_stays_in_use_when_others_come_and_go() {
     let (rig, before) = Rig::at_pass(1);
     edit(&rig, SceneEdit::Duplicate(Target::Sensor(0)));
     let two = with(&rig, &["floor", "ball", "bulb", "camera", "camera-2"]);
-    let second = Configuration { sensor: 1, ..Configuration::of(&two.settings, two.threads) };
+    let second = Configuration { sensor: 1, ..Configuration::of(&two.settings, two.threads, None) };
     rig.send(Command::Configure(second));
     rig.send(Command::Camera { gesture: Gesture::Face(ViewSide::Top), moving: false });
     let above = rig.until("the view from above", |f| {

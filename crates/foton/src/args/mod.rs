@@ -12,12 +12,13 @@ mod values;
 use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand};
+use foton_scene::description::Crop;
 use foton_session::snapshot::Format;
 
 pub(crate) use measure::Measure;
 use options::SceneOptions;
 pub(crate) use options::SettingsOptions;
-use parse::{bytes, define, image, name, xml};
+use parse::{bytes, define, image, name, region, xml};
 pub(crate) use render::RenderArgs;
 pub(crate) use values::{ErrorWish, Every, Radius, Size};
 
@@ -87,6 +88,9 @@ pub(crate) struct Info {
     pub(crate) scene: PathBuf,
     #[command(flatten)]
     pub(crate) scene_options: SceneOptions,
+    /// Estimate a render of a part of the image
+    #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
+    pub(crate) region: Option<Crop>,
     /// Refuse to read or build beyond this much memory, e.g. 800M, 8G [80 % of what is free]
     #[arg(long, value_name = "SIZE", value_parser = bytes)]
     pub(crate) memory: Option<u64>,

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use foton_integrator::{Alpha, LayerKind, RadiusFloor, RadiusScale};
+use foton_scene::description::Crop;
 use foton_session::snapshot::Format;
 
 use super::values::{ErrorWish, Radius};
@@ -31,6 +32,21 @@ pub(super) fn radius(s: &str) -> Result<Radius, String> {
         None => s.parse().ok().filter(|r: &f64| *r > 0.0 && r.is_finite()).map(Radius::World),
     };
     wish.ok_or_else(|| "expected a length above 0 in world units, or a factor such as x0.5".to_owned())
+}
+
+/// Column, row, width and height.
+pub(super) fn region(s: &str) -> Result<Crop, String> {
+    let numbers: Option<Vec<u32>> = s.split(',').map(|n| n.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, width, height]) if width > 0 && height > 0 => Ok(Crop { x, y, width, height }),
+        _ => Err("expected X,Y,WIDTH,HEIGHT in pixels, such as 120,80,200,150".to_owned()),
+    }
+}
+
+/// An exposure that leaves something to be seen.
+pub(super) fn stops(s: &str) -> Result<f32, String> {
+    let stops = s.parse().ok().filter(|stops: &f32| stops.abs() <= 60.0);
+    stops.ok_or_else(|| "expected a number of stops from -60 to 60".to_owned())
 }
 
 /// A parser of file names, which need not be text.

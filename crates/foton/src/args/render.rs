@@ -5,11 +5,12 @@ use std::time::Duration;
 
 use clap::Args as ClapArgs;
 use foton_integrator::LayerKind;
-use foton_session::snapshot::Format;
+use foton_scene::description::Crop;
+use foton_session::snapshot::{Format, Look};
 
 use super::options::{SceneOptions, SettingsOptions};
-use super::parse::{bytes, duration, error_wish, image, layer, name};
-use super::values::{ErrorWish, Every, Integrator, PresetName};
+use super::parse::{bytes, duration, error_wish, image, layer, name, region, stops};
+use super::values::{ErrorWish, Every, Integrator, PresetName, ToneMapName};
 
 /// `foton render`.
 #[derive(Debug, ClapArgs)]
@@ -41,6 +42,11 @@ pub(crate) struct RenderArgs {
     pub(crate) integrator: Integrator,
     #[command(flatten)]
     pub(crate) scene_options: SceneOptions,
+    /// Render only a part of the image: W x H pixels from column X and row Y of the whole, in place of a crop window of the scene.
+    /// The image has that size. Photons and radii go by what is seen in it, so its pixels are those of the whole image only up
+    /// to noise; the same region has the same bits every time
+    #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
+    pub(crate) region: Option<Crop>,
     /// Refuse to start beyond this much memory, e.g. 800M, 8G [80 % of what is free]
     #[arg(long, value_name = "SIZE", value_parser = bytes)]
     pub(crate) memory: Option<u64>,
@@ -61,6 +67,12 @@ pub(crate) struct RenderArgs {
     /// error_noise, error_bias, error_total
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = layer)]
     pub(crate) layers: Vec<LayerKind>,
+    /// Exposure of a PNG in stops, each of which doubles the light [default: 0]
+    #[arg(long, value_name = "STOPS", value_parser = stops, allow_negative_numbers = true)]
+    pub(crate) exposure: Option<f32>,
+    /// Tone map of a PNG [default: pbr-neutral]
+    #[arg(long, value_name = "NAME", value_enum)]
+    pub(crate) tone_map: Option<ToneMapName>,
     /// Stop at the first value that is not finite (NaN or infinite), say where it arose, and write the image of the passes before.
     /// Otherwise such values are left out and counted
     #[arg(long)]
@@ -68,4 +80,15 @@ pub(crate) struct RenderArgs {
     /// Print one JSON object a line on stdout
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+impl RenderArgs {
+    /// How a PNG shows radiance.
+    pub(crate) fn look(&self) -> Look {
+        let default = Look::default();
+        Look {
+            tone_map: self.tone_map.map_or(default.tone_map, Into::into),
+            exposure_stops: self.exposure.unwrap_or(default.exposure_stops),
+        }
+    }
 }

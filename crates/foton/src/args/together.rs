@@ -62,7 +62,19 @@ impl Measure {
 impl RenderArgs {
     /// What cannot be done as it was asked for, and what would help.
     fn contradiction(&self) -> Option<String> {
-        self.layers_in_vain().or_else(|| clash(&self.roles()))
+        self.layers_in_vain().or_else(|| self.look_in_vain()).or_else(|| clash(&self.roles()))
+    }
+
+    fn look_in_vain(&self) -> Option<String> {
+        let option = self.exposure.map(|_| "--exposure").or(self.tone_map.map(|_| "--tone-map"))?;
+        let path = &self.output.0;
+        (self.output.1 == Format::Exr).then(|| {
+            format!(
+                "{option}: {} is an EXR, which holds linear radiance; write to {} instead, or leave {option} out",
+                path.display(),
+                path.with_extension("png").display()
+            )
+        })
     }
 
     fn layers_in_vain(&self) -> Option<String> {

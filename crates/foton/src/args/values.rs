@@ -3,6 +3,7 @@
 use std::str::FromStr;
 
 use clap::ValueEnum;
+use foton_film::ToneMap;
 use foton_integrator::{DirectLight, RadiusRule, RadiusScale};
 use foton_session::Preset;
 
@@ -65,6 +66,28 @@ impl From<PresetName> for Preset {
             PresetName::Preview => Self::Preview,
             PresetName::Balanced => Self::Balanced,
             PresetName::Final => Self::Final,
+        }
+    }
+}
+
+/// `--tone-map`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum ToneMapName {
+    /// No compression: each channel is clipped
+    Linear,
+    /// Khronos PBR Neutral
+    PbrNeutral,
+    /// The base look of AgX
+    #[value(name = "agx")]
+    AgX,
+}
+
+impl From<ToneMapName> for ToneMap {
+    fn from(name: ToneMapName) -> Self {
+        match name {
+            ToneMapName::Linear => Self::Linear,
+            ToneMapName::PbrNeutral => Self::PbrNeutral,
+            ToneMapName::AgX => Self::AgX,
         }
     }
 }

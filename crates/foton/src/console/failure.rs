@@ -37,6 +37,8 @@ pub(crate) enum Failure {
         asked: String,
         known: Vec<String>,
     },
+    /// A part of the image that is none, in words.
+    Region(String),
     Start(StartError),
     /// A fault of our own in a pass, and the complete passes that the written image has, if one was written.
     Panicked {
@@ -92,6 +94,7 @@ impl fmt::Display for Failure {
                 let known: Vec<_> = known.iter().take(MAX_NAMES).map(|name| quoted(name)).collect();
                 write!(f, "the scene has no sensor {}; it has {}", quoted(asked), known.join(", "))
             }
+            Self::Region(why) => f.write_str(why),
             Self::Start(cause) => cause.fmt(f),
             Self::Panicked { panic, passes: Some(passes) } => {
                 write!(f, "{panic}. What was written is the image after {passes} complete passes")

@@ -16,6 +16,7 @@ const OPTIONS: &[(&str, &[&str])] = &[
     ("--error", &["off", "2%", "0.02"]),
     ("--time", &["90s", "10m", "1.5h"]),
     ("--size", &["8x4"]),
+    ("--region", &["2,3,8,4"]),
     ("--spp", &["2"]),
     ("--max-depth", &["3"]),
     ("--seed", &["7"]),
@@ -26,6 +27,8 @@ const OPTIONS: &[(&str, &[&str])] = &[
     ("--every", &["pow2", "2"]),
     ("--checkpoint", &["x.ck", "x.ck --checkpoint-every 10m"]),
     ("--resume", &["x.ck"]),
+    ("--exposure", &["-1.5", "2"]),
+    ("--tone-map", &["linear", "pbr-neutral", "agx"]),
     ("--strict", &[""]),
     ("--json", &[""]),
 ];
@@ -80,6 +83,12 @@ fn options_take_the_values_that_scripts_give_them() {
     let folder = Folder::new("values");
     let render = "render scene.xml -o x.exr --passes 2";
     for (option, values) in OPTIONS {
+        // These are how a PNG looks.
+        let render = if ["--exposure", "--tone-map"].contains(option) {
+            &render.replace(".exr", ".png")
+        } else {
+            render
+        };
         for value in *values {
             folder.done(&format!("{render} {option} {value}"));
         }

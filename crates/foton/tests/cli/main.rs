@@ -8,6 +8,7 @@ mod interface;
 #[cfg(target_os = "linux")]
 mod places;
 mod refusals;
+mod regions;
 mod resuming;
 mod roles;
 mod scene_says;
@@ -274,12 +275,21 @@ fn images_on_the_way_are_those_of_shorter_renders() {
 #[test]
 fn a_png_is_the_tone_mapped_image_with_the_same_metadata() {
     let folder = Folder::new("png");
+    let render = "render scene.xml --passes 2 --photons 2000";
     for name in ["x.exr", "x.png"] {
-        folder.done(&format!("render scene.xml -o {name} --passes 2 --photons 2000"));
+        folder.done(&format!("{render} -o {name}"));
     }
-    let (image, metadata) = folder.exr("x.exr");
+    let (image, mut metadata) = folder.exr("x.exr");
+    metadata.set("foton:look", "exposure=0 tone_map=pbr-neutral");
     write_png(&folder.file("expected.png"), &image, ToneMap::default(), 0.0, &metadata).expect("a PNG");
     assert!(folder.bytes("x.png") == folder.bytes("expected.png"));
+    // As a window shows it, an exposure and another tone map are the PNG's own.
+    folder.done(&format!("{render} -o shown.png --exposure -1.5 --tone-map agx"));
+    metadata.set("foton:look", "exposure=-1.5 tone_map=agx");
+    write_png(&folder.file("expected.png"), &image, ToneMap::AgX, -1.5, &metadata).expect("a PNG");
+    assert!(folder.bytes("shown.png") == folder.bytes("expected.png"));
+    let said = folder.fails(2, &format!("{render} -o x.exr --exposure 1"));
+    assert!(said.contains("x.exr is an EXR, which holds linear radiance; write to x.png instead"), "{said}");
 }
 
 /// Two passes of the scene with its path classes kept apart.

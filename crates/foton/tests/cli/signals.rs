@@ -99,6 +99,40 @@ fn without_a_command_pictures_are_numbered_from_1_and_an_interrupt_ends_the_minu
     assert_eq!(folder.exr("foton-002.exr").1.get("foton:scene"), Some("scene.xml"));
 }
 
+#[test]
+fn without_a_command_the_settings_are_those_that_the_scene_suggests_as_with_render() {
+    let folder = Folder::new("suggested");
+    let integrator = r#"<integrator type="ppm"><float name="alpha" value="0.4"/>
+        <integer name="photon_count" value="3000"/><float name="initial_radius" value="0.25"/></integrator>
+        <sensor type="perspective" id="front">"#;
+    folder.write("scene.xml", &SCENE.replace(r#"<sensor type="perspective" id="front">"#, integrator));
+    start_and_interrupt(&folder);
+    let settings = |name: &str| folder.exr(name).1.get("foton:settings").expect("there").to_owned();
+    let suggested = settings("foton-001.exr");
+    for setting in ["alpha=0.4", "photons=3000", "radius=0.25"] {
+        assert!(suggested.split(' ').any(|s| s == setting), "{setting}: {suggested}");
+    }
+    folder.done("render scene.xml -o render.exr --passes 1");
+    assert_eq!(suggested, settings("render.exr"));
+    // Of what is written, the PNG says how it shows light.
+    let png = String::from_utf8_lossy(&folder.bytes("foton-001.png")).into_owned();
+    assert!(png.contains("exposure=0 tone_map=pbr-neutral"));
+}
+
+#[test]
+fn a_picture_that_somebody_put_in_the_place_meanwhile_is_left_alone() {
+    let folder = Folder::new("meanwhile");
+    let (mut child, mut stderr, mut said) = start(&folder, "scene.xml");
+    folder.write("foton-001.exr", "somebody's");
+    interrupt(&child);
+    stderr.read_to_string(&mut said).expect("lines");
+    assert_eq!(child.wait().expect("ends").code(), Some(1), "{said}");
+    assert_eq!(folder.bytes("foton-001.exr"), b"somebody's");
+    assert!(said.contains("foton-foton-001-001.exr instead"), "{said}");
+    let (_, metadata) = folder.exr("foton-foton-001-001.exr");
+    assert_eq!(metadata.get("foton:scene"), Some("scene.xml"));
+}
+
 /// Its first pass takes long in a test build, so it is given up.
 #[test]
 fn without_a_scene_the_embedded_one_is_begun_and_further_interrupts_give_it_up() {

@@ -5,12 +5,12 @@ mod left;
 mod plot;
 
 use egui::Ui;
-use foton_session::findings::Finding;
 
 pub(super) use left::{Left, duration, left};
 
 use super::figures::Figure;
 use super::text::percent;
+use super::warnings;
 use crate::state::State;
 
 const HELP: &str = "Root mean square error of the image over its mean reflected light, estimated from the passes. Noise is what more \
@@ -30,16 +30,7 @@ pub(super) fn show(ui: &mut Ui, state: &State) {
             ui.weak("The error is known after a few passes.");
         }
     }
-    for finding in &*frame.stats.findings {
-        say(ui, finding);
-    }
-}
-
-/// What the command line prints as warnings after a render.
-fn say(ui: &mut Ui, finding: &Finding) {
-    let text = egui::RichText::new(foton_input::printable(&finding.text));
-    let text = if finding.kind.is_note() { text.weak() } else { text.color(ui.visuals().warn_fg_color) };
-    ui.add(egui::Label::new(text).wrap());
+    warnings::show(ui, state);
 }
 
 /// The figures of the error.

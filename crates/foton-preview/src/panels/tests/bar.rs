@@ -6,8 +6,9 @@ use super::*;
 fn lists_choose_the_view_and_the_tone_map() {
     let mut harness = window(|_| ());
     choose(&mut harness, "Tone map", ToneMap::AgX.name());
-    assert_eq!(asked(&mut harness), [""; 0], "nothing is rendered again");
-    assert_eq!(harness.state().tone_map, ToneMap::AgX);
+    let look = Look { tone_map: ToneMap::AgX, exposure_stops: 0.0 };
+    assert_asked(&mut harness, &Command::SetLook(look));
+    assert_eq!(harness.state().tone_map, ToneMap::AgX, "nothing is rendered again");
     choose(&mut harness, "View", "Radius");
     assert_asked(&mut harness, &Command::SetView(ViewMode::Radius));
     let exposure = find(&harness, Role::SpinButton, "Exposure").accesskit_node();
@@ -15,14 +16,12 @@ fn lists_choose_the_view_and_the_tone_map() {
 }
 
 #[test]
-fn kinds_of_light_are_switched_and_separate_from_then_on() {
+fn kinds_of_light_are_a_view_that_restarts_nothing() {
     let mut harness = window(|_| ());
     click(&mut harness, Role::Button, "Light paths");
     click(&mut harness, Role::CheckBox, "Caustic");
     let view = ViewMode::Classes { reflected: [true, false, true], emission: true };
-    let layers = Configuration { layers: true, ..Configuration::of(&RenderSettings::default(), None) };
-    let expected = [Command::SetView(view), Command::Configure(layers)].map(|c| format!("{c:?}"));
-    assert_eq!(asked(&mut harness), expected);
+    assert_asked(&mut harness, &Command::SetView(view));
     click(&mut harness, Role::CheckBox, "Caustic");
     assert_asked(&mut harness, &Command::SetView(ViewMode::Radiance));
 }
@@ -47,7 +46,7 @@ fn the_bar_pauses_steps_restarts_saves_and_opens() {
         assert_asked(&mut harness, &command);
     }
     click(&mut harness, Role::Button, "File");
-    click(&mut harness, Role::Button, "Built in");
+    click(&mut harness, Role::Button, "Gallery");
     click(&mut harness, Role::Button, "ring");
     assert_asked(&mut harness, &Command::Open(Source::BuiltIn("ring".into())));
     click(&mut harness, Role::Button, "Pin");
@@ -132,4 +131,67 @@ fn notices_go_and_errors_stay_until_they_are_closed() {
     assert_eq!(harness.state().messages.len(), 1);
     click(&mut harness, Role::Button, "Dismiss");
     assert!(harness.state().messages.is_empty());
+}
+
+#[test]
+fn the_engine_is_told_how_the_screen_shows_radiance_unless_pngs_are_plain() {
+    let mut harness = window(|state| state.preferences.snapshot_folder = "/pictures".into());
+    harness.state_mut().exposure_stops = 1.5;
+    choose(&mut harness, "Tone map", ToneMap::AgX.name());
+    settle(&mut harness);
+    click(&mut harness, Role::Button, "Snapshot");
+    let look =
+        |tone_map, exposure_stops| format!("{:?}", Command::SetLook(Look { tone_map, exposure_stops }));
+    let told = asked(&mut harness);
+    let snapshot = format!("{:?}", Command::Snapshot("/pictures".into()));
+    let default = ToneMap::default();
+    assert_eq!(told, [look(default, 1.5), look(ToneMap::AgX, 1.5), snapshot]);
+    click(&mut harness, Role::CheckBox, "PNG as shown");
+    assert_eq!(asked(&mut harness), [look(default, 0.0)]);
+    click(&mut harness, Role::CheckBox, "PNG as shown");
+    assert_eq!(asked(&mut harness), [look(ToneMap::AgX, 1.5)]);
+}
+
+#[test]
+fn exposure_and_kinds_of_light_are_those_of_one_scene() {
+    let caustics = ViewMode::Classes { reflected: [false, true, false], emission: false };
+    let change = |state: &mut State| {
+        state.exposure_stops = 3.0;
+        state.tone_map = ToneMap::Linear;
+        state.view = caustics;
+    };
+    let opened = || Event::Opened { name: "pool".into(), warnings: Vec::new() };
+    let mut harness = window(change);
+    asked(&mut harness);
+    harness.state_mut().hear(opened());
+    let (state, view) = (harness.state(), ViewMode::Radiance);
+    assert_eq!((state.exposure_stops, state.tone_map, state.view), (0.0, ToneMap::default(), view));
+    assert!(asked(&mut harness).contains(&format!("{:?}", Command::SetView(view))));
+    // The same scene, read again.
+    let mut harness = window(change);
+    harness.state_mut().changed_on_disk = true;
+    settle(&mut harness);
+    click(&mut harness, Role::Button, "Reload");
+    harness.state_mut().hear(opened());
+    assert_eq!((harness.state().exposure_stops, harness.state().view), (3.0, caustics));
+}
+
+#[test]
+fn scenes_of_before_are_offered_again() {
+    let menu = || {
+        let mut harness = window(|state| {
+            state.preferences.recent = vec!["/scenes/kitchen/scene.xml".into(), "/scenes/lamp.xml".into()];
+        });
+        click(&mut harness, Role::Button, "File");
+        click(&mut harness, Role::Button, "Open recent");
+        harness
+    };
+    let mut harness = menu();
+    assert!(harness.query_by_role_and_label(Role::Button, "lamp.xml").is_some());
+    // A file that is just called scene goes by its folder.
+    click(&mut harness, Role::Button, "kitchen");
+    assert_asked(&mut harness, &Command::Open(Source::File("/scenes/kitchen/scene.xml".into())));
+    let mut harness = menu();
+    click(&mut harness, Role::Button, "Forget these");
+    assert!(harness.state().preferences.recent.is_empty());
 }

@@ -48,7 +48,7 @@ fn stop_rules_are_switched_and_typed() {
 
 #[test]
 fn what_restarts_the_render_waits_to_be_applied_and_says_what_changes() {
-    let now = Configuration::of(&RenderSettings::default(), None);
+    let now = Configuration::of(&RenderSettings::default(), None, None);
     let mut harness = window(|_| ());
     assert!(harness.query_by_label("Apply and restart").is_none(), "nothing to apply");
     choose(&mut harness, "Direct light", "Shadow rays");
@@ -95,9 +95,9 @@ fn what_restarts_the_render_waits_to_be_applied_and_says_what_changes() {
 fn a_draft_keeps_what_was_changed_when_other_settings_change_meanwhile() {
     let mut harness = window(|_| ());
     type_number(&mut harness, "Seed", "5");
-    harness.state_mut().frame.as_mut().expect("there").settings.layers = true;
+    harness.state_mut().frame.as_mut().expect("there").threads = Some(3);
     settle(&mut harness);
     click(&mut harness, Role::Button, "Apply and restart");
-    let now = Configuration::of(&RenderSettings::default(), None);
-    assert_asked(&mut harness, &Command::Configure(Configuration { seed: 5, layers: true, ..now }));
+    let now = Configuration::of(&RenderSettings::default(), None, None);
+    assert_asked(&mut harness, &Command::Configure(Configuration { seed: 5, threads: Some(3), ..now }));
 }

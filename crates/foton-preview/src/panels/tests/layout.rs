@@ -6,7 +6,7 @@ use super::*;
 
 /// A window of a size.
 fn sized(size: egui::Vec2, scale: f32, change: impl FnOnce(&mut State)) -> Harness<'static, State> {
-    let mut state = State::new(Preferences::default(), vec!["pool".into(), "ring".into()]);
+    let mut state = State::new(Preferences::default(), built_in());
     state.frame = Some(frame());
     change(&mut state);
     let builder = Harness::builder().with_size(size).with_pixels_per_point(scale).allow_missing_glyphs();
@@ -76,14 +76,17 @@ fn nothing_that_is_shown_moves_the_picture() {
         harness.state_mut().changed_on_disk = true;
         harness.state_mut().view = ViewMode::Radius;
         harness.state_mut().draft = Some((
-            Configuration::of(&RenderSettings::default(), None),
-            Configuration { seed: 77, ..Configuration::of(&RenderSettings::default(), None) },
+            Configuration::of(&RenderSettings::default(), None, None),
+            Configuration { seed: 77, ..Configuration::of(&RenderSettings::default(), None, None) },
         ));
         settle(&mut harness);
         assert_eq!(canvas(&harness), before, "a scene that opens, a measure and a draft at {size:?}");
         harness.state_mut().frame.as_mut().expect("there").activity = Activity::Paused;
-        harness.state_mut().pinned =
-            Some(crate::state::Pinned { picture: frame().picture.expect("one"), label: "pass 3".into() });
+        harness.state_mut().pinned = Some(crate::state::Pinned {
+            picture: frame().picture.expect("one"),
+            label: "pass 3".into(),
+            entry: None,
+        });
         settle(&mut harness);
         assert_eq!(canvas(&harness), before, "paused and pinned at {size:?}");
     }
@@ -116,8 +119,8 @@ fn cut_off(harness: &Harness<'_, State>, size: egui::Vec2) -> Vec<String> {
             _ if rect.top() < canvas.top() || rect.top() >= canvas.bottom() => {
                 [window.left(), window.right()]
             }
-            x if x < canvas.left() => [window.left(), canvas.left()],
-            x if x > canvas.right() => [canvas.right(), window.right()],
+            x if x < canvas.left() => [window.left(), canvas.left() - 7.5],
+            x if x > canvas.right() => [canvas.right(), window.right() - 7.5],
             _ => [canvas.left(), canvas.right()],
         };
         let is_within = rect.left() >= left && rect.right() <= right;

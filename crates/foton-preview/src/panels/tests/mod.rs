@@ -3,9 +3,11 @@
 mod bar;
 mod contrast;
 mod controls;
+mod history;
 mod inspector;
 mod keys;
 mod layout;
+mod looking;
 mod numbers;
 mod outliner;
 mod picture;
@@ -26,13 +28,16 @@ use foton_edit::{
 use foton_film::{Image, ToneMap};
 use foton_math::Rgb;
 use foton_session::engine::{
-    Activity, BuildProgress, BuildStep, Command, Configuration, Event, Frame, Picture, RenderStats,
+    Activity, BuildProgress, BuildStep, Command, Configuration, Event, Frame, Picture, Region, RenderStats,
     SceneFacts, Selection, SensorFacts, Source, ViewMode,
 };
 use foton_session::{
     Alpha, DirectLight, Ledger, RadiusFloor, RadiusRule, RenderSettings, SettingChange, StopRule,
 };
 
+use foton_session::snapshot::Look;
+
+use crate::looking::BuiltIn;
 use crate::preferences::Preferences;
 use crate::state::State;
 
@@ -57,6 +62,8 @@ fn frame() -> Frame {
         opening: None,
         building: None,
         size: SIZE,
+        window: Region { x: 0, y: 0, width: SIZE[0], height: SIZE[1] },
+        region: None,
         picture: Some(Picture::Colour(Arc::new(image))),
         view: ViewMode::Radiance,
         stats: RenderStats {
@@ -74,6 +81,8 @@ fn frame() -> Frame {
         settings: RenderSettings::default(),
         threads: None,
         stop: StopRule::default(),
+        history: Arc::default(),
+        turntable: None,
         checkpoint_age: None,
         scene: Arc::new(SceneFacts {
             name: "room.xml".into(),
@@ -155,10 +164,17 @@ fn selection() -> Selection {
     }
 }
 
+/// Two scenes, of which one has a picture.
+fn built_in() -> Vec<BuiltIn> {
+    let scene = |name: &str, thumbnail| BuiltIn { name: name.into(), thumbnail };
+    let picture = include_bytes!("../../../../../assets/ring/thumbnail.png");
+    vec![scene("pool", &[]), scene("ring", picture)]
+}
+
 /// A window of 1280 × 800 points.
 fn window(change: impl FnOnce(&mut State)) -> Harness<'static, State> {
     // The picker of colours has a sign that no font here knows.
-    let mut state = State::new(Preferences::default(), vec!["pool".into(), "ring".into()]);
+    let mut state = State::new(Preferences::default(), built_in());
     state.frame = Some(frame());
     change(&mut state);
     let mut harness = Harness::builder()

@@ -7,7 +7,7 @@ use super::*;
 use crate::present::{Presenter, colour_map};
 
 /// The window's pixels, and where its canvas is.
-fn drawn(change: impl FnOnce(&mut State)) -> (impl Fn(egui::Pos2) -> [u8; 3], egui::Rect) {
+pub(super) fn drawn(change: impl FnOnce(&mut State)) -> (impl Fn(egui::Pos2) -> [u8; 3], egui::Rect) {
     let gpu = create_render_state(default_wgpu_setup(), egui_wgpu::RendererOptions::PREDICTABLE);
     let presenter = Presenter::new(&gpu.device, &gpu.queue, gpu.target_format);
     gpu.renderer.write().callback_resources.insert(presenter);

@@ -21,6 +21,19 @@ fn findings_in_the_render_are_displayed() {
 }
 
 #[test]
+fn warnings_of_the_scene_stay_when_their_messages_are_gone() {
+    let mut harness = window(|state| {
+        let facts = Arc::make_mut(&mut state.frame.as_mut().expect("there").scene);
+        facts.warnings =
+            Arc::new(vec!["room.xml:2:2: odd".into(), "nothing in the scene emits light".into()]);
+    });
+    click(&mut harness, Role::DisclosureTriangle, "2 warnings in the scene");
+    for text in ["room.xml:2:2: odd", "nothing in the scene emits light"] {
+        assert!(harness.query_by_label(text).is_some(), "{text}");
+    }
+}
+
+#[test]
 fn controls_that_findings_name_are_there() {
     let harness = window(|_| ());
     let SettingNames { radius, radius_floor, eye_samples, max_depth } = SettingNames::CONTROLS;

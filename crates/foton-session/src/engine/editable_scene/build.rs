@@ -15,16 +15,16 @@ const QUICK: usize = 10_000;
 impl EditableScene {
     /// Makes `next` the description under edit, unless no scene can be made of it.
     pub(super) fn take(&mut self, next: SceneDescription) -> Result<Effect, String> {
-        let whole = SceneDescription { sensors: self.sensors.clone(), ..next.clone() };
-        let built = self.scene_of(&whole, &self.cancels.work)?;
+        let built = self.scene_of(&next, &self.cancels.work)?;
         self.history.proceed(next);
         self.refresh();
         self.renew(built);
         Ok(Effect::Restart)
     }
 
-    /// The scene of a description; `None` where building it was given up.
+    /// The scene of a description with the sensors as they are; `None` where building it was given up.
     fn scene_of(&self, description: &SceneDescription, cancel: &Cancel) -> Result<Option<Scene>, String> {
+        let description = &SceneDescription { sensors: self.rendered_sensors(), ..description.clone() };
         let is_quick = description.primitives() < QUICK;
         let cancel = if is_quick { Cancel::default() } else { cancel.clone() };
         match Scene::build_with(description, &BuildOptions { cancel, ..BuildOptions::default() }) {

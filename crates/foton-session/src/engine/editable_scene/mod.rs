@@ -3,6 +3,7 @@
 mod build;
 mod chosen;
 mod edits;
+mod returning;
 mod selection;
 mod sensors;
 #[cfg(test)]
@@ -15,7 +16,7 @@ use std::sync::Arc;
 
 use foton_edit::{Camera, History, Item, Target, camera_xml, contents, focus_distance};
 use foton_scene::Scene;
-use foton_scene::description::{SceneDescription, SensorDescription};
+use foton_scene::description::{Crop, SceneDescription, SensorDescription};
 
 use self::chosen::Chosen;
 use super::cancels::Cancels;
@@ -79,6 +80,8 @@ pub(super) struct EditableScene {
     opened_sensors: Vec<SensorDescription>,
     /// Those that were saved last.
     saved_sensors: Vec<SensorDescription>,
+    /// The part of the image that is rendered, and of which sensor.
+    region: Option<(usize, Crop)>,
     /// The camera of a sensor, once it was moved.
     moved: Option<MovedCamera>,
     chosen: Option<Chosen>,
@@ -92,11 +95,13 @@ pub(super) struct EditableScene {
     /// Whether the scene is older than the description.
     is_stale: bool,
     cancels: Cancels,
+    warnings: Arc<Vec<String>>,
     facts: Arc<SceneFacts>,
 }
 
 impl EditableScene {
     pub(super) fn new(ready: Ready, cancels: Cancels) -> Self {
+        let warnings = Arc::new(ready.warnings());
         let Ready { source, loaded, scene, .. } = ready;
         let description = Arc::new(loaded.description);
         let sensors = description.sensors.clone();
@@ -110,6 +115,7 @@ impl EditableScene {
             opened_sensors: sensors.clone(),
             saved_sensors: sensors.clone(),
             sensors,
+            region: None,
             moved: None,
             chosen: None,
             shown: RefCell::default(),
@@ -118,6 +124,7 @@ impl EditableScene {
             built: Arc::clone(&description),
             is_stale: false,
             cancels,
+            warnings,
             facts: Arc::default(),
         };
         new.refresh_facts();
@@ -218,9 +225,40 @@ impl EditableScene {
         self.renew_sensors()
     }
 
+    /// Renders a part of a sensor's image alone, or all that the file asks for.
+    pub(super) fn set_region(&mut self, region: Option<(usize, Crop)>) -> Result<Effect, String> {
+        let before = std::mem::replace(&mut self.region, region);
+        if before == region {
+            return Ok(Effect::None);
+        }
+        let check = region.map_or(Ok(()), |(sensor, region)| self.sensors[sensor].clone().show_only(region));
+        let renewed = check.and_then(|()| self.renew_sensors());
+        if renewed.is_err() {
+            self.region = before;
+        }
+        renewed
+    }
+
+    /// The part of the image that is rendered, if a person has chosen one.
+    pub(super) fn region(&self) -> Option<Crop> {
+        self.region.map(|(_, region)| region)
+    }
+
+    /// The sensors as they are rendered. The region is no part of the scene: it is saved in no file.
+    pub(super) fn rendered_sensors(&self) -> Vec<SensorDescription> {
+        let mut sensors = self.sensors.clone();
+        if let Some((sensor, region)) = self.region
+            && let Some(sensor) = sensors.get_mut(sensor)
+        {
+            // An image that was made smaller is rendered whole where the region is no longer inside.
+            let _ = sensor.show_only(region);
+        }
+        sensors
+    }
+
     /// The same scene with the sensors as they are now.
     fn renew_sensors(&mut self) -> Result<Effect, String> {
-        let scene = self.scene.with_sensors(&self.sensors).map_err(|cause| cause.to_string())?;
+        let scene = self.scene.with_sensors(&self.rendered_sensors()).map_err(|cause| cause.to_string())?;
         self.scene = Arc::new(scene);
         self.refresh();
         Ok(Effect::Restart)
@@ -247,6 +285,7 @@ impl EditableScene {
             shapes: self.description.shapes.len(),
             contents: self.listed(),
             is_edited: self.is_edited(),
+            warnings: Arc::clone(&self.warnings),
             is_unsaved: self.history.is_changed(),
             undo: self.history.undo_name().map(str::to_owned),
             redo: self.history.redo_name().map(str::to_owned),

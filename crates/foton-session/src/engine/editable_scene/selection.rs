@@ -124,7 +124,7 @@ impl EditableScene {
         let s = &self.sensors[sensor];
         let centre = DVec2::new(f64::from(s.width), f64::from(s.height)) * 0.5;
         let film = self.scene.sensors()[sensor]
-            .project(self.scene.normalisation().point(picked))
+            .project_on_whole(self.scene.normalisation().point(picked))
             .map_or(centre, |(film, _)| film.as_dvec2());
         let plane = DragPlane::new(s, UpAxis::guess(s), picked.to_array(), mode);
         let by = plane.translation(film.to_array(), (film + DVec2::from(steps) * NUDGE).to_array());

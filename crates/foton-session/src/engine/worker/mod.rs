@@ -12,15 +12,19 @@ use std::time::Duration;
 use crossbeam_channel::{Receiver, Sender, never, select};
 
 use self::publish::When;
+pub(super) use self::state::Flow;
 use self::state::{Current, Files, Plan, Published, View};
 use super::cancels::Cancels;
 use super::command::{Command, Event, ViewMode};
 use super::editable_scene::EditableScene;
 use super::frame::Frame;
+use super::history::{History, Turntable};
 use super::loader::Opening;
 use super::newest::NewestSender;
 use super::setup::Setup;
+use super::teller::Teller;
 use crate::panic::{Panic, catch_panic};
+use crate::snapshot::Look;
 
 /// How long to wait for commands while a scene is opened, before the progress of that is published.
 const POLL: Duration = Duration::from_millis(100);
@@ -42,18 +46,30 @@ pub(super) struct Worker {
     pub(super) plan: Plan,
     pub(super) current: Current,
     pub(super) files: Files,
+    /// Passes that were kept.
+    pub(super) history: History,
+    /// The turntable, while one turns.
+    pub(super) turntable: Option<Turntable>,
+    /// Says what other threads have to say.
+    pub(super) teller: Teller,
     view: View,
     published: Published,
 }
 
 impl Worker {
     pub(super) fn new(
-        setup: Setup,
+        mut setup: Setup,
         channels: Channels,
         cancels: Cancels,
         unwritten: Arc<AtomicUsize>,
     ) -> Self {
+        let wake = std::mem::replace(&mut setup.wake, Box::new(|| ()));
+        let teller = Teller::new(channels.events.clone(), wake);
+        let (home, limit) = (setup.history_folder.clone(), setup.history_limit);
         Self {
+            history: History::new(home, limit, teller.clone(), Arc::clone(&unwritten)),
+            turntable: None,
+            teller,
             setup,
             channels,
             cancels,
@@ -61,7 +77,15 @@ impl Worker {
             opening: None,
             plan: Plan::default(),
             current: Current::default(),
-            files: Files { unwritten, auto_snapshots: None, keeper: None, resuming: None },
+            files: Files {
+                unwritten,
+                auto_snapshots: None,
+                run: None,
+                look: Look::default(),
+                keeper: None,
+                resuming: None,
+                resuming_as: None,
+            },
             view: View { mode: ViewMode::Radiance, photons: false, probed: None },
             published: Published::default(),
         }
@@ -77,6 +101,7 @@ impl Worker {
             let is_asked = !commands.is_empty();
             for command in commands {
                 if matches!(command, Command::Quit) {
+                    self.history.end();
                     self.finish_checkpoint();
                     return;
                 }
@@ -119,6 +144,7 @@ impl Worker {
             wait.recv(&self.channels.commands);
             wait.recv(opened);
             wait.recv(started);
+            wait.recv(self.history.gone());
             if self.opening.is_some() || self.current.starting.is_some() {
                 // That goes on, and the window shows how far it is.
                 let _ = wait.ready_timeout(POLL);
@@ -126,6 +152,7 @@ impl Worker {
             } else {
                 wait.ready();
             }
+            self.published.unseen |= !self.history.gone().is_empty();
             select! {
                 recv(self.channels.commands) -> command => commands.push(command.ok()?),
                 default => {}
@@ -138,6 +165,6 @@ impl Worker {
     pub(super) fn event(&self, event: Event) {
         // A window that does not read its events has other troubles.
         let _ = self.channels.events.try_send(event);
-        (self.setup.wake)();
+        self.teller.wake();
     }
 }

@@ -17,6 +17,9 @@ impl Worker {
     /// Does what a command asks for.
     pub(super) fn obey(&mut self, command: Command) {
         self.published.unseen = true;
+        if command.ends_turntable() {
+            self.end_turntable();
+        }
         match command {
             Command::Open(source) => self.opening = Some(Opening::begin(&self.setup.loader, source)),
             Command::CancelOpen => self.opening = None,
@@ -64,22 +67,44 @@ impl Worker {
             Command::SetView(mode) => self.view.mode = mode,
             Command::ShowPhotons(on) => self.view.photons = on,
             Command::Probe(pixel) => self.view.probed = pixel,
-            Command::Snapshot(folder) => self.snapshot(&folder),
-            Command::AutoSnapshots(folder) => self.files.auto_snapshots = folder,
-            Command::SaveScene(path) => self.save_scene(&path),
-            Command::KeepCheckpoint(path) => self.begin_checkpoint(&path),
             Command::ResumeCheckpoint(path) => {
                 self.restart();
                 self.files.resuming = Some(path);
             }
             Command::Quit => {}
+            _ => self.write_or_keep(command),
+        }
+    }
+
+    /// Does what a command asks of files and of the history.
+    fn write_or_keep(&mut self, command: Command) {
+        match command {
+            Command::Snapshot(folder) => self.snapshot(&folder),
+            Command::SetLook(look) => self.files.look = look,
+            Command::AutoSnapshots(folder) => self.files.auto_snapshots = folder,
+            Command::SaveScene(path) => self.save_scene(&path),
+            Command::KeepCheckpoint(path) => self.begin_checkpoint(&path),
+            Command::Remember => self.remember(),
+            Command::ReturnTo(id) => self.return_to_entry(id),
+            Command::ExportFilm { of, folder } => self.export_film(of, &folder),
+            Command::Turntable { steps, passes, folder } => self.begin_turntable(steps, passes, &folder),
+            // A turntable that is ended has ended already, and all else is obeyed elsewhere.
+            _ => {}
         }
     }
 
     fn configure(&mut self, configuration: &Configuration) {
+        let before = self.plan.settings.sensor;
         configuration.apply(&mut self.plan.settings);
         if let Some(scene) = &self.scene {
             self.plan.settings.sensor = self.plan.settings.sensor.min(scene.sensors().len() - 1);
+        }
+        let sensor = self.plan.settings.sensor;
+        // A region is one of an image, and that is another camera's then.
+        let region = configuration.region.filter(|_| sensor == before).map(|region| (sensor, region));
+        let set = self.scene.as_mut().map_or(Ok(Effect::None), |scene| scene.set_region(region));
+        if let Err(message) = set {
+            self.event(Event::Failed(message));
         }
         if self.plan.threads != configuration.threads {
             self.plan.threads = configuration.threads;
@@ -90,7 +115,7 @@ impl Worker {
     }
 
     /// Restarts the render.
-    pub(super) fn restart(&mut self) {
+    pub(in crate::engine) fn restart(&mut self) {
         self.end_render();
         self.current.render = None;
         self.current.owes_a_pass = self.plan.flow == Flow::Steps(0);
@@ -100,6 +125,7 @@ impl Worker {
     fn end_render(&mut self) {
         self.leave_checkpoint();
         self.files.resuming = None;
+        self.files.resuming_as = None;
         self.current.starting = None;
         self.current.subject = None;
         self.current.owes_a_pass = false;
@@ -152,8 +178,9 @@ impl Worker {
 
     /// What is rendered.
     pub(super) fn subject(&self) -> Option<Subject> {
-        let configuration = Configuration::of(&self.plan.settings, self.plan.threads);
-        Some(Subject { scene: self.scene.as_ref()?.state()?, configuration })
+        let scene = self.scene.as_ref()?;
+        let configuration = Configuration::of(&self.plan.settings, self.plan.threads, scene.region());
+        Some(Subject { scene: scene.state()?, configuration })
     }
 
     fn keep(&mut self, subject: Subject, render: LevelRender) {

@@ -5,7 +5,10 @@ use std::time::{Duration, Instant};
 
 use super::Worker;
 use super::state::{Flow, PictureOf};
-use crate::engine::frame::{Activity, Frame, RenderStats};
+use crate::engine::command::Region;
+use crate::engine::editable_scene::EditableScene;
+use crate::engine::frame::{Activity, Dot, Frame, Probe, RenderStats};
+use crate::engine::history::Turntable;
 use crate::engine::loader::Opening;
 use crate::engine::probe;
 use crate::engine::render::LevelRender;
@@ -26,6 +29,14 @@ pub(super) enum When {
 }
 
 impl Worker {
+    /// The part of the whole image that is rendered.
+    fn window(&self) -> Region {
+        let none = Region { x: 0, y: 0, width: 0, height: 0 };
+        let sensor =
+            |scene: &EditableScene| Some(scene.scene().sensors().get(self.plan.settings.sensor)?.window());
+        self.scene.as_ref().and_then(sensor).unwrap_or(none)
+    }
+
     fn activity(&self) -> Activity {
         let Some(render) = &self.current.render else {
             return match &self.scene {
@@ -67,6 +78,7 @@ impl Worker {
             self.published.picture = Some(render.picture(of.mode));
             self.published.picture_of = Some(of);
             self.published.pictured = of.render;
+            self.published.window = self.window();
         }
     }
 
@@ -85,6 +97,15 @@ impl Worker {
         }
     }
 
+    /// Photons, and what is known of the pixel that a person points at, as far as they are asked for.
+    fn pointed_out(&self) -> (Arc<Vec<Dot>>, Option<Probe>) {
+        let Some(render) = self.whole().map(LevelRender::render).filter(|r| r.passes() > 0) else {
+            return Default::default();
+        };
+        let dots = if self.view.photons { probe::dots(render) } else { Vec::new() };
+        (Arc::new(dots), self.view.probed.and_then(|pixel| probe::probe(render, pixel)))
+    }
+
     /// Offers a frame if there is something new and it is time for one.
     pub(super) fn publish(&mut self, when: When) {
         // While something moves, a picture is there so soon that a frame before it would be drawn for nothing.
@@ -100,16 +121,10 @@ impl Worker {
         }
         let activity = self.activity();
         self.renew_picture();
+        let window = self.window();
         let stats = self.stats();
-        let mut dots = Arc::default();
-        let mut probed = None;
-        let has_passes = |r: &&LevelRender| r.is_whole() && r.render().passes() > 0;
-        if let Some(render) = self.current.render.as_ref().filter(has_passes) {
-            if self.view.photons {
-                dots = Arc::new(probe::dots(render.render()));
-            }
-            probed = self.view.probed.and_then(|pixel| probe::probe(render.render(), pixel));
-        }
+        let (dots, probe) = self.pointed_out();
+        let history = self.history.shown();
         let sensor = self.plan.settings.sensor;
         let scene = self.scene.as_ref();
         let facts = scene.map(|s| Arc::clone(s.facts())).unwrap_or_default();
@@ -124,6 +139,8 @@ impl Worker {
             opening: self.opening.as_ref().map(|o| o.name.clone()),
             building: self.opening.as_ref().and_then(Opening::building),
             size: facts.sensors.get(sensor).map_or([0, 0], |s| s.size),
+            window: if self.published.picture.is_some() { self.published.window } else { window },
+            region: scene.and_then(EditableScene::region),
             picture: self.published.picture.clone(),
             view: self.view.mode,
             stats,
@@ -132,15 +149,17 @@ impl Worker {
             settings: self.plan.settings.clone(),
             threads: self.plan.threads,
             stop: self.plan.stop,
+            history,
+            turntable: self.turntable.as_ref().map(Turntable::progress),
             checkpoint_age: self.checkpoint_age(),
             scene: facts,
             dots,
-            probe: probed,
+            probe,
             selection,
             lights,
         });
         self.published.unseen = false;
         self.published.last_frame = Instant::now();
-        (self.setup.wake)();
+        self.teller.wake();
     }
 }

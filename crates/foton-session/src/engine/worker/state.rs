@@ -9,16 +9,19 @@ use foton_integrator::RenderSettings;
 use rayon::ThreadPool;
 
 use crate::checkpoint::Keeper;
-use crate::engine::command::ViewMode;
+use crate::engine::command::{Region, ViewMode};
 use crate::engine::frame::{Picture, RenderStats};
 use crate::engine::kept::{Kept, Subject};
 use crate::engine::render::{Level, LevelRender};
+use crate::engine::run::Run;
 use crate::engine::starting::Starting;
+use crate::metadata::SceneIdentity;
+use crate::snapshot::Look;
 use crate::stop::StopRule;
 
 /// Whether passes are rendered.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
-pub(super) enum Flow {
+pub(in crate::engine) enum Flow {
     /// Passes, until the stop rule.
     #[default]
     Run,
@@ -32,7 +35,7 @@ pub(in crate::engine) struct Plan {
     pub(in crate::engine) settings: RenderSettings,
     pub(super) threads: Option<usize>,
     pub(super) stop: StopRule,
-    pub(super) flow: Flow,
+    pub(in crate::engine) flow: Flow,
     /// Whether more moves of the camera or of an object are to follow.
     pub(super) moving: bool,
 }
@@ -48,9 +51,9 @@ pub(in crate::engine) struct Current {
     /// Those from before edits.
     pub(super) kept: Kept,
     /// There is always a pass to look at: one that was started anew in a pause is to have its first.
-    pub(super) owes_a_pass: bool,
+    pub(in crate::engine) owes_a_pass: bool,
     /// Changes with each start.
-    pub(super) number: u64,
+    pub(in crate::engine) number: u64,
     /// A render that cannot start is not tried again until something changes.
     pub(super) refused: bool,
     pub(super) last_pass: Duration,
@@ -63,10 +66,16 @@ pub(in crate::engine) struct Files {
     /// Files that were asked for and are not written yet.
     pub(in crate::engine) unwritten: Arc<AtomicUsize>,
     pub(super) auto_snapshots: Option<PathBuf>,
+    /// What pictures of the render are called.
+    pub(in crate::engine) run: Option<Run>,
+    /// How PNGs show radiance.
+    pub(in crate::engine) look: Look,
     /// The checkpoint that follows the render.
     pub(in crate::engine) keeper: Option<Keeper>,
     /// The checkpoint that the next whole render goes on from.
     pub(in crate::engine) resuming: Option<PathBuf>,
+    /// The scene that it is of, where it is one of the history; else that of the file.
+    pub(in crate::engine) resuming_as: Option<SceneIdentity>,
 }
 
 /// What frames are to carry.
@@ -96,6 +105,8 @@ pub(super) struct Published {
     pub(super) stats: Option<(u64, u64, Option<f64>, RenderStats)>,
     /// The render that it is of.
     pub(super) pictured: u64,
+    /// The part of the whole image that it shows.
+    pub(super) window: Region,
     pub(super) last_frame: Instant,
     /// Whether there is something that no frame has carried.
     pub(super) unseen: bool,
@@ -109,6 +120,7 @@ impl Default for Published {
             picture_of: None,
             stats: None,
             pictured: 0,
+            window: Region { x: 0, y: 0, width: 0, height: 0 },
             last_frame: Instant::now(),
             unseen: true,
         }

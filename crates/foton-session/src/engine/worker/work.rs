@@ -36,10 +36,9 @@ impl Worker {
     /// Makes a scene that was opened the one to render.
     fn show(&mut self, ready: Ready) {
         let loaded = &ready.loaded;
-        let findings = ready.findings.iter().map(|finding| finding.text.clone());
-        let warnings = loaded.warnings.iter().cloned().chain(findings).collect();
-        self.event(Event::Opened { name: loaded.identity.name.clone(), warnings });
-        self.plan.settings = RenderSettings { layers: self.plan.settings.layers, ..loaded.settings.clone() };
+        self.event(Event::Opened { name: loaded.identity.name.clone(), warnings: ready.warnings() });
+        // Light by path class changes no bit of the whole, and a person may look at it at any time.
+        self.plan.settings = RenderSettings { layers: true, ..loaded.settings.clone() };
         self.scene = Some(EditableScene::new(ready, self.cancels.clone()));
         self.plan.moving = false;
         self.published.picture = None;
@@ -80,6 +79,9 @@ impl Worker {
             // A pass that was begun is finished, as everywhere.
             Flow::Run if level.render().pass_share() > 0.0 => false,
             Flow::Run => {
+                if self.turntable.is_some() {
+                    return false;
+                }
                 let render = level.render();
                 self.plan.stop.is_reached(
                     render.passes(),
@@ -137,10 +139,10 @@ impl Worker {
         };
         let (threads, limit, pool) = (self.plan.threads, self.setup.memory_limit, Arc::clone(pool));
         let (settings, scene, sensors) =
-            (self.plan.settings.clone(), Arc::clone(scene.scene()), scene.sensors());
+            (self.plan.settings.clone(), Arc::clone(scene.scene()), scene.rendered_sensors());
         if level != Level::Whole {
             let cancel = &self.cancels.work;
-            return started(LevelRender::start(level, &scene, sensors, &settings, &pool, &|_| (), cancel));
+            return started(LevelRender::start(level, &scene, &sensors, &settings, &pool, &|_| (), cancel));
         }
         self.current.subject = self.subject();
         self.current.starting = Some(Starting::begin(move |tell, cancel| {
@@ -169,7 +171,7 @@ impl Worker {
 
     /// Eye samples of the whole picture.
     fn eye_samples(&self, scene: &EditableScene) -> u64 {
-        let sensor = &scene.sensors()[self.plan.settings.sensor];
+        let sensor = &scene.scene().sensors()[self.plan.settings.sensor];
         let pixels = u64::from(sensor.width) * u64::from(sensor.height);
         pixels * u64::from(self.plan.settings.samples_per_pixel.get())
     }
@@ -213,8 +215,9 @@ impl Worker {
         let due = render.render().passes().is_power_of_two();
         self.update_checkpoint();
         if let Some(folder) = self.files.auto_snapshots.clone().filter(|_| due) {
-            self.auto_snapshot(&folder);
+            self.write(&folder);
         }
+        self.turn();
     }
 
     /// Ends the render until something changes, and says why.

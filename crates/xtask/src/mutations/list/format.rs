@@ -79,8 +79,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "files are written beside",
         file: "crates/foton-film/src/atomic/mod.rs",
-        from: "let (temporary, file) = make(path, &target, old.as_ref())?;",
-        to: "let (temporary, _) = make(path, &target, old.as_ref())?; let file = File::create(&target).map_err(WriteError::io(path))?;",
+        from: "let (temporary, file) = Temporary::make(path, &target, old.as_ref())?;",
+        to: "let (temporary, _) = Temporary::make(path, &target, old.as_ref())?; let file = File::create(&target).map_err(WriteError::io(path))?;",
         target: CLI,
         test: "a_full_disk_is_an_error_with_the_path_and_the_old_image_stays",
     },

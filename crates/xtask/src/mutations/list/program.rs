@@ -23,8 +23,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "foton info is held to the limit",
         file: "crates/foton/src/info.rs",
-        from: "Bounds { size: None, memory: args.memory }",
-        to: "Bounds { size: None, memory: None }",
+        from: "Bounds { size: None, region: args.region, memory: args.memory }",
+        to: "Bounds { size: None, region: args.region, memory: None }",
         target: CLI,
         test: "scenes_that_cannot_be_read_or_built_in_the_memory_given_are_refused",
     },
@@ -95,7 +95,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "options that contradict each other are refused",
         file: "crates/foton/src/args/together.rs",
-        from: "self.layers_in_vain().or_else(|| clash(&self.roles()))",
+        from: "self.layers_in_vain().or_else(|| self.look_in_vain()).or_else(|| clash(&self.roles()))",
         to: "clash(&self.roles())",
         target: CLI,
         test: "options_that_contradict_each_other_are_refused_at_once",
