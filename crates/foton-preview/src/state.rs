@@ -1,6 +1,7 @@
 //! What the window knows and what a person has set in it. Panels are functions of this; what they ask of the engine goes into
 //! the outbox, so that tests drive them without an engine.
 
+use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::path::PathBuf;
 
@@ -166,7 +167,7 @@ pub(crate) struct State {
     pub(crate) changed_on_disk: bool,
     pub(crate) built_in: Vec<BuiltIn>,
     /// Where controls are, in points, by name: for scripts that drive the window.
-    pub(crate) places: Vec<(&'static str, egui::Rect)>,
+    pub(crate) places: Vec<(Cow<'static, str>, egui::Rect)>,
     /// What there is to say of the adapter.
     pub(crate) adapter: String,
     /// Texels along the side of the adapter's largest texture.
@@ -344,8 +345,8 @@ impl State {
     }
 
     /// Remembers where a control is.
-    pub(crate) fn place(&mut self, name: &'static str, response: &egui::Response) {
-        self.places.push((name, response.rect));
+    pub(crate) fn place(&mut self, name: impl Into<Cow<'static, str>>, response: &egui::Response) {
+        self.places.push((name.into(), response.rect));
     }
 
     /// What frames should carry, told to the engine.

@@ -1,5 +1,7 @@
 //! What the system does to the window: its graphics adapter is lost, it is minimised, files fall on it.
 
+mod newcomer;
+
 use super::*;
 
 #[test]

@@ -53,11 +53,25 @@ pub(super) fn point(ui: &egui::Ui, state: &mut State, response: &egui::Response,
         ui.ctx().set_cursor_icon(egui::CursorIcon::Grabbing);
         return;
     }
+    note_places(state, film);
     state.editing.handle = response.hover_pos().and_then(|pointer| at(state, film, pointer));
     if state.editing.aiming && response.hovered() {
         ui.ctx().set_cursor_icon(egui::CursorIcon::Crosshair);
     } else if state.editing.handle.is_some() {
         ui.ctx().set_cursor_icon(egui::CursorIcon::Grab);
+    }
+}
+
+/// Remembers where the ends of handles are.
+fn note_places(state: &mut State, film: Film) {
+    let Some(gizmo) = gizmo(state) else { return };
+    for shape in handles(state, &gizmo, film) {
+        if let (Some(axis), Some([_, end])) = (shape.handle.axis(), shape.lines.last()) {
+            let place = egui::Rect::from_center_size(film.to_points(*end), egui::Vec2::splat(4.0));
+            state
+                .places
+                .push((format!("handle {}", ["x", "y", "z"][usize::from(axis.min(2))]).into(), place));
+        }
     }
 }
 

@@ -54,7 +54,8 @@ pub(super) fn obey(ui: &egui::Ui, state: &mut State) {
             act(state);
         }
     }
-    if is_typing {
+    // Keys that come with a click are for what was clicked, and that has no focus yet.
+    if is_typing || ui.input(|i| i.pointer.any_click()) {
         return;
     }
     if pressed(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z) || pressed(Modifiers::COMMAND, Key::Y) {

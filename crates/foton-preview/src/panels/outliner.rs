@@ -114,6 +114,7 @@ fn line(ui: &mut Ui, state: &mut State, item: &Item, is_selected: bool, is_activ
         let enabled = ui.is_enabled();
         row.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, enabled, is_selected, &spoken));
         let row = row.on_hover_text(&item.kind);
+        state.place(format!("row {}", item.name), &row);
         if row.clicked() && !is_selected {
             state.ask(Command::Select(Some(item.target)));
         }

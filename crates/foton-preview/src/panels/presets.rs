@@ -56,7 +56,9 @@ pub(super) fn menu(ui: &mut Ui, state: &mut State) {
         for (row, chunk) in presets().chunks(COLUMNS).enumerate() {
             ui.horizontal(|ui| {
                 for (column, preset) in chunk.iter().enumerate() {
-                    if tile(ui, preset).clicked() {
+                    let tile = tile(ui, preset);
+                    state.place(format!("preset {}", preset.name), &tile);
+                    if tile.clicked() {
                         actions::remake(state, Make::Preset(row * COLUMNS + column), preset.name);
                         ui.close();
                     }
@@ -64,6 +66,7 @@ pub(super) fn menu(ui: &mut Ui, state: &mut State) {
             });
         }
     });
+    state.place("presets", &menu.response);
     menu.response.on_hover_text("Water, glass, stones, metals, plastic and wax");
 }
 

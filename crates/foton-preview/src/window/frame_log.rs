@@ -60,7 +60,7 @@ impl FrameLog {
         let places: serde_json::Map<String, Value> = state
             .places
             .iter()
-            .map(|(name, r)| ((*name).to_owned(), json!([r.min.x, r.min.y, r.width(), r.height()])))
+            .map(|(name, r)| (name.clone().into_owned(), json!([r.min.x, r.min.y, r.width(), r.height()])))
             .collect();
         let places = Value::Object(places);
         if places != self.places {
@@ -100,6 +100,7 @@ fn describe(frame: &Frame) -> Value {
         "bytes": n.bytes,
         "scene": frame.scene.name,
         "edited": frame.scene.is_edited,
+        "shapes": frame.scene.shapes,
     });
     if let Some(probe) = &frame.probe {
         line["probe"] = json!({
@@ -110,6 +111,7 @@ fn describe(frame: &Frame) -> Value {
     }
     if let Some(selection) = &frame.selection {
         line["chosen"] = json!(selection.inspection.title);
+        line["material"] = json!(selection.inspection.material.as_ref().map(|material| &material.name));
     }
     line
 }
