@@ -24,7 +24,7 @@ const PASSES: u64 = 3;
 /// allocator keeps more or less.
 const GROWTH: f64 = 1.05;
 
-const KEYS: [&str; 26] = [
+const KEYS: [&str; 30] = [
     "space",
     "space",
     "period",
@@ -32,6 +32,10 @@ const KEYS: [&str; 26] = [
     "h",
     "o",
     "k",
+    "l",
+    "c",
+    "t",
+    "b",
     "1",
     "2",
     "3",

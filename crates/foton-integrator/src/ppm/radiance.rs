@@ -62,7 +62,7 @@ impl Radiance {
         let mut classes: Vec<&mut [_]> = classes;
         classes.resize_with(self.sums.len().div_ceil(BLOCK), Default::default);
         let blocks = self.last.par_chunks_mut(BLOCK).zip(self.sums.par_chunks_mut(BLOCK)).zip(classes);
-        let add = |(block, ((last, sums), classes)): (usize, ((&mut [Rgb], &mut [[f64; 3]]), &mut [_]))| {
+        let pass = blocks.enumerate().map(|(block, ((last, sums), classes))| {
             let mut omissions = Omissions::default();
             for (i, (last, sum)) in last.iter_mut().zip(sums).enumerate() {
                 let pixel = block * BLOCK + i;
@@ -86,8 +86,8 @@ impl Radiance {
                 }
             }
             omissions
-        };
-        blocks.enumerate().map(add).reduce(Omissions::default, Omissions::followed_by)
+        });
+        pass.reduce(Omissions::default, Omissions::followed_by)
     }
 
     /// Reflected radiance of one class; `None` where they are not summed.

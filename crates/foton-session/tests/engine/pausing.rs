@@ -115,12 +115,12 @@ fn undo_does_not_end_a_pause() {
 
 #[test]
 fn what_has_no_room_is_not_kept_and_that_is_said() {
-    // So many hit points that little else counts: the estimate is then near to what the render takes.
-    let settings = RenderSettings { samples_per_pixel: NonZeroU32::new(16).expect("not zero"), ..settings() };
+    // So many hit points that little else counts: the estimate is then near to what the render takes. The window sums light by path
+    // class, too.
+    let samples_per_pixel = NonZeroU32::new(16).expect("not zero");
+    let settings = RenderSettings { samples_per_pixel, layers: true, ..settings() };
     let scene = Scene::build(&room()).expect("builds");
-    // The window sums light by path class, too.
-    let by_class = RenderSettings { layers: true, ..settings.clone() };
-    let estimate = Session::estimate_memory(&scene, &by_class, None).peak_bytes();
+    let estimate = Session::estimate_memory(&scene, &settings, None).peak_bytes();
     let rig = Rig::new(settings, Some(1.01 * estimate));
     rig.open("room");
     rig.send(Command::StopAt(StopRule::passes(2)));
