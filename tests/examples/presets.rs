@@ -1,4 +1,5 @@
-//! Renders a ball of each material preset to `crates/foton-preview/presets/NAME.png`, for the window to show.
+//! Renders a ball of each material preset, or of those that are named, to `crates/foton-preview/presets/NAME.png`, for the window to
+//! show.
 //!
 //! Passes, photons and seed are fixed and results do not depend on threads, so that the same program writes the same files.
 
@@ -70,7 +71,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         ppm: PpmSettings { photons_per_pass: count(1 << 17)?, ..PpmSettings::default() },
         ..RenderSettings::default()
     };
-    for preset in presets() {
+    let wanted: Vec<String> = std::env::args().skip(1).collect();
+    let is_wanted = |name: &str| wanted.is_empty() || wanted.iter().any(|w| w == name);
+    for preset in presets().into_iter().filter(|preset| is_wanted(preset.name)) {
         let material = preset.material("ball").front;
         // Rough glass is followed in directions chosen once, whose noise passes do not lower.
         let is_rough_glass = material.transmits() && material.roughness().is_some();

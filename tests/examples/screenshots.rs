@@ -13,20 +13,21 @@ const SIZES: [([u32; 2], f64); 3] = [([900, 600], 1.0), ([1280, 800], 1.0), ([72
 const PASSES: f64 = 12.0;
 
 /// What is done before a picture, in words of [`Shots::act`], and the picture's name.
-const STATES: [(&str, &[&str]); 13] = [
+const STATES: [(&str, &[&str]); 14] = [
     ("01-start", &[]),
     ("02-selection", &["choose"]),
     ("03-photons-as-dots", &["key Escape", "key o"]),
     ("04-unlit", &["key o", "key 5"]),
     ("05-radius", &["key 3"]),
     ("06-paused-pinned", &["key 1", "key space", "key k"]),
-    ("07-draft", &["key k", "key space", "click seed", "key 7", "key Return"]),
-    ("08-wrong-number", &["click alpha field", "type 7x", "key Return"]),
+    ("07-draft", &["key k", "key space", "down left", "click seed", "key 7", "key Return", "down left"]),
+    ("08-wrong-number", &["up left", "click alpha field", "type 7x", "key Return"]),
     ("09-menu", &["click file menu"]),
     ("10-view-list", &["key Escape", "click view list"]),
-    ("11-diagnostics", &["key Escape", "click diagnostics"]),
+    ("11-diagnostics", &["key Escape", "down right", "click diagnostics", "down right"]),
     ("12-keys", &["canvas", "key question"]),
     ("13-open", &["key Escape", "key ctrl+o"]),
+    ("14-panels-hidden", &["key Escape", "canvas", "key Tab"]),
 ];
 
 struct Shots {
@@ -37,9 +38,16 @@ struct Shots {
 
 fn main() {
     let arguments: Vec<PathBuf> = env::args_os().skip(1).map(PathBuf::from).collect();
-    let [foton, target] = arguments.as_slice() else { panic!("usage: screenshots FOTON FOLDER") };
+    let [foton, target, only @ ..] = arguments.as_slice() else {
+        panic!("usage: screenshots FOTON FOLDER [SIZE]")
+    };
     std::fs::create_dir_all(target).expect("a folder");
     for (size, scale) in SIZES {
+        let pixels = size.map(|v| (f64::from(v) * scale) as u32);
+        let name = format!("{}x{}", pixels[0], pixels[1]);
+        if only.first().is_some_and(|only| *only != PathBuf::from(&name)) {
+            continue;
+        }
         for is_dark in [true, false] {
             shoot(foton, target, size, scale, is_dark);
         }
@@ -80,6 +88,14 @@ impl Shots {
                 let [x, y] = self.window.on_film([0.8145, 0.843]).map(|v| v * self.scale);
                 self.display.hand(&format!("mousemove {x:.0} {y:.0} click 1"));
                 self.window.frame("a choice", |f| f.get("chosen").map(|_| ()));
+            }
+            // To the end of a panel.
+            (way @ ("down" | "up"), side) => {
+                let canvas = self.window.place("canvas").map(|v| v * self.scale);
+                let x = if side == "left" { canvas[0] - 60.0 } else { canvas[0] + canvas[2] + 60.0 };
+                let y = canvas[1] + 0.8 * canvas[3];
+                let button = if way == "down" { 5 } else { 4 };
+                self.display.hand(&format!("mousemove {x:.0} {y:.0} click --repeat 30 --delay 10 {button}"));
             }
             ("canvas", _) => {
                 let at = self.share_of("canvas", [0.02, 0.02]);

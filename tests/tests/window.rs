@@ -174,6 +174,7 @@ fn what_a_person_sees_steers_and_saves_is_what_the_program_renders() {
     passes_go_on_while_alpha_moves(&mut driver);
     numbers_are_what_was_typed(&mut driver);
     an_object_is_dragged(&mut driver);
+    copies_come_and_go_and_unsaved_edits_are_asked_about(&mut driver);
     errors_are_none_and_it_closes(&mut driver);
 }
 
@@ -324,6 +325,28 @@ fn an_object_is_dragged(driver: &mut Driver) {
     driver.click("pause");
     driver.window.frame("the pause", |f| (f["activity"] == "paused").then_some(()));
     driver.click("pause");
+}
+
+fn copies_come_and_go_and_unsaved_edits_are_asked_about(driver: &mut Driver) {
+    driver.window.frame("the ball", |f| (f["chosen"] == "ball").then_some(()));
+    driver.key("ctrl+d");
+    driver.window.frame("the copy", |f| (f["chosen"] == "ball-2" && f["edited"] == true).then_some(()));
+    driver.key("Delete");
+    driver.window.frame("it gone", |f| f["chosen"].is_null().then_some(()));
+    driver.key("ctrl+q");
+    let pass = driver.window.frame("a frame", |f| Some(number(&f["pass"])));
+    driver.window.frame("it open", |f| (number(&f["pass"]) > pass + 1.0).then_some(()));
+    driver.key("Escape");
+    // The question is gone before the next key is for the scene.
+    for _ in 0..3 {
+        driver.window.log.skip();
+        driver.window.wait("a frame", |line| (line["event"] == "drawn").then_some(()));
+    }
+    driver.key("ctrl+z");
+    driver.key("ctrl+z");
+    driver
+        .window
+        .frame("all undone", |f| (f["edited"] == false && f["activity"] == "rendering").then_some(()));
 }
 
 fn errors_are_none_and_it_closes(driver: &mut Driver) {

@@ -6,7 +6,7 @@ use foton_edit::{Control, Field, FieldId, Make, Property, Value};
 use foton_session::engine::{Command, SceneEdit, Selection};
 
 use super::actions;
-use super::number::{Change, Number};
+use super::number::{Change, Digits, Number};
 use super::slider::Slider;
 use super::widgets::row;
 use crate::state::State;
@@ -56,6 +56,16 @@ pub(super) fn show(ui: &mut Ui, state: &mut State, selection: &Selection) {
     }
 }
 
+/// Digits of a number that there is room for in a third of a line; what is too small for decimals is written as it is.
+fn digits(value: f64) -> Digits {
+    let size = value.abs();
+    if size > 0.0 && size < 1e-3 {
+        return Digits::Significant;
+    }
+    let before_point = 1 + size.max(1.0).log10().floor() as usize + usize::from(value < 0.0);
+    Digits::Decimals(4_usize.saturating_sub(before_point).min(3))
+}
+
 /// Three numbers in one line, each with the name of its axis.
 fn show_triple(
     ui: &mut Ui,
@@ -76,6 +86,7 @@ fn show_triple(
             let value = if value.abs() < 1e-12 { 0.0 } else { value };
             let speed = if unit == "°" { 0.5 } else { (value.abs() * 0.005).max(1e-3) };
             let number = Number::new(field.label, *min..=*max).salt(salt(field)).speed(speed).width(width);
+            let number = number.digits(digits(value));
             let (response, change) = number.show(ui, value);
             response.on_hover_text(format!("{}: {help}", field.label));
             let (value, done) = match change {

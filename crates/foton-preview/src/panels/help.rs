@@ -2,7 +2,7 @@
 
 use crate::state::State;
 
-const KEYS: [(&str, &str); 32] = [
+const KEYS: [(&str, &str); 33] = [
     ("Drag", "orbit the camera"),
     ("Shift+drag, right drag", "pan the camera"),
     ("Wheel", "camera nearer, farther"),
@@ -29,6 +29,7 @@ const KEYS: [(&str, &str); 32] = [
     ("L", "histogram"),
     ("C", "mark clipped and black pixels"),
     ("1 … 5", "radiance, luminance, radius, photons found, unlit hit points"),
+    ("Enter, Esc in a field", "commit what was typed, give it up"),
     ("Tab", "hide or show the panels"),
     ("F6, Shift+Tab", "from the picture to the controls, and back"),
     ("Ctrl+O", "open a scene"),

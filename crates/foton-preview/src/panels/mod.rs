@@ -53,7 +53,7 @@ use foton_session::engine::{Command, SceneEdit};
 
 use crate::files::Outcome;
 use crate::state::{DialogPurpose, State};
-use widgets::{section, within};
+use widgets::{as_wide_as_seen, section, within};
 
 /// Height of the menu bar in points.
 const MENU: f32 = 26.0;
@@ -74,7 +74,7 @@ const WIDTHS: [f32; 2] = [264.0, 272.0];
 const NARROW_WIDTHS: [f32; 2] = [236.0, 236.0];
 
 /// Share of the right panel's height that convergence and diagnostics take at most beside a selection, and without one.
-const LOWER: f32 = 0.65;
+const LOWER: f32 = 0.5;
 const LOWER_ALONE: f32 = 0.9;
 
 /// Points between the two parts of the right panel.
@@ -165,7 +165,7 @@ fn right(ui: &mut egui::Ui, state: &mut State) {
     egui::ScrollArea::vertical()
         .id_salt("selection")
         .auto_shrink(false)
-        .show(&mut ui.new_child(upper), |ui| inspector::show(ui, state));
+        .show(&mut ui.new_child(upper), |ui| as_wide_as_seen(ui, |ui| inspector::show(ui, state)));
     ui.painter().hline(all.x_range(), split - 0.5 * GAP, ui.visuals().widgets.noninteractive.bg_stroke);
     let lower = egui::UiBuilder::new().max_rect(all.with_min_y(split));
     let shown = egui::ScrollArea::vertical().id_salt("progress").auto_shrink(false);

@@ -16,11 +16,18 @@ pub(super) fn within(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
     ui.advance_cursor_after_rect(rect);
 }
 
+/// What is shown in a scrolled panel, no wider than is seen of it: a line that is too long makes the others no longer.
+pub(super) fn as_wide_as_seen(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
+    let rect = ui.available_rect_before_wrap();
+    let rect = rect.with_max_x(ui.clip_rect().right().min(rect.right()).max(rect.left() + 1.0));
+    ui.scope_builder(egui::UiBuilder::new().max_rect(rect), content);
+}
+
 /// A part of a panel that folds. Its heading is a button, for keys and screen readers too.
 pub(super) fn section(ui: &mut Ui, name: &str, is_open: bool, content: impl FnOnce(&mut Ui)) -> Response {
     let title = egui::RichText::new(name).strong();
     let header = egui::CollapsingHeader::new(title).id_salt(name).default_open(is_open);
-    let shown = header.show_unindented(ui, content);
+    let shown = header.show_unindented(ui, |ui| as_wide_as_seen(ui, content));
     ui.add_space(4.0);
     shown.header_response
 }

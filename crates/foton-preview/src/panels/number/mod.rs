@@ -337,15 +337,16 @@ fn separated(unit: &str) -> String {
     }
 }
 
-/// Says what was wrong, below the field; nothing moves for it.
+/// Says what was wrong, over the panel; nothing moves for it.
 fn say(ui: &Ui, response: &Response, trouble: Option<&(String, f64)>) {
     let Some((text, until)) = trouble else { return };
     let left = (until - ui.input(|i| i.time)).max(0.0);
     ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(left));
     let id = response.id.with("trouble");
     // Over the panels, under lists and menus.
-    let area = egui::Area::new(id).order(egui::Order::Middle).interactable(false);
-    area.fixed_pos(response.rect.left_bottom() + Vec2::new(0.0, 2.0)).show(ui.ctx(), |ui| {
+    // Above the field: below it is what the pointer over it asks for.
+    let area = egui::Area::new(id).order(egui::Order::Middle).interactable(false).pivot(Align2::LEFT_BOTTOM);
+    area.fixed_pos(response.rect.left_top() - Vec2::new(0.0, 2.0)).show(ui.ctx(), |ui| {
         egui::Frame::popup(ui.style()).show(ui, |ui| {
             ui.set_max_width(220.0);
             ui.colored_label(ui.visuals().error_fg_color, text);

@@ -119,8 +119,8 @@ fn cut_off(harness: &Harness<'_, State>, size: egui::Vec2) -> Vec<String> {
             _ if rect.top() < canvas.top() || rect.top() >= canvas.bottom() => {
                 [window.left(), window.right()]
             }
-            x if x < canvas.left() => [window.left(), canvas.left()],
-            x if x > canvas.right() => [canvas.right(), window.right()],
+            x if x < canvas.left() => [window.left(), canvas.left() - 7.5],
+            x if x > canvas.right() => [canvas.right(), window.right() - 7.5],
             _ => [canvas.left(), canvas.right()],
         };
         let is_within = rect.left() >= left && rect.right() <= right;
