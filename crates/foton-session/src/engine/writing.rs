@@ -23,9 +23,8 @@ impl Worker {
         Some((render, self.scene.as_ref()?))
     }
 
-    /// Writes both pictures of the last pass into a folder.
+    /// Writes both pictures of the last whole pass into a folder.
     pub(super) fn snapshot(&mut self, folder: &Path) {
-        self.settle();
         if self.rendered().is_none() {
             return self.event(Event::Failed("there is no pass to save yet".to_owned()));
         }

@@ -109,8 +109,8 @@ impl Worker {
     /// Offers a frame if there is something new and it is time for one.
     pub(super) fn publish(&mut self, when: When) {
         // While something moves, a picture is there so soon that a frame before it would be drawn for nothing.
-        let comes_soon =
-            self.plan.moving && self.current.render.is_none() && self.published.picture.is_some();
+        let has_none = self.current.render.as_ref().is_none_or(|render| render.render().passes() == 0);
+        let comes_soon = self.plan.moving && has_none && self.published.picture.is_some();
         let is_time = match when {
             When::AtOnce => true,
             When::Answering => !comes_soon,
