@@ -58,12 +58,12 @@ pub(super) fn obey(ui: &egui::Ui, state: &mut State) {
     if is_typing || ui.input(|i| i.pointer.any_click()) {
         return;
     }
-    if pressed(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z) || pressed(Modifiers::COMMAND, Key::Y) {
-        state.ask(Command::Edit(SceneEdit::Redo));
-    }
-    if pressed(Modifiers::COMMAND, Key::Z) {
-        state.ask(Command::Edit(SceneEdit::Undo));
-    }
+    // Each press counts, however many come in a frame that took long.
+    let times = |modifiers: Modifiers, key: Key| ui.input_mut(|i| i.count_and_consume_key(modifiers, key));
+    let redone = times(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z) + times(Modifiers::COMMAND, Key::Y);
+    let undone = times(Modifiers::COMMAND, Key::Z);
+    (0..redone).for_each(|_| state.ask(Command::Edit(SceneEdit::Redo)));
+    (0..undone).for_each(|_| state.ask(Command::Edit(SceneEdit::Undo)));
     if pressed(Modifiers::COMMAND, Key::D) {
         actions::duplicate(state);
     }

@@ -209,3 +209,19 @@ fn the_controls_are_reached_from_the_picture_and_left_again_by_a_key() {
     harness.key_press(Key::Space);
     assert_asked(&mut harness, &Command::Pause);
 }
+
+#[test]
+fn each_press_of_undo_counts_however_many_come_in_a_frame() {
+    let mut harness = window(|_| ());
+    let press = |pressed| egui::Event::Key {
+        key: Key::Z,
+        physical_key: None,
+        pressed,
+        repeat: false,
+        modifiers: Modifiers::COMMAND,
+    };
+    harness.input_mut().events.extend([press(true), press(false), press(true), press(false)]);
+    harness.step();
+    let undo = format!("{:?}", Command::Edit(SceneEdit::Undo));
+    assert_eq!(asked(&mut harness), [undo.clone(), undo]);
+}
