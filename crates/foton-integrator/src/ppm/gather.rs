@@ -36,9 +36,10 @@ pub(super) fn collect<const LAYERS: usize, const SHADED: bool, const MOMENTS: bo
                 factor[l] = f32::from_bits(factor[l].to_bits() & counts[l]);
             }
         }
-        let (whole, classes) = found.flux.split_at_mut(1);
-        let class = Found::<LAYERS>::class_layer(photon).and_then(|layer| classes.get_mut(layer - 1));
-        add_power::<SHADED>(&mut whole[0], class, photon, &factor, &counts);
+        add_power::<SHADED>(&mut found.flux[0], photon, &factor, &counts);
+        if let Some(class) = Found::<LAYERS>::class_layer(photon) {
+            add_power::<SHADED>(&mut found.flux[class], photon, &factor, &counts);
+        }
         for l in 0..LANES {
             found.count[l] += counts[l] & 1;
         }
@@ -69,33 +70,18 @@ pub(super) fn collect<const LAYERS: usize, const SHADED: bool, const MOMENTS: bo
     }
 }
 
-/// Adds a photon to the sums of the lanes in which it counts, of all light and of its class if that has some, weighed there by `factor`
-/// if normals are interpolated.
+/// Adds a photon to the sums of the lanes in which it counts, weighed there by `factor` if normals are interpolated.
 #[inline(always)]
 fn add_power<const SHADED: bool>(
-    whole: &mut [[f32; LANES]; 3],
-    class: Option<&mut [[f32; LANES]; 3]>,
+    sums: &mut [[f32; LANES]; 3],
     photon: &Photon,
     factor: &[f32; LANES],
     counts: &[u32; LANES],
 ) {
-    let powers = [photon.power.r, photon.power.g, photon.power.b];
-    let term = |power: f32, l: usize| {
-        if SHADED { power * factor[l] } else { f32::from_bits(power.to_bits() & counts[l]) }
-    };
-    let Some(class) = class else {
-        for (sums, power) in whole.iter_mut().zip(powers) {
-            for l in 0..LANES {
-                sums[l] += term(power, l);
-            }
-        }
-        return;
-    };
-    for ((sums, class), power) in whole.iter_mut().zip(class).zip(powers) {
+    for (channel, power) in [photon.power.r, photon.power.g, photon.power.b].into_iter().enumerate() {
+        let sums = &mut sums[channel];
         for l in 0..LANES {
-            let term = term(power, l);
-            sums[l] += term;
-            class[l] += term;
+            sums[l] += if SHADED { power * factor[l] } else { f32::from_bits(power.to_bits() & counts[l]) };
         }
     }
 }

@@ -258,13 +258,17 @@ impl<'a> Number<'a> {
         let font = egui::TextStyle::Monospace.resolve(ui.style());
         let inside = rect.shrink2(Vec2::new(5.0, 1.0));
         let galley = |text: String| painter.layout_no_wrap(text, font.clone(), visuals.text_color());
-        let number = reading::shown(shown, self.digits);
-        let whole = galley(number.clone() + &separated(self.unit));
-        // Where there is no room for the unit, the digits go first.
-        let galley = if whole.size().x > inside.width() { galley(number) } else { whole };
-        let at = Align2::RIGHT_CENTER.anchor_size(inside.right_center(), galley.size()).min;
+        // Where there is no room for all, the unit goes first, then the last decimals.
+        let mut texts = reading::shorter(shown, self.digits).into_iter();
+        let mut laid_out = galley(reading::shown(shown, self.digits) + &separated(self.unit));
+        while laid_out.size().x > inside.width()
+            && let Some(text) = texts.next()
+        {
+            laid_out = galley(text);
+        }
+        let at = Align2::RIGHT_CENTER.anchor_size(inside.right_center(), laid_out.size()).min;
         let clip = painter.with_clip_rect(rect.shrink(1.0).intersect(ui.clip_rect()));
-        clip.galley(at, galley, visuals.text_color());
+        clip.galley(at, laid_out, visuals.text_color());
     }
 
     /// Dragging sideways; a click begins to edit.

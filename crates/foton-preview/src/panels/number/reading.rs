@@ -27,6 +27,18 @@ pub(super) fn shown(value: f64, digits: Digits) -> String {
     }
 }
 
+/// A value in fewer and fewer digits, for fields that are too narrow for all.
+pub(super) fn shorter(value: f64, digits: Digits) -> Vec<String> {
+    let decimals = match digits {
+        Digits::Whole => 0,
+        Digits::Decimals(n) => n,
+        Digits::Significant if (1e-4..1e7).contains(&value.abs()) => 3,
+        Digits::Significant => 0,
+    };
+    let fewer = (0..decimals).rev().map(|n| format!("{value:.n$}"));
+    [shown(value, digits)].into_iter().chain(fewer).collect()
+}
+
 /// A value as it is offered for editing: plain digits, nothing set apart.
 pub(super) fn editable(value: f64, digits: Digits) -> String {
     match digits {
@@ -154,6 +166,13 @@ mod tests {
             assert!(said.contains(part), "{text}: {said}");
         }
         assert!(read(&"9x".repeat(500), "").expect_err("no number").len() < 200);
+    }
+
+    #[test]
+    fn narrow_fields_lose_the_last_decimals() {
+        assert_eq!(shorter(1.75, Digits::Decimals(3)), ["1.750", "1.75", "1.8", "2"]);
+        assert_eq!(shorter(12.0, Digits::Whole), ["12"]);
+        assert_eq!(shorter(1e12, Digits::Significant), ["1.000e12"]);
     }
 
     #[test]
