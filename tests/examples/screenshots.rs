@@ -45,7 +45,7 @@ fn main() {
     for (size, scale) in SIZES {
         let pixels = size.map(|v| (f64::from(v) * scale) as u32);
         let name = format!("{}x{}", pixels[0], pixels[1]);
-        if only.first().is_some_and(|only| *only != PathBuf::from(&name)) {
+        if only.first().is_some_and(|only| only.as_path() != Path::new(&name)) {
             continue;
         }
         for is_dark in [true, false] {

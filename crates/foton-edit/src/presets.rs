@@ -1,7 +1,7 @@
 //! Materials that a person takes as they are: what they are made of is measured, not chosen by taste.
 //!
 //! Indices of refraction are those at the sodium line (589 nm). Metals are the scene's own ([`METALS`]); brass is not among them and has
-//! the indices of Cu70Zn30 at 650, 550 and 450 nm [QUE85]. Colours of sapphire, plastic and wax are chosen: they depend on what is in
+//! the indices of Cu70Zn30 at 650, 550 and 450 nm `[QUE85]`. Colours of sapphire, plastic and wax are chosen: they depend on what is in
 //! them.
 
 use foton_math::Rgb;
