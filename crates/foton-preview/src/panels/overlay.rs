@@ -33,13 +33,27 @@ pub(super) fn draw(painter: &egui::Painter, state: &State, frame: &Frame, film: 
         dots(painter, &probe.photons, film, 1.6);
     }
     if let Some(pinned) = state.pinned.as_ref().filter(|_| state.looking.compare == Compare::Wipe) {
-        let x = film.rect.left() + film.rect.width() * state.wipe;
-        let font = egui::FontId::proportional(12.0);
-        let at = Pos2::new(x + 8.0, film.rect.bottom() - 10.0);
-        painter.text(at, egui::Align2::LEFT_BOTTOM, &pinned.label, font.clone(), Color32::WHITE);
-        let now = format!("pass {}", frame.stats.passes);
-        let at = Pos2::new(x - 8.0, film.rect.bottom() - 10.0);
-        painter.text(at, egui::Align2::RIGHT_BOTTOM, now, font, Color32::WHITE);
+        wipe_labels(painter, film, state.wipe, sides(&pinned.label, frame.stats.passes));
+    }
+}
+
+/// What the sides of the wipe say: on the left the render as it is now, on the right what is pinned.
+fn sides(pinned: &str, passes: u64) -> [String; 2] {
+    [format!("Now: pass {passes}"), format!("Pinned: {pinned}")]
+}
+
+/// The words on either side of the wipe's line, to be read over any picture and beside it.
+fn wipe_labels(painter: &egui::Painter, film: Film, wipe: f32, [left, right]: [String; 2]) {
+    let x = film.rect.left() + film.rect.width() * wipe;
+    let bottom = film.rect.bottom() - 10.0;
+    for (text, at, align) in [
+        (left, Pos2::new(x - 10.0, bottom), egui::Align2::RIGHT_BOTTOM),
+        (right, Pos2::new(x + 10.0, bottom), egui::Align2::LEFT_BOTTOM),
+    ] {
+        let galley = painter.layout_no_wrap(text, egui::FontId::proportional(13.0), Color32::WHITE);
+        let place = align.anchor_size(at, galley.size());
+        painter.rect_filled(place.expand2(egui::vec2(5.0, 3.0)), 3.0, Color32::from_black_alpha(190));
+        painter.galley(place.min, galley, Color32::WHITE);
     }
 }
 
@@ -58,4 +72,14 @@ fn dots(painter: &egui::Painter, dots: &[Dot], film: Film, radius: f32) {
         );
     }
     painter.add(mesh);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_wipe_says_which_side_is_pinned() {
+        assert_eq!(sides("pass 16", 18), ["Now: pass 18", "Pinned: pass 16"]);
+    }
 }
