@@ -5,14 +5,14 @@ use std::num::NonZeroU32;
 use foton_edit::DragMode;
 use foton_integrator::{Alpha, PpmSettings, RenderSettings, SettingChange};
 use foton_scene::Scene;
-use foton_session::engine::{Activity, Command, Event, Frame, SceneEdit, ViewMode};
+use foton_session::engine::{Activity, Command, Configuration, Event, Frame, SceneEdit, ViewMode};
 use foton_session::{Session, StopRule};
 
 use crate::rig::{BALL, Folder, Rig, headless, image, room, settings};
 
 /// Passes of many slices, in two batches.
 fn long() -> RenderSettings {
-    let photons = NonZeroU32::new(1 << 21).expect("not zero");
+    let photons = NonZeroU32::new((1 << 20) + (1 << 17)).expect("not zero");
     RenderSettings {
         ppm: PpmSettings { photons_per_pass: photons, first_pass: photons, ..settings().ppm },
         ..settings()
@@ -22,6 +22,8 @@ fn long() -> RenderSettings {
 /// Paused in the middle of a pass that is not the first.
 fn paused_in_the_second_pass() -> (Rig, Frame) {
     let rig = Rig::new(long(), None);
+    // On one thread a pass has many slices on any machine.
+    rig.send(Command::Configure(Configuration::of(&long(), Some(1), None)));
     rig.open("room");
     rig.until("the second pass", |f| f.stats.passes == 1 && f.pass_share > 0.0);
     rig.send(Command::Pause);
