@@ -168,9 +168,29 @@ impl Monkey {
     }
 
     /// Closes the window, and looks for errors.
+    /// Answers the question about unsaved edits, if it is asked.
+    fn discard_edits(&mut self) {
+        while self.window.is_running() {
+            let lines = self.window.log.lines();
+            if lines.iter().any(|line| line["event"] == "closing") {
+                return;
+            }
+            let places = lines.iter().rev().find_map(|line| line.get("places"));
+            if places.is_some_and(|places| places.get("discard").is_some()) {
+                let [x, y, width, height] = self.window.place("discard");
+                let at = format!("mousemove {:.0} {:.0}", x + width / 2.0, y + height / 2.0);
+                self.display.hand(&at);
+                std::thread::sleep(Duration::from_millis(300));
+                return self.display.hand("click 1");
+            }
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    }
+
     fn finish(&mut self) {
         self.display.hand("key Escape");
         self.display.hand("key ctrl+q");
+        self.discard_edits();
         let (took, is_well) = self.window.end();
         println!("the process ended {took:?} after it was asked to");
         assert!(is_well, "it ended badly");

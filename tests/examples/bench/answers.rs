@@ -8,11 +8,12 @@ use std::time::{Duration, Instant};
 
 use foton_edit::DragMode;
 use foton_integrator::{Alpha, Cancel, PpmSettings, RenderSettings, SettingChange};
+use foton_scene::Scene;
 use foton_scene::description::SceneDescription;
 use foton_session::engine::{
     Activity, Command, Event, Frame, Loaded, Loader, SavedScene, SceneEdit, Setup, Source, ViewMode,
 };
-use foton_session::{Engine, SceneIdentity};
+use foton_session::{Engine, SceneIdentity, Session};
 
 use crate::rig;
 
@@ -20,25 +21,23 @@ const PHOTONS: u32 = 10_000_000;
 const ROUNDS: usize = 10;
 const PATIENCE: Duration = Duration::from_secs(600);
 
-/// The default scene's file, whatever is asked for.
-struct Default;
+/// The default scene, with passes of so many photons, whatever is asked for.
+struct DefaultScene(PpmSettings);
 
-impl Loader for Default {
+impl DefaultScene {
+    fn settings(&self) -> RenderSettings {
+        let samples_per_pixel = NonZeroU32::new(4).expect("not zero");
+        RenderSettings { error: true, samples_per_pixel, ppm: self.0, ..RenderSettings::default() }
+    }
+}
+
+impl Loader for DefaultScene {
     fn open(&self, _: &Source, _: &Cancel) -> Result<Loaded, String> {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/glass-and-ring/scene.xml");
-        let opened = foton_format::open(&path, &foton_format::Options::default());
-        let opened = opened.map_err(|error| error.to_string())?;
-        let photons = NonZeroU32::new(PHOTONS).ok_or("no photons")?;
-        let ppm = PpmSettings { photons_per_pass: photons, first_pass: photons, ..PpmSettings::default() };
+        let opened = opened()?;
         Ok(Loaded {
             description: opened.description.clone(),
             identity: SceneIdentity { name: "glass-and-ring".into(), hash: opened.source_hash },
-            settings: RenderSettings {
-                error: true,
-                samples_per_pixel: NonZeroU32::new(4).ok_or("no samples")?,
-                ppm,
-                ..RenderSettings::default()
-            },
+            settings: self.settings(),
             warnings: Vec::new(),
             files: Vec::new(),
             origin: Arc::new(()),
@@ -53,6 +52,30 @@ impl Loader for Default {
     ) -> Result<SavedScene, String> {
         Err("nothing is saved here".into())
     }
+}
+
+fn opened() -> Result<foton_format::Opened, String> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/glass-and-ring/scene.xml");
+    foton_format::open(&path, &foton_format::Options::default()).map_err(|error| error.to_string())
+}
+
+/// From the scene to its first whole pass: the engine with its previews, and a session without.
+fn first_pass() -> [f64; 2] {
+    let loader = DefaultScene(PpmSettings::default());
+    let (settings, cancel) = (loader.settings(), Cancel::default());
+    let scene = Arc::new(Scene::build(&opened().expect("it ships with foton").description).expect("sound"));
+    let begin = Instant::now();
+    let mut session = Session::start(scene, settings, None, &cancel).expect("starts");
+    session.advance(&cancel).expect("a pass");
+    let alone = begin.elapsed().as_secs_f64();
+    drop(session);
+    let engine = Engine::spawn(Setup::new(Arc::new(loader), Box::new(|| ()), None));
+    let engine = engine.expect("a thread");
+    engine.send(Command::Open(Source::File(PathBuf::new())));
+    until(&engine, &|f| f.activity == Activity::Collecting);
+    let begin = Instant::now();
+    until(&engine, &|f| f.stats.passes > 0);
+    [begin.elapsed().as_secs_f64(), alone]
 }
 
 fn until(engine: &Engine, is_it: &dyn Fn(&Frame) -> bool) -> Frame {
@@ -73,7 +96,12 @@ fn let_it_work(round: usize) {
 }
 
 pub(crate) fn print() {
-    let setup = Setup::new(Arc::new(Default), Box::new(|| ()), None);
+    let runs: Vec<[f64; 2]> = (0..3).map(|_| first_pass()).collect();
+    let [engine, alone] = [0, 1].map(|i| rig::median(runs.iter().map(|run| run[i])));
+    println!("first whole pass: {engine:.2} s with previews, {alone:.2} s without\n");
+    let photons = NonZeroU32::new(PHOTONS).expect("not zero");
+    let long = PpmSettings { photons_per_pass: photons, first_pass: photons, ..PpmSettings::default() };
+    let setup = Setup::new(Arc::new(DefaultScene(long)), Box::new(|| ()), None);
     let engine = Engine::spawn(setup).expect("a thread");
     engine.send(Command::Open(Source::File(PathBuf::new())));
     until(&engine, &|f| f.activity == Activity::Rendering && f.pass_share > 0.0);

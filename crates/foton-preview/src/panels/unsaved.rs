@@ -23,6 +23,7 @@ pub(super) fn show(ctx: &egui::Context, state: &mut State) {
             }
             let discard = ui.button("Discard");
             let cancel = ui.button("Cancel");
+            state.place("discard", &discard);
             (save.clicked(), discard.clicked(), cancel.clicked())
         })
         .inner

@@ -13,7 +13,7 @@ impl Worker {
     pub(super) fn remember(&mut self) {
         self.settle();
         let Some((render, _)) = self.rendered() else {
-            return self.event(Event::Failed("there is no pass to keep yet".to_owned()));
+            return self.event(Event::Notice("There is no pass to keep yet".to_owned()));
         };
         let (number, passes) = (self.current.number, render.render().passes());
         let entries = self.history.shown();
