@@ -108,7 +108,9 @@ impl Monkey {
                 );
             }
             self.rest();
-            self.window.memory().expect("the process is there")
+            // Renders that undo brings back are kept as far as there is room: what they take is no leak.
+            let held = self.window.memory().expect("the process is there");
+            held.saturating_sub(self.kept())
         };
         (0..SPELLS).map(spell).collect()
     }
@@ -168,6 +170,13 @@ impl Monkey {
     }
 
     /// Closes the window, and looks for errors.
+    /// Bytes of renders from before edits, as the last frame says.
+    fn kept(&mut self) -> u64 {
+        let lines = self.window.log.lines();
+        let last = lines.iter().rev().find_map(|line| line.get("frame")?["kept_bytes"].as_f64());
+        last.unwrap_or_default() as u64
+    }
+
     /// Answers the question about unsaved edits, if it is asked.
     fn discard_edits(&mut self) {
         while self.window.is_running() {

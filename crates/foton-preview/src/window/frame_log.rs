@@ -98,6 +98,7 @@ fn describe(frame: &Frame) -> Value {
         "size": frame.size,
         "picture": frame.picture.as_ref().map(Picture::size),
         "bytes": n.bytes,
+        "kept_bytes": frame.kept_bytes,
         "scene": frame.scene.name,
         "edited": frame.scene.is_edited,
         "shapes": frame.scene.shapes,

@@ -225,6 +225,8 @@ pub struct Frame {
     pub view: ViewMode,
     /// How the render stands.
     pub stats: RenderStats,
+    /// Bytes of renders from before edits, which undo brings back.
+    pub kept_bytes: f64,
     /// How much of the pass under way is done, from 0 to 1.
     pub pass_share: f64,
     /// The share of the pixels that have their hit points, while those of the whole picture are collected.

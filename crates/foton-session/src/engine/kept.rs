@@ -46,7 +46,8 @@ impl Kept {
         self.0.clear();
     }
 
-    fn bytes(&self) -> f64 {
+    /// Bytes that all of them take.
+    pub(super) fn bytes(&self) -> f64 {
         self.0.iter().map(|(_, render)| render.render().bytes() as f64).sum()
     }
 }

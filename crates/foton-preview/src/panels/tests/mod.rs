@@ -76,6 +76,7 @@ fn frame() -> Frame {
             ledger: Ledger { emitted: 8.0, absorbed: 6.0, escaped: 1.9, truncated: 0.1, ..Ledger::default() },
             ..RenderStats::default()
         },
+        kept_bytes: 0.0,
         pass_share: 0.4,
         collecting: None,
         settings: RenderSettings::default(),

@@ -144,6 +144,7 @@ impl Worker {
             picture: self.published.picture.clone(),
             view: self.view.mode,
             stats,
+            kept_bytes: self.current.kept.bytes(),
             pass_share: self.whole().map_or(0.0, |render| render.render().pass_share()),
             collecting: self.current.starting.as_ref().map(Starting::share),
             settings: self.plan.settings.clone(),
