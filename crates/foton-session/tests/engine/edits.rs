@@ -227,9 +227,7 @@ fn named(path: &std::path::Path) -> (String, String) {
 #[test]
 fn what_was_asked_to_be_written_is_written_before_the_end() {
     let folder = Folder::new("finish");
-    let rig = Rig::new(crate::rig::settings(), None);
-    rig.open("room");
-    rig.until("a pass", |f| f.activity == Activity::Rendering);
+    let (rig, _) = Rig::at_pass(1);
     rig.send(Command::Snapshot(folder.0.clone()));
     rig.engine.finish_writing();
     let there = |name: &str| folder.0.join(name).exists();
