@@ -8,6 +8,7 @@ use foton_session::engine::Command;
 use foton_session::{Alpha, RenderSettings, SettingChange, StopRule};
 
 use super::number::{Change, Digits, Number};
+use super::optional::optional;
 use super::slider::Slider;
 use super::widgets::row;
 use crate::state::State;
@@ -68,43 +69,27 @@ fn photons(ui: &mut Ui, state: &mut State, settings: &RenderSettings) {
     });
 }
 
-/// A rule of three: whether it is on, and its number. A number that is typed switches its rule on.
-fn limit(
-    ui: &mut Ui,
-    name: &str,
-    help: &str,
-    limit: Option<f64>,
-    other: f64,
-    number: Number<'_>,
-) -> Option<f64> {
-    ui.horizontal(|ui| {
-        let mut is_on = limit.is_some();
-        let width = ui.available_width() - 84.0;
-        let size = egui::vec2(width, ui.spacing().interact_size.y);
-        let layout = egui::Layout::left_to_right(egui::Align::Center);
-        ui.allocate_ui_with_layout(size, layout, |ui| {
-            ui.set_min_width(width);
-            ui.checkbox(&mut is_on, name).on_hover_text(help);
-        });
-        let value = limit.unwrap_or(other);
-        let (field, change) = number.show(ui, value);
-        field.on_hover_text(help);
-        change.and_then(Change::done).or_else(|| is_on.then_some(value))
-    })
-    .inner
-}
-
 fn stop_rule(ui: &mut Ui, state: &mut State, rule: StopRule) {
     let [passes, seconds, percent] = &mut state.stop_values;
     ui.add_space(2.0);
+    // What is left of the field, which is as wide as its digits.
+    let width = ui.available_width() - 84.0;
     let number = Number::new("Stop after passes", 1.0..=1e9).digits(Digits::Whole).speed(1.0);
     let new_passes =
-        limit(ui, "Stop after passes", PASSES_HELP, rule.passes.map(|n| n as f64), *passes, number);
+        optional(ui, width, "Stop after passes", PASSES_HELP, rule.passes.map(|n| n as f64), *passes, number);
     let number = Number::new("Stop after time", 0.1..=1e7).unit("s").speed(0.5);
-    let new_seconds =
-        limit(ui, "Stop after time", TIME_HELP, rule.time.map(|t| t.as_secs_f64()), *seconds, number);
+    let new_seconds = optional(
+        ui,
+        width,
+        "Stop after time",
+        TIME_HELP,
+        rule.time.map(|t| t.as_secs_f64()),
+        *seconds,
+        number,
+    );
     let number = Number::new("Stop at error", 0.01..=99.0).unit("%").speed(0.02);
-    let new_percent = limit(ui, "Stop at error", ERROR_HELP, rule.error.map(|e| 100.0 * e), *percent, number);
+    let new_percent =
+        optional(ui, width, "Stop at error", ERROR_HELP, rule.error.map(|e| 100.0 * e), *percent, number);
     for (value, new) in [(passes, new_passes), (seconds, new_seconds), (percent, new_percent)] {
         *value = new.unwrap_or(*value);
     }

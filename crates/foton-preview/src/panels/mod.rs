@@ -27,6 +27,7 @@ mod menu;
 mod messages;
 mod number;
 mod opening;
+mod optional;
 mod outliner;
 mod output;
 mod overlay;

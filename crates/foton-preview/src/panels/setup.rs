@@ -7,6 +7,7 @@ use foton_session::engine::{Command, Configuration};
 use foton_session::{DirectLight, RadiusFloor, RadiusRule};
 
 use super::number::{Change, Digits, Number};
+use super::optional::optional;
 use super::slider::Slider;
 use super::widgets::{LABEL, row};
 use crate::state::State;
@@ -179,32 +180,6 @@ fn samples(ui: &mut Ui, draft: &mut Configuration) {
     });
 }
 
-/// A switch in a panel's left column and a number that belongs to it; typing the number sets the switch.
-fn optional(
-    ui: &mut Ui,
-    name: &str,
-    help: &str,
-    value: Option<f64>,
-    other: f64,
-    number: Number<'_>,
-) -> Option<f64> {
-    ui.horizontal(|ui| {
-        let mut is_on = value.is_some();
-        let width = LABEL;
-        let size = egui::vec2(width, ui.spacing().interact_size.y);
-        let layout = egui::Layout::left_to_right(egui::Align::Center);
-        ui.allocate_ui_with_layout(size, layout, |ui| {
-            ui.set_min_width(width);
-            ui.checkbox(&mut is_on, name).on_hover_text(help);
-        });
-        let shown = value.unwrap_or(other);
-        let (field, change) = number.show(ui, shown);
-        field.on_hover_text(help);
-        change.and_then(Change::done).or_else(|| is_on.then_some(shown))
-    })
-    .inner
-}
-
 /// The first and the smallest radius.
 fn radii(ui: &mut Ui, draft: &mut Configuration, median: f64) {
     const FIRST: &str =
@@ -212,7 +187,7 @@ fn radii(ui: &mut Ui, draft: &mut Configuration, median: f64) {
     let start = median.max(1e-9);
     let number = Number::new("First radius", 1e-9..=1e9).unit("units").wide();
     let number = number.speed(0.01 * draft.radius.unwrap_or(start));
-    draft.radius = optional(ui, "First radius", FIRST, draft.radius, start, number);
+    draft.radius = optional(ui, LABEL, "First radius", FIRST, draft.radius, start, number);
     const SMALLEST: &str = "In spacings of the eye samples: light narrower than that falls between them. 0: radii shrink for ever";
     row(ui, "Smallest radius", SMALLEST, |ui, _| {
         let number = Number::new("Smallest radius", 0.0..=100.0).unit("spacings").speed(0.01).wide();
@@ -227,7 +202,7 @@ fn radii(ui: &mut Ui, draft: &mut Configuration, median: f64) {
 fn depth(ui: &mut Ui, draft: &mut Configuration) {
     const HELP: &str = "Longest light path in edges; off: what the scene says. Light beyond it is missing: Truncated (max depth)";
     let number = Number::new("Max depth", 1.0..=65535.0).digits(Digits::Whole).speed(0.2).wide();
-    let depth = optional(ui, "Max depth", HELP, draft.max_depth.map(f64::from), 64.0, number);
+    let depth = optional(ui, LABEL, "Max depth", HELP, draft.max_depth.map(f64::from), 64.0, number);
     draft.max_depth = depth.map(|d| d as u32);
 }
 

@@ -101,14 +101,16 @@ impl Worker {
         let settings = render.render().settings();
         self.plan.settings.ppm.alpha = settings.ppm.alpha;
         self.plan.settings.ppm.photons_per_pass = settings.ppm.photons_per_pass;
+        // There is a pass to look at: who has paused waits.
+        self.current.owes_a_pass = false;
         let resumed = render.render();
         let passes = resumed.passes();
         let by_class = if resumed.photons_by_class() == Some(resumed.photons_emitted()) {
             ""
         } else {
-            "; light by path is of the passes from here on"
+            "; the view by light path covers the passes from here on"
         };
-        self.event(Event::Notice(format!("Going on after {passes} passes{by_class}")));
+        self.event(Event::Notice(format!("Resumed after {passes} passes{by_class}")));
         Some(render.resumed())
     }
 

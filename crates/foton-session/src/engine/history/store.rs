@@ -200,7 +200,7 @@ fn write_all(
         }
         if removed > 0 {
             teller.tell(Event::Notice(format!(
-                "The history keeps within {:.1} GB: {removed} of the oldest passes went",
+                "The history keeps within {:.1} GB: the oldest passes ({removed}) were removed",
                 limit as f64 / f64::from(1 << 30)
             )));
         }
