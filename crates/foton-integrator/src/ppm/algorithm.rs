@@ -12,6 +12,7 @@ use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite
 use pulp::Arch;
 
 use super::eye_samples::eye_pass;
+use super::guidance::Guidance;
 use super::hit_points::HitPoints;
 use super::light::Light;
 use super::lobes::lobe_use;
@@ -30,6 +31,7 @@ pub(super) const MAX_PROBED: usize = 4096;
 pub(crate) struct Ppm {
     pub(super) scene: Arc<Scene>,
     pub(super) sources: Sources,
+    pub(super) guidance: Guidance,
     pub(super) settings: RenderSettings,
     pub(super) hit_points: HitPoints,
     pub(super) shapes: Vec<u32>,
@@ -91,6 +93,7 @@ impl Ppm {
         let disc = |h: &HitPoint| (h.position, h.radius2.sqrt());
         let seen: Vec<(Vec3, f32)> = eye.hit_points.iter().step_by(step).map(disc).collect();
         let sources = scene.sources(&seen);
+        let guidance = Guidance::new(&sources, &eye, settings.ppm.guided);
         let not_finite = eye.left_out.map(|left_out| NotFinite::new(&scene, 0, left_out));
         drop((eye.hit_points, eye.gloss));
         let grid = Grid::new(&hit_points.packets, cancel)?;
@@ -103,6 +106,7 @@ impl Ppm {
             losses: vec![Loss::default(); scene.materials().len()],
             scene,
             sources,
+            guidance,
             light: Light::new(eye.emission, &hit_points, &settings),
             settings,
             hit_points,

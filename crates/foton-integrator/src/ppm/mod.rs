@@ -7,6 +7,7 @@ mod counts;
 mod eye_samples;
 mod features;
 mod gather;
+mod guidance;
 mod hit_points;
 mod inspect;
 mod lanes;

@@ -60,6 +60,7 @@ impl Ppm {
         if let Some(error) = &self.error {
             error.write(&mut out);
         }
+        self.guidance.write(&mut out);
         self.light.write_classes(&mut out);
         out.finish()
     }
@@ -87,6 +88,7 @@ impl Ppm {
         if let Some(error) = error {
             error.read(&mut input)?;
         }
+        self.guidance.read(&mut input, self.scene.emitters().len())?;
         self.light.read_classes(&mut input)?;
         input.finish()?;
         self.mark_all_cells();

@@ -38,6 +38,7 @@ impl Ppm {
         let photons = u64::from(self.settings.ppm.photons_after(self.passes).get());
         let slots = self.hit_points.statistics_slots.len();
         let adapts = !self.hit_points.radius_statistics_slots.is_empty();
+        self.guidance.begin_pass();
         let batches: Vec<Batch> = Batch::all(photons, self.max_in_batch).collect();
         self.earlier =
             if batches.len() > 1 { EarlierBatches::of(slots, adapts) } else { EarlierBatches::default() };
@@ -58,13 +59,15 @@ impl Ppm {
         PhotonPass {
             scene: &self.scene,
             sources: &self.sources,
+            cells: self.guidance.cells(),
+            training: self.guidance.training(self.passes, photons),
             grid: &self.grid,
             stores_direct: self.settings.ppm.direct_light == DirectLight::Photons,
             policy: LOBE_POLICY,
             directions: self.hit_points.need_directions(),
             arch: self.arch,
             max_depth: self.settings.max_depth_in(&self.scene),
-            seed: self.settings.seed,
+            seed: self.settings.photon_seed(),
             pass: self.passes,
             // A path of one edge is an emitter seen directly: no photon can add to it.
             photons: if self.settings.max_depth_in(&self.scene) > 1 { photons } else { 0 },
@@ -94,6 +97,7 @@ impl Ppm {
         let shot = photon_pass.shoot(&mut chunks, cancel, should_suspend);
         self.chunks = chunks;
         shot?;
+        self.guidance.take(&self.chunks);
         pass.next = NextStep::Sort;
         self.halt_at(self.chunks.iter().find_map(|chunk| chunk.left_out))
     }
@@ -165,7 +169,7 @@ impl Ppm {
             return Ok(());
         }
         watch(Stage::ShadowRays);
-        let key = PassKey { seed: self.settings.seed, pass: self.passes, photons: pass.counts.photons };
+        let key = PassKey { seed: self.settings.photon_seed(), pass: self.passes, photons: pass.counts.photons };
         let by_block = ByBlock { done: &mut pass.shadow_rays, should_suspend };
         self.light.add_direct(&self.scene, &self.hit_points, key, by_block);
         let (mut rays, mut omissions) = (0, Omissions::default());
@@ -202,6 +206,7 @@ impl Ppm {
             };
             self.light.add_error(error, &self.hit_points, facts);
         }
+        self.guidance.learn(self.passes, &self.sources);
         self.last_photons = photons;
         self.passes += 1;
         self.take_deferred_changes();
@@ -218,11 +223,11 @@ impl Ppm {
         }
     }
 
-    /// Mean power of a photon as it leaves its emitter. Photons that are aimed differ much: there it is that of some of those which
+    /// Mean power of a photon as it leaves its emitter. Photons that are aimed or guided differ much: there it is that of some of those which
     /// came near hit points in the last batch, if any did.
     fn mean_power(&self) -> f64 {
         let stored = self.map.photons();
-        if self.sources.is_aimed() && !stored.is_empty() {
+        if (self.sources.is_aimed() || self.guidance.is_on()) && !stored.is_empty() {
             let step = stored.len().div_ceil(MAX_PROBED);
             let (sum, count) = stored
                 .iter()

@@ -61,7 +61,7 @@ impl Variants {
         let start = |(i, settings): (usize, &RenderSettings)| {
             let watch = &mut |stage| watch(Step::Of(i, stage));
             let mut run = Render::start(Arc::clone(scene), settings.clone(), watch, cancel)?;
-            run.ppm_mut().settings.seed = photons;
+            run.ppm_mut().settings.photon_seed = Some(photons);
             Ok(run)
         };
         let runs: Vec<Render> = settings.iter().enumerate().map(start).collect::<Result<_, _>>()?;
@@ -92,6 +92,8 @@ impl Variants {
             let photon_pass = PhotonPass { grid: &self.everywhere, stores_direct: true, ..pass };
             photon_pass.begin(&mut self.chunks);
             photon_pass.shoot(&mut self.chunks, cancel, NEVER).map_err(|_| Cancelled)?;
+            // All have the cells of the first.
+            self.runs[0].ppm_mut().guidance.take(&self.chunks);
             for (i, (run, pass)) in self.runs.iter_mut().zip(&mut passes).enumerate() {
                 let run = run.ppm_mut();
                 watch(Step::Share);
