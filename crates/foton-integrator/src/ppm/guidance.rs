@@ -43,8 +43,8 @@ impl Guidance {
     }
 
     /// A batch has been traced.
-    pub(super) fn take(&mut self, chunks: &[Chunk]) {
-        chunks.iter().for_each(|chunk| self.samples.take(&chunk.samples));
+    pub(super) fn take(&mut self, chunks: &mut [Chunk]) {
+        chunks.iter_mut().for_each(|chunk| self.samples.take(std::mem::take(&mut chunk.samples)));
     }
 
     /// The pass that follows so many others is complete.
@@ -55,8 +55,13 @@ impl Guidance {
         }
     }
 
-    /// Bytes that the guidance of passes of so many photons may take.
-    pub(super) const fn bytes(photons: u64, emitters: usize) -> u64 {
+    /// Bytes held.
+    pub(super) fn bytes(&self) -> usize {
+        self.cells.bytes() + self.worth.as_ref().map_or(0, Worth::bytes) + self.samples.held()
+    }
+
+    /// The largest number of bytes that the guidance of passes of so many photons takes.
+    pub(super) const fn max_bytes(photons: u64, emitters: usize) -> u64 {
         let lasting = Worth::MAX_BYTES + Cells::max_bytes(emitters);
         lasting as u64 + Samples::bytes(photons)
     }

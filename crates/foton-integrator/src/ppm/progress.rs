@@ -122,6 +122,7 @@ impl Ppm {
             + self.light.bytes()
             + self.error.as_ref().map_or(0, ErrorSums::bytes)
             + self.grid.bytes()
+            + self.guidance.bytes()
             + self.map.bytes()
             + self.earlier.bytes()
             + self.chunks.iter().map(chunk).sum::<usize>()

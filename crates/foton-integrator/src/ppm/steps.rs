@@ -97,7 +97,7 @@ impl Ppm {
         let shot = photon_pass.shoot(&mut chunks, cancel, should_suspend);
         self.chunks = chunks;
         shot?;
-        self.guidance.take(&self.chunks);
+        self.guidance.take(&mut self.chunks);
         pass.next = NextStep::Sort;
         self.halt_at(self.chunks.iter().find_map(|chunk| chunk.left_out))
     }

@@ -93,7 +93,7 @@ impl Variants {
             photon_pass.begin(&mut self.chunks);
             photon_pass.shoot(&mut self.chunks, cancel, NEVER).map_err(|_| Cancelled)?;
             // All have the cells of the first.
-            self.runs[0].ppm_mut().guidance.take(&self.chunks);
+            self.runs[0].ppm_mut().guidance.take(&mut self.chunks);
             for (i, (run, pass)) in self.runs.iter_mut().zip(&mut passes).enumerate() {
                 let run = run.ppm_mut();
                 watch(Step::Share);

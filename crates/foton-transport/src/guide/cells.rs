@@ -117,6 +117,13 @@ impl Cells {
         shares
     }
 
+    /// Bytes held.
+    #[must_use]
+    pub const fn bytes(&self) -> usize {
+        self.cells.capacity() * size_of::<Cell>()
+            + (self.probabilities.capacity() + self.cumulative.capacity()) * size_of::<f64>()
+    }
+
     /// The largest number of bytes that those of a scene with so many emitters take.
     #[must_use]
     pub const fn max_bytes(emitters: usize) -> usize {

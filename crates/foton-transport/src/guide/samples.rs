@@ -7,7 +7,7 @@ use super::cells::Start;
 use super::worth::Worth;
 
 /// Of a pass, about so many photons are noted at most.
-const MAX_SAMPLES: u64 = 1 << 18;
+const MAX_SAMPLES: u64 = 1 << 17;
 
 /// What one photon cost and was worth.
 #[derive(Clone, Copy, Debug)]
@@ -65,8 +65,14 @@ impl Samples {
     }
 
     /// Takes those of a chunk.
-    pub fn take(&mut self, chunk: &[Sample]) {
-        self.noted.extend_from_slice(chunk);
+    pub fn take(&mut self, mut chunk: Vec<Sample>) {
+        self.noted.append(&mut chunk);
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub const fn held(&self) -> usize {
+        self.noted.capacity() * size_of::<Sample>()
     }
 
     /// Of a pass of so many photons every how-many-th is noted.
@@ -88,10 +94,7 @@ impl Samples {
 #[must_use]
 pub const fn is_training_pass(before: u64) -> bool {
     let pass = before + 1;
-    if pass > 64 {
-        return pass % 64 == 0;
-    }
-    pass.is_power_of_two() || pass % 3 == 0 && (pass / 3).is_power_of_two()
+    if pass > 64 { pass % 64 == 0 } else { pass.is_power_of_two() }
 }
 
 /// What a training pass needs while photons fly.

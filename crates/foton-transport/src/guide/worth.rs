@@ -95,6 +95,12 @@ impl Worth {
         leaf.filter(|leaf| contains(&leaf.bounds)).map_or(0.0, |leaf| leaf.worth)
     }
 
+    /// Bytes held.
+    #[must_use]
+    pub const fn bytes(&self) -> usize {
+        self.splits.capacity() * size_of::<(u8, f32)>() + self.leaves.capacity() * size_of::<Leaf>()
+    }
+
     /// The largest number of bytes that one takes.
     pub const MAX_BYTES: usize = MAX_POINTS / IN_LEAF * (size_of::<Leaf>() + size_of::<(u8, f32)>());
 }
