@@ -6,11 +6,13 @@ use foton_math::Purpose;
 use foton_math::glam::Vec3;
 use foton_scene::{Scene, Sources};
 use foton_transport::camera_paths::HitPoint;
+use foton_transport::direct_light::Lights;
 use foton_transport::light_paths::MAX_PHOTONS;
 use foton_transport::photon_map::{Chunk, Grid, PhotonMap};
 use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite, ShouldSuspend, Stage};
 use pulp::Arch;
 
+use super::direct::Direct;
 use super::eye_samples::eye_pass;
 use super::hit_points::HitPoints;
 use super::light::Light;
@@ -34,6 +36,10 @@ pub(crate) struct Ppm {
     pub(super) hit_points: HitPoints,
     pub(super) shapes: Vec<u32>,
     pub(super) light: Light,
+    /// What shadow rays go to.
+    pub(super) direct_lights: Lights,
+    /// Direct light by shadow rays; `None` where photons bring it.
+    pub(super) direct: Option<Direct>,
     pub(super) error: Option<ErrorSums>,
     pub(super) grid: Grid,
     pub(super) marked_radius2: f64,
@@ -96,6 +102,8 @@ impl Ppm {
         let grid = Grid::new(&hit_points.packets, cancel)?;
         cancel.check()?;
         let (width, samples) = (scene.sensors()[settings.sensor].width, settings.samples_per_pixel.get());
+        let direct_lights = if shadow_rays { Lights::new(&scene) } else { Lights::default() };
+        let direct = shadow_rays.then(|| Direct::new(&hit_points, width as usize, &direct_lights));
         let error = settings.error.then(|| ErrorSums::new(&hit_points, width, samples));
         cancel.check()?;
         Ok(Self {
@@ -104,6 +112,8 @@ impl Ppm {
             scene,
             sources,
             light: Light::new(eye.emission, &hit_points, &settings),
+            direct_lights,
+            direct,
             settings,
             hit_points,
             shapes: eye.shapes,
