@@ -176,7 +176,7 @@ impl Pixel {
         let light = light.to_array().map(f64::from);
         self.sum.iter_mut().zip(light).for_each(|(sum, light)| *sum += light);
         let luminance = luminance(light);
-        self.difference += if self.count % 2 == 0 { luminance } else { -luminance };
+        self.difference += if self.count.is_multiple_of(2) { luminance } else { -luminance };
         self.count += 1;
     }
 }
