@@ -167,7 +167,6 @@ impl Ppm {
         watch(Stage::ShadowRays);
         let lighting = Lighting {
             scene: &self.scene,
-            lights: &self.direct_lights,
             hit_points: &self.hit_points,
             seed: self.settings.seed,
             set: 0,

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use foton_math::{Purpose, Rgb, Stream};
 use foton_scene::Scene;
-use foton_transport::direct_light::{Arrival, Lights, Receiver, SCRAMBLES, Scramble};
+use foton_transport::direct_light::{Arrival, Receiver, SCRAMBLES, Scramble};
 use foton_transport::photon_map::LANES;
 use foton_transport::{LeftOut, Omissions, Quantity, Surface};
 use rayon::prelude::*;
@@ -20,7 +20,6 @@ const BLOCK: usize = 64;
 #[derive(Clone, Copy)]
 pub(crate) struct Lighting<'a> {
     pub(crate) scene: &'a Scene,
-    pub(crate) lights: &'a Lights,
     pub(crate) hit_points: &'a HitPoints,
     pub(crate) seed: u64,
     /// Tells sets of hit points of the same pixels apart.
@@ -48,10 +47,11 @@ impl Lighting<'_> {
         };
         for turn in turns {
             let pixel = direct.order.pixel(turn);
-            let light = pixel.map_or(Rgb::BLACK, |pixel| self.visit(pixel, (turn / all) as u32, &mut lit));
+            let light =
+                pixel.map_or(Rgb::BLACK, |pixel| self.visit(direct, pixel, (turn / all) as u32, &mut lit));
             lit.light.push(light);
             if turn < all {
-                let fixed = pixel.map_or(Rgb::BLACK, |pixel| self.fixed(pixel, &mut lit));
+                let fixed = pixel.map_or(Rgb::BLACK, |pixel| self.fixed(direct, pixel, &mut lit));
                 lit.fixed.push(fixed);
             }
         }
@@ -59,8 +59,8 @@ impl Lighting<'_> {
     }
 
     /// One estimate of a pixel's light, after `before` others.
-    fn visit(&self, pixel: usize, before: u32, lit: &mut Lit) -> Rgb {
-        if self.lights.rays() == 0 {
+    fn visit(&self, direct: &Direct, pixel: usize, before: u32, lit: &mut Lit) -> Rgb {
+        if direct.lights.rays() == 0 {
             return Rgb::BLACK;
         }
         let (sequence, turn) = (before % 2, before / 2);
@@ -73,13 +73,13 @@ impl Lighting<'_> {
         let swap = stream.from_dimension(u64::from(turn)).next_bits() & (row - 1);
         self.sum(pixel, lit, |point, at, rays, add| {
             let index = turn.wrapping_mul(row).wrapping_add(point ^ swap);
-            self.lights.sample(self.scene, at, (index, &scrambles), rays, add);
+            direct.lights.sample(self.scene, at, (index, &scrambles), rays, add);
         })
     }
 
     /// A pixel's light that is the same each time.
-    fn fixed(&self, pixel: usize, lit: &mut Lit) -> Rgb {
-        self.sum(pixel, lit, |_, at, rays, add| self.lights.fixed(self.scene, at, rays, add))
+    fn fixed(&self, direct: &Direct, pixel: usize, lit: &mut Lit) -> Rgb {
+        self.sum(pixel, lit, |_, at, rays, add| direct.lights.fixed(self.scene, at, rays, add))
     }
 
     /// The mean over a pixel's samples of what arrives at its hit points, which are counted for `arrivals`.

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use foton_math::Rgb;
+use foton_scene::Scene;
 use foton_transport::Omissions;
 use foton_transport::codec::{Reader, StateError, Writer};
 use foton_transport::direct_light::Lights;
@@ -35,6 +36,7 @@ pub(crate) struct Lit {
 
 /// Sums over the visits to all pixels.
 pub(crate) struct Direct {
+    pub(super) lights: Lights,
     pub(super) order: Order,
     /// Places that have been lit, in the order of turns.
     lit: u64,
@@ -59,16 +61,18 @@ struct Pixel {
 
 impl Direct {
     /// Nothing has been lit.
-    pub(crate) fn new(hit_points: &HitPoints, width: usize, lights: &Lights) -> Self {
+    pub(crate) fn new(scene: &Scene, hit_points: &HitPoints, width: u32) -> Self {
+        let (width, lights) = (width as usize, Lights::new(scene));
         let pixels = hit_points.pixel_start.len() - 1;
         let order = Order::new(width, pixels.div_ceil(width.max(1)));
         let hit_points = hit_points.len() as f64;
         Self {
+            rays_per_place: hit_points * f64::from(lights.rays()) / order.places() as f64,
+            lights,
             order,
             lit: 0,
             fixed: vec![Rgb::BLACK; pixels],
             pixels: vec![Pixel::default(); pixels],
-            rays_per_place: hit_points * f64::from(lights.rays()) / order.places() as f64,
             hit_points,
         }
     }
