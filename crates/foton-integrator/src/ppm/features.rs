@@ -8,6 +8,7 @@ use foton_transport::LobeUse;
 use foton_transport::camera_paths::Gloss;
 
 use super::adaptive::RadiusStatistics;
+use super::direct::Direct;
 use super::hit_points::ShadowOrigin;
 use super::lobes::lobe_use;
 use super::radiance::Radiance;
@@ -54,7 +55,8 @@ pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
         .into_iter()
         .chain(surfaces(census, lobes))
         .chain(emitters(census, aims));
-    parts.chain(asked_for(settings)).collect()
+    let emits = census.emitters > 0;
+    parts.chain([guidance(emits, settings)]).chain(asked_for(settings)).collect()
 }
 
 fn eye_paths(census: &Census, lobes: LobeUse, hit_points_per_sample: NonZeroU32) -> [Feature; 5] {
@@ -159,15 +161,27 @@ fn emitters(census: &Census, aims_at_casters: bool) -> [Feature; 2] {
     ]
 }
 
+fn guidance(emits: bool, settings: &RenderSettings) -> Feature {
+    Feature::new(
+        "guided emission",
+        emits && settings.ppm.guided,
+        [
+            "photons start where those of earlier passes were worth their cost",
+            if emits { "--guide off" } else { "nothing emits" },
+        ],
+        "a search among cells for each photon, notes of up to 131,072 in training passes (1, 2, 4, 8 … 64, then every 64th)",
+    )
+}
+
 fn asked_for(settings: &RenderSettings) -> [Feature; 4] {
     [
         Feature::new(
             "shadow rays",
             settings.ppm.direct_light == DirectLight::ShadowRays,
             ["asked for by --direct", "direct light comes by photons"],
-            "a ray per hit point and pass",
+            "about a quarter of a pass",
         )
-        .with_bytes(size_of::<ShadowOrigin>(), 0),
+        .with_bytes(size_of::<ShadowOrigin>(), Direct::BYTES_PER_PIXEL),
         Feature::new(
             "light by path class",
             settings.layers,

@@ -45,7 +45,7 @@ const ERROR: &str = "error noise bias error_low error_high error_focus unknown_s
 const STAGES: &str = "eye_pass layout trace sort gather shadow_rays radiance";
 
 /// What a scene may switch on, as `foton info` names it.
-const FEATURES: [&str; 16] = [
+const FEATURES: [&str; 17] = [
     "followed paths",
     "splitting at glass",
     "narrow gloss",
@@ -58,6 +58,7 @@ const FEATURES: [&str; 16] = [
     "anisotropic frames",
     "environment",
     "aiming at casters",
+    "guided emission",
     "shadow rays",
     "light by path class",
     "radii that adapt",
