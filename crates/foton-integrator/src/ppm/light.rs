@@ -11,7 +11,6 @@ use super::hit_points::{HitPoints, Irradiance};
 use super::radiance::Radiance;
 use super::shadow_rays::{self, PassKey};
 use crate::error::{self, ErrorSums, PassFacts};
-use crate::settings::RenderSettings;
 
 /// Light of one pass at the hit points, and of all passes in the pixels.
 pub(crate) struct Sums<const LAYERS: usize> {
@@ -56,9 +55,8 @@ macro_rules! each {
 }
 
 impl Light {
-    pub(crate) fn new(emission: Vec<Rgb>, hit_points: &HitPoints, settings: &RenderSettings) -> Self {
-        let samples = settings.samples_per_pixel.get();
-        if settings.layers {
+    pub(crate) fn new(emission: Vec<Rgb>, hit_points: &HitPoints, samples: u32, by_class: bool) -> Self {
+        if by_class {
             Self::ByClass(Sums::new(emission, hit_points, samples))
         } else {
             Self::Whole(Sums::new(emission, hit_points, samples))

@@ -9,6 +9,7 @@ mod features;
 mod gather;
 mod hit_points;
 mod inspect;
+mod laid_out;
 mod lanes;
 mod light;
 mod lobes;
@@ -33,6 +34,7 @@ mod under_way;
 mod variants;
 
 pub(crate) use algorithm::Ppm;
+pub use eye_samples::EyeSamples;
 pub use features::{Feature, features};
 pub(crate) use hit_points::{HitPoints, Irradiance};
 pub use inspect::{Disc, Radii, StoredPhoton};
