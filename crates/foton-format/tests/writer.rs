@@ -385,6 +385,7 @@ fn scenes_that_are_written_read_back_equal() {
     let folder = Folder::new("scenes");
     let mut paths = Vec::new();
     scene_files(&crate_folder.join("../../assets"), &mut paths);
+    scene_files(&crate_folder.join("../../tests/scenes"), &mut paths);
     scene_files(&crate_folder.join("../../../shared/scenes"), &mut paths);
     // Meshes of other scenes are no scenes of their own.
     paths.retain(|p| !["meshes", "models"].iter().any(|f| p.components().any(|c| c.as_os_str() == *f)));

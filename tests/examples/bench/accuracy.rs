@@ -4,7 +4,6 @@
 //! known from how the four differ, and taken off squared errors.
 
 use std::fs;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use foton_integrator::{Alpha, Cancel, DirectLight, PpmSettings, RadiusScale, Render, RenderSettings};
@@ -114,9 +113,7 @@ impl Reference {
     /// Kept in the target folder, since it takes minutes.
     pub(crate) fn load_or_render() -> Self {
         let name = format!("bench/box-spheres-{RUNS}x{REFERENCE_PASSES}x{REFERENCE_PHOTONS}.txt");
-        let target =
-            std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| rig::root().join("target"), PathBuf::from);
-        let path = target.join(name);
+        let path = rig::target().join(name);
         let runs = fs::read_to_string(&path).ok().and_then(|text| parse(&text)).unwrap_or_else(|| {
             eprintln!("rendering the reference, once: minutes");
             let runs: Vec<Vec<f64>> = (1..=RUNS).map(render).collect();

@@ -1,14 +1,16 @@
 //! How fast, by whole runs. `cargo xtask bench [WHAT]` runs it; docs/performance.md records what it prints.
 //!
 //! `whole` (also without a word): stages, rates, efficiency and memory of the benchmark box. `scaling`: a pass over triangles, photons
-//! and hit points. `wide`: scenes that ask for more. `accuracy`: error a processor second. `answers`: commands within a long pass. Figures are medians over passes of
-//! the wall's time: they mean little on a machine that does anything else.
+//! and hit points. `wide`: scenes that ask for more. `accuracy`: error a processor second. `answers`: commands within a long
+//! pass. Figures are medians over passes of the wall's time: they mean little on a machine that does anything else. `to-error`: the
+//! processor time that one foton needs to the error of another.
 #![allow(clippy::print_stdout, reason = "a program that prints tables")]
 
 mod accuracy;
 mod answers;
 mod rig;
 mod scaling;
+mod to_error;
 mod whole;
 mod wide;
 
@@ -19,8 +21,9 @@ fn main() {
         Some("wide") => wide::print(),
         Some("accuracy") => accuracy::print(),
         Some("answers") => answers::print(),
+        Some("to-error") => to_error::print(&std::env::args().skip(2).collect::<Vec<_>>()),
         Some(other) => {
-            eprintln!("no benchmark \"{other}\": whole, scaling, wide, accuracy, answers");
+            eprintln!("no benchmark \"{other}\": whole, scaling, wide, accuracy, answers, to-error");
             std::process::exit(2);
         }
     }

@@ -1,7 +1,7 @@
 //! Renders that are timed stage by stage, pass by pass.
 
 use std::num::NonZeroU32;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -44,6 +44,17 @@ pub(crate) fn box_spheres(width: u32, height: u32) -> SceneDescription {
 /// The repository.
 pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the repository")
+}
+
+/// The folder that cargo builds into.
+pub(crate) fn target() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
+}
+
+/// FNV-1a.
+pub(crate) fn fnv(bytes: impl IntoIterator<Item = u8>) -> u64 {
+    let bytes = bytes.into_iter();
+    bytes.fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
 }
 
 pub(crate) fn number(n: u32) -> NonZeroU32 {
@@ -118,8 +129,7 @@ impl Run {
     /// FNV-1a of the image's bits.
     pub(crate) fn hash(&self) -> u64 {
         let bits = self.render.image().pixels;
-        let bytes = bits.iter().flat_map(|p| p.to_array()).flat_map(|c| c.to_bits().to_le_bytes());
-        bytes.fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
+        fnv(bits.iter().flat_map(|p| p.to_array()).flat_map(|c| c.to_bits().to_le_bytes()))
     }
 }
 
