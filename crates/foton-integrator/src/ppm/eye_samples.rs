@@ -10,7 +10,6 @@ use foton_math::Purpose;
 use foton_scene::Scene;
 use foton_transport::camera_paths::{EyePass, EyePaths, FirstRadius, Gloss, HitPoint};
 use foton_transport::{Cancel, Cancelled};
-use pulp::Arch;
 
 use super::lobes::{LOBE_POLICY, lobe_use};
 use crate::settings::RenderSettings;
@@ -105,6 +104,5 @@ pub(super) fn eye_pass<'a>(
         uses: lobe_use(scene),
         seed: settings.seed,
         purpose,
-        arch: Arch::new(),
     }
 }

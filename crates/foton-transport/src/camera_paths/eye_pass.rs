@@ -9,7 +9,6 @@ use std::num::NonZeroU32;
 
 use foton_math::{Purpose, Rgb};
 use foton_scene::{Scene, Sensor};
-use pulp::Arch;
 
 use super::hit_point::{Gloss, HitPoint};
 use super::radius::FirstRadius;
@@ -83,8 +82,6 @@ pub struct EyePass<'a> {
     pub seed: u64,
     /// What the streams are for.
     pub purpose: Purpose,
-    /// The instruction set to run on; it changes no bit.
-    pub arch: Arch,
 }
 
 impl EyePass<'_> {

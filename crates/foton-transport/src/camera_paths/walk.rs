@@ -4,8 +4,7 @@ use std::f32::consts::FRAC_1_PI;
 
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Ray, Rgb, Stream};
-use foton_scene::{LobeFlags, LobeSample, Scattering, Scene, Surface, Transport};
-use pulp::{Simd, WithSimd};
+use foton_scene::{LobeFlags, LobeSample, Scattering, Surface, Transport};
 
 use super::eye_pass::{EyePass, EyePaths};
 use super::highlights::{EmitterDraw, Glossy};
@@ -64,21 +63,6 @@ pub(super) struct Walk<'a, 'b> {
     leaves: u32,
 }
 
-/// The nearest surface on a ray: half of the eye pass, so it is compiled for each instruction set, none of which changes a result.
-struct Nearest<'a> {
-    scene: &'a Scene,
-    ray: Ray,
-}
-
-impl WithSimd for Nearest<'_> {
-    type Output = Option<Surface>;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Option<Surface> {
-        self.scene.nearest(self.ray)
-    }
-}
-
 /// Points of the unit square, stratified over the samples of a pixel.
 pub(super) struct SamplePoints {
     /// Where in the pixel.
@@ -129,7 +113,7 @@ impl<'a, 'b> Walk<'a, 'b> {
     fn step(&mut self, branch: Branch) {
         let scene = self.pass.scene;
         self.paths.rays += 1;
-        let surface = self.pass.arch.dispatch(Nearest { scene, ray: branch.ray });
+        let surface = scene.nearest(branch.ray);
         let visible = branch.edges <= self.pass.max_depth;
         let Some(surface) = surface else {
             if visible {

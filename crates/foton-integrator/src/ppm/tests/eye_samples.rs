@@ -106,12 +106,9 @@ fn a_render_over_some_samples_shows_the_same_light() {
         pixels.iter().map(|p| f64::from(p.luminance())).sum::<f64>() / pixels.len() as f64
     };
     let mut eye = EyeSamples::new(scene(), settings());
-    let first = after(start_with_some(&mut eye, 1, 1.0), 12);
-    let wide = after(start_with_some(&mut eye, 1, 2.0), 12);
-    let whole = after(start(eye), 12);
-    assert!(
-        wide.radii().median > 1.4 * first.radii().median && wide.radii().median < 2.1 * first.radii().median
-    );
+    let [first, wide] = [1.0, 2.0].map(|widened| start_with_some(&mut eye, 1, widened));
+    assert!((wide.radii().median / first.radii().median - 2.0).abs() < 1e-5);
+    let [first, wide, whole] = [first, wide, start(eye)].map(|ppm| after(ppm, 12));
     let unlit = |ppm: &Ppm| ppm.unknown_share().iter().sum::<f32>();
     assert!(unlit(&wide) <= unlit(&first), "{} {}", unlit(&wide), unlit(&first));
     let sigma = |ppm: &Ppm| {
