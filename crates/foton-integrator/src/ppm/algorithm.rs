@@ -8,11 +8,13 @@ use foton_transport::photon_map::{Chunk, Grid, PhotonMap};
 use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite, ShouldSuspend, Stage};
 use pulp::Arch;
 
+use super::direct::Direct;
 use super::eye_samples::EyeSamples;
 use super::hit_points::HitPoints;
 use super::laid_out::LaidOut;
 use super::light::Light;
 use super::report::{PassReport, Start};
+use super::settings::DirectLight;
 use super::slots::EarlierBatches;
 use super::under_way::UnderWay;
 use crate::changes::Changes;
@@ -27,6 +29,8 @@ pub(crate) struct Ppm {
     pub(super) hit_points: HitPoints,
     pub(super) shapes: Vec<u32>,
     pub(super) light: Light,
+    /// Direct light by shadow rays; `None` where photons bring it.
+    pub(super) direct: Option<Direct>,
     pub(super) error: Option<ErrorSums>,
     pub(super) grid: Grid,
     pub(super) marked_radius2: f64,
@@ -109,6 +113,8 @@ impl Ppm {
         let grid = Grid::new(&hit_points.packets, cancel)?;
         cancel.check()?;
         let width = scene.sensors()[settings.sensor].width;
+        let direct = (settings.ppm.direct_light == DirectLight::ShadowRays)
+            .then(|| Direct::new(&scene, &hit_points, width));
         let error = settings.error.then(|| ErrorSums::new(&hit_points, width, samples));
         cancel.check()?;
         Ok(Self {
@@ -117,6 +123,7 @@ impl Ppm {
             scene,
             sources,
             light: Light::new(emission, &hit_points, samples, settings.layers),
+            direct,
             settings,
             hit_points,
             shapes,

@@ -10,7 +10,7 @@ use foton_scene::description::{
     SceneDescription, SensorDescription, ShapeDescription,
 };
 
-/// A box with a diffuse and a glass ball under a point light.
+/// A box with a diffuse and a glass ball under a point light and a lamp.
 pub(crate) fn scene() -> Arc<Scene> {
     Arc::new(Scene::build(&description()).expect("a sound scene"))
 }
@@ -35,6 +35,7 @@ pub(crate) fn description() -> SceneDescription {
         radiance: None,
     };
     let ball = |x: f64| Geometry::Sphere { centre: DVec3::new(x, -0.5, -0.3), radius: 0.4 };
+    let lamp = Geometry::Sphere { centre: DVec3::new(-0.3, 0.6, 0.3), radius: 0.1 };
     SceneDescription {
         sensors: vec![SensorDescription {
             name: "camera".into(),
@@ -53,6 +54,7 @@ pub(crate) fn description() -> SceneDescription {
             shape(Geometry::Mesh(Arc::new(Mesh::cube())), 0),
             shape(ball(-0.45), 0),
             shape(ball(0.45), 1),
+            ShapeDescription { radiance: Some(Rgb::splat(9.0)), ..shape(lamp, 0) },
         ],
         emitters: vec![EmitterDescription {
             name: "lamp".into(),
