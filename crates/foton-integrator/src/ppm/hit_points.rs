@@ -88,8 +88,8 @@ impl HitPoints {
         }
         Ok(Self {
             packets,
-            first_glossy: lambertian.len(),
-            gloss_slots: by_slot(&groups[lambertian.len()..], found, None, of_glossy),
+            first_glossy: lambertian.count(),
+            gloss_slots: by_slot(&groups[lambertian.count()..], found, None, of_glossy),
             shading_normals: groups[none..].par_iter().map(rows).collect(),
             shadow_slots: by_slot(shadowed, found, nowhere, shadow),
             statistics_slots: by_slot(&groups, found, Statistics::EMPTY_SLOT, |h| Statistics::new(h.radius2)),

@@ -25,7 +25,7 @@ pub struct Groups {
 
 impl Groups {
     /// How many groups there are.
-    pub const fn len(&self) -> usize {
+    pub const fn count(&self) -> usize {
         self.counts.len()
     }
 

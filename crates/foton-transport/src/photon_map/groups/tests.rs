@@ -39,7 +39,7 @@ fn each_hit_point_is_in_one_group_and_groups_are_full_and_narrow() {
         }
     }
     assert!(seen.iter().all(|&s| s));
-    let fill = found.len() as f64 / (groups.len() * LANES) as f64;
+    let fill = found.len() as f64 / (groups.count() * LANES) as f64;
     assert!(fill > 0.8, "{fill}");
 }
 
