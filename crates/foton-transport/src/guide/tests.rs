@@ -1,3 +1,5 @@
+//! Cells against worths that are known.
+
 use foton_math::glam::{DAffine3, DVec3, Vec3};
 use foton_math::{Purpose, Rgb, Stream};
 use foton_scene::description::{
