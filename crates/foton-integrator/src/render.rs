@@ -100,6 +100,18 @@ impl Render {
         each!(&self.0, r => r.has_refined())
     }
 
+    /// Lets a suspended pass that has several batches end early, as a valid pass of fewer photons: after the batch under way; or, if
+    /// `drops`, without that one unless its photons have all been traced. [`Render::advance`] then finishes it, and [`Render::changes`]
+    /// says after how many batches it ended.
+    pub fn cut_pass(&mut self, drops: bool) {
+        each!(&mut self.0, r => r.cut_pass(drops));
+    }
+
+    /// Gives up a suspended pass, which then has not happened; `false` where it has refined hit points, or there is none.
+    pub fn discard_pass(&mut self) -> bool {
+        each!(&mut self.0, r => r.discard_pass())
+    }
+
     /// From now on a pass in which a value is not finite does not happen. Otherwise such values are left out and counted.
     pub fn stop_at_first_not_finite(&mut self) {
         each!(&mut self.0, r => r.stop_at_first_not_finite());

@@ -1,5 +1,6 @@
 //! Progressive photon mapping: `[PPM08]` with the running mean of every pass's own estimate.
 
+use std::num::NonZeroU32;
 use std::sync::Arc;
 
 use foton_math::Purpose;
@@ -53,6 +54,8 @@ pub(crate) struct Ppm {
     pub(super) changes: Changes,
     /// Changes that wait for the end of the pass under way.
     pub(super) deferred: Vec<SettingChange>,
+    /// The batches after which the next pass ends.
+    pub(super) cut_next: Option<NonZeroU32>,
     /// A pass that was suspended.
     pub(super) under_way: Option<Box<UnderWay>>,
     pub(super) start: Start,
@@ -121,6 +124,7 @@ impl Ppm {
             last_photons: 0,
             changes: Changes::default(),
             deferred: Vec::new(),
+            cut_next: None,
             under_way: None,
             start,
             strict: false,

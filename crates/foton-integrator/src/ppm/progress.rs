@@ -1,5 +1,6 @@
 //! How a render stands: settings, counts, accounts.
 
+use std::num::NonZeroU32;
 use std::sync::Arc;
 
 use foton_scene::Scene;
@@ -8,6 +9,7 @@ use foton_transport::{Ledger, LightUse, Loss, NotFinite};
 
 use super::algorithm::Ppm;
 use super::report::Start;
+use super::under_way::UnderWay;
 use crate::error::ErrorSums;
 use crate::settings::{RenderSettings, SettingChange};
 
@@ -33,8 +35,41 @@ impl Ppm {
     }
 
     fn take(&mut self, change: SettingChange) {
+        if let SettingChange::CutPass(batches) = change {
+            // Logged with its pass, if it cuts that short.
+            self.cut_next = Some(batches);
+            return;
+        }
         self.changes.add(self.passes, self.settings.in_force(&change), change);
         self.settings.change(change);
+    }
+
+    /// Lets the pass under way end early, as a valid pass of fewer photons, where it has several batches: after the one under way; or, if
+    /// `drops`, without that one unless its photons have all been traced. [`Ppm::advance`] then finishes it.
+    pub(crate) fn cut_pass(&mut self, drops: bool) {
+        if let Some(pass) = &mut self.under_way {
+            pass.cut(drops);
+        }
+    }
+
+    /// Gives up the pass under way, which then has not happened; `false` where hit points have been refined already, or there is none.
+    pub(crate) fn discard_pass(&mut self) -> bool {
+        if self.has_refined() || self.under_way.is_none() {
+            return false;
+        }
+        self.under_way = None;
+        self.take_deferred_changes();
+        true
+    }
+
+    /// Notes in the changes that a pass was cut short.
+    pub(super) fn note_cut(&mut self, pass: &UnderWay) {
+        let batches =
+            pass.batches_if_cut().and_then(|n| NonZeroU32::new(u32::try_from(n).unwrap_or(u32::MAX)));
+        if let Some(batches) = batches {
+            let cut = SettingChange::CutPass(batches);
+            self.changes.add(self.passes, self.settings.in_force(&cut), cut);
+        }
     }
 
     /// Takes the changes on that were made while a pass was under way.

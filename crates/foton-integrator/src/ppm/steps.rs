@@ -51,7 +51,11 @@ impl Ppm {
             tally: Tally::default(),
             left_out: None,
         };
-        UnderWay::new(counts, self.settings.ppm.alpha, batches)
+        let mut pass = UnderWay::new(counts, self.settings.ppm.alpha, batches);
+        if let Some(batches) = self.cut_next.take() {
+            pass.cut_after(batches.get() as usize);
+        }
+        pass
     }
 
     pub(super) fn photon_pass(&self, photons: u64, batch: Batch) -> PhotonPass<'_> {
@@ -81,12 +85,17 @@ impl Ppm {
         cancel: &Cancel,
         should_suspend: ShouldSuspend<'_>,
     ) -> Result<(), Halt> {
+        if batch.is_closing() && pass.next < NextStep::Gather {
+            // Nothing more is emitted: the map stays as it was, and nothing is gathered from it.
+            pass.next = NextStep::Gather;
+            pass.tallies.clear();
+        }
         if pass.next > NextStep::Trace {
             return Ok(());
         }
         watch(Stage::Trace);
         let mut chunks = std::mem::take(&mut self.chunks);
-        let photon_pass = self.photon_pass(pass.counts.photons, batch);
+        let photon_pass = self.photon_pass(pass.planned(), batch);
         if pass.next == NextStep::Begin {
             photon_pass.begin(&mut chunks);
             pass.next = NextStep::Trace;
@@ -110,7 +119,7 @@ impl Ppm {
         }
         watch(Stage::Sort);
         self.map.build(&self.chunks, self.grid.touched());
-        self.map_photons = pass.batch().map_or(0, |batch| batch.photons(pass.photons()));
+        self.map_photons = pass.batch().map_or(0, |batch| batch.photons(pass.planned()));
         pass.next = NextStep::Gather;
         pass.tallies.clear();
         cancel.check()
@@ -150,7 +159,7 @@ impl Ppm {
         for of_block in &pass.tallies {
             tally += (*of_block).ok_or(Suspended)?;
         }
-        pass.counts.add(&self.chunks, &tally);
+        pass.counts.add(if batch.is_closing() { &[] } else { &self.chunks }, &tally);
         Ok(())
     }
 
@@ -182,6 +191,7 @@ impl Ppm {
     /// Adds a pass to the image, its error to the error, and what it counted to the render's own.
     pub(super) fn accumulate(&mut self, pass: UnderWay, watch: &mut dyn FnMut(Stage)) -> PassReport {
         watch(Stage::Radiance);
+        self.note_cut(&pass);
         let mut counts = pass.counts;
         counts.leave_out(self.light.add_pass(&self.hit_points, counts.photons));
         let Counts { ledger, lights, losses, photons, rays, stored, tally, left_out } = counts;

@@ -23,6 +23,8 @@ pub(crate) enum NextStep {
 /// A pass under way.
 pub(crate) struct UnderWay {
     pub(super) counts: Counts,
+    /// Photons that the pass was to have, of which batches are parts; those that it has are fewer where it is cut short.
+    planned: u64,
     /// That of the whole pass: a change takes effect with the next one.
     pub(super) alpha: Alpha,
     batches: Vec<Batch>,
@@ -41,6 +43,7 @@ impl UnderWay {
     /// At its very beginning.
     pub(super) fn new(counts: Counts, alpha: Alpha, batches: Vec<Batch>) -> Self {
         Self {
+            planned: counts.photons,
             counts,
             alpha,
             batches,
@@ -52,9 +55,36 @@ impl UnderWay {
         }
     }
 
-    /// Photons of the pass.
-    pub(super) const fn photons(&self) -> u64 {
-        self.counts.photons
+    /// Photons of the pass, in all batches that it was to have.
+    pub(super) const fn planned(&self) -> u64 {
+        self.planned
+    }
+
+    /// Lets the pass end after so many of its batches, as a pass of the photons in them; not where they are none, or all. Each batch is
+    /// dealt from the whole pass, so that those which are left out leave no emitter out.
+    pub(super) fn cut_after(&mut self, batches: usize) {
+        if batches == 0 || batches >= self.batches.len() {
+            return;
+        }
+        self.counts.photons = self.batches[..batches].iter().map(|batch| batch.photons(self.planned)).sum();
+        let closing = self.batches[batches - 1].closing();
+        self.batches.truncate(batches);
+        self.batches.push(closing);
+    }
+
+    /// Lets the pass end after the batch under way, or before it where `drops` says so and its photons have not all been traced.
+    pub(super) fn cut(&mut self, drops: bool) {
+        if drops && self.next < NextStep::Sort && self.done > 0 {
+            self.cut_after(self.done);
+            self.next = NextStep::Begin;
+        } else {
+            self.cut_after(self.done + 1);
+        }
+    }
+
+    /// The batches after which the pass ends early, if it does.
+    pub(super) fn batches_if_cut(&self) -> Option<usize> {
+        self.batches.last().filter(|batch| batch.is_closing()).map(|_| self.batches.len() - 1)
     }
 
     /// The batch that is to be worked on; `None` once all are done.

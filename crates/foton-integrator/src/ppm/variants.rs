@@ -85,7 +85,7 @@ impl Variants {
         cancel: &Cancel,
     ) -> Result<Vec<PassReport>, Cancelled> {
         let mut passes: Vec<UnderWay> = self.runs.iter_mut().map(|run| run.ppm_mut().begin_pass()).collect();
-        let photons = passes[0].photons();
+        let photons = passes[0].planned();
         while let Some(batch) = passes[0].batch() {
             watch(Step::Trace);
             let pass = self.runs[0].ppm().photon_pass(photons, batch);

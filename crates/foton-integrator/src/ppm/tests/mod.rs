@@ -1,6 +1,7 @@
 //! Tests of whole passes.
 
 mod batches;
+mod cutting;
 mod instruction_sets;
 pub(super) mod scene;
 mod suspending;
