@@ -107,6 +107,12 @@ impl Render {
         each!(&mut self.0, r => r.cut_pass(drops));
     }
 
+    /// Photons of the next pass's largest batch.
+    #[must_use]
+    pub fn next_batch(&self) -> u64 {
+        each!(&self.0, r => r.next_batch())
+    }
+
     /// Gives up a suspended pass, which then has not happened; `false` where it has refined hit points, or there is none.
     pub fn discard_pass(&mut self) -> bool {
         each!(&mut self.0, r => r.discard_pass())

@@ -80,6 +80,7 @@ impl RenderSettings {
             SettingChange::Alpha(_) => SettingChange::Alpha(self.ppm.alpha),
             SettingChange::PhotonsPerPass(_) => SettingChange::PhotonsPerPass(self.ppm.photons_per_pass),
             SettingChange::CutPass(_) => SettingChange::CutPass(NonZeroU32::MAX),
+            SettingChange::PhotonsOnce(_) => SettingChange::PhotonsOnce(NonZeroU32::MAX),
         }
     }
 
@@ -89,7 +90,7 @@ impl RenderSettings {
             SettingChange::Alpha(alpha) => self.ppm.alpha = alpha,
             SettingChange::PhotonsPerPass(photons) => self.ppm.photons_per_pass = photons,
             // Of one pass, not of those after it.
-            SettingChange::CutPass(_) => {}
+            SettingChange::CutPass(_) | SettingChange::PhotonsOnce(_) => {}
         }
     }
 }
@@ -103,6 +104,8 @@ pub enum SettingChange {
     PhotonsPerPass(NonZeroU32),
     /// The next pass alone ends after that many of its batches, as one of fewer photons.
     CutPass(NonZeroU32),
+    /// The next pass alone has that many photons.
+    PhotonsOnce(NonZeroU32),
 }
 
 impl SettingChange {
@@ -118,6 +121,7 @@ impl fmt::Display for SettingChange {
             Self::Alpha(alpha) => write!(f, "alpha={alpha}"),
             Self::PhotonsPerPass(n) => write!(f, "photons={n}"),
             Self::CutPass(batches) => write!(f, "batches={batches}"),
+            Self::PhotonsOnce(n) => write!(f, "photons_once={n}"),
         }
     }
 }

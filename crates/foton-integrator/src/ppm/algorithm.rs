@@ -1,6 +1,5 @@
 //! Progressive photon mapping: `[PPM08]` with the running mean of every pass's own estimate.
 
-use std::num::NonZeroU32;
 use std::sync::Arc;
 
 use foton_math::Purpose;
@@ -19,7 +18,7 @@ use super::lobes::lobe_use;
 use super::report::{PassReport, Start};
 use super::settings::{DirectLight, RadiusRule};
 use super::slots::EarlierBatches;
-use super::under_way::UnderWay;
+use super::under_way::{Once, UnderWay};
 use crate::changes::Changes;
 use crate::error::ErrorSums;
 use crate::settings::{RenderSettings, SettingChange};
@@ -54,8 +53,8 @@ pub(crate) struct Ppm {
     pub(super) changes: Changes,
     /// Changes that wait for the end of the pass under way.
     pub(super) deferred: Vec<SettingChange>,
-    /// The batches after which the next pass ends.
-    pub(super) cut_next: Option<NonZeroU32>,
+    /// What holds for the next pass alone.
+    pub(super) once: Once,
     /// A pass that was suspended.
     pub(super) under_way: Option<Box<UnderWay>>,
     pub(super) start: Start,
@@ -124,7 +123,7 @@ impl Ppm {
             last_photons: 0,
             changes: Changes::default(),
             deferred: Vec::new(),
-            cut_next: None,
+            once: Once::default(),
             under_way: None,
             start,
             strict: false,

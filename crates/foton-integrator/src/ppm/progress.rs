@@ -1,15 +1,15 @@
 //! How a render stands: settings, counts, accounts.
 
-use std::num::NonZeroU32;
 use std::sync::Arc;
 
 use foton_scene::Scene;
+use foton_transport::light_paths::Batch;
 use foton_transport::photon_map::{Chunk, Photon};
 use foton_transport::{Ledger, LightUse, Loss, NotFinite};
 
 use super::algorithm::Ppm;
 use super::report::Start;
-use super::under_way::UnderWay;
+use super::under_way::{Once, UnderWay};
 use crate::error::ErrorSums;
 use crate::settings::{RenderSettings, SettingChange};
 
@@ -35,13 +35,19 @@ impl Ppm {
     }
 
     fn take(&mut self, change: SettingChange) {
-        if let SettingChange::CutPass(batches) = change {
-            // Logged with its pass, if it cuts that short.
-            self.cut_next = Some(batches);
-            return;
+        // What holds for one pass is logged with that.
+        match change {
+            SettingChange::CutPass(batches) => self.once.batches = Some(batches),
+            SettingChange::PhotonsOnce(photons) => self.once.photons = Some(photons),
+            SettingChange::Alpha(_) | SettingChange::PhotonsPerPass(_) => {
+                self.log(change);
+                self.settings.change(change);
+            }
         }
+    }
+
+    fn log(&mut self, change: SettingChange) {
         self.changes.add(self.passes, self.settings.in_force(&change), change);
-        self.settings.change(change);
     }
 
     /// Lets the pass under way end early, as a valid pass of fewer photons, where it has several batches: after the one under way; or, if
@@ -62,14 +68,18 @@ impl Ppm {
         true
     }
 
-    /// Notes in the changes that a pass was cut short.
-    pub(super) fn note_cut(&mut self, pass: &UnderWay) {
-        let batches =
-            pass.batches_if_cut().and_then(|n| NonZeroU32::new(u32::try_from(n).unwrap_or(u32::MAX)));
-        if let Some(batches) = batches {
-            let cut = SettingChange::CutPass(batches);
-            self.changes.add(self.passes, self.settings.in_force(&cut), cut);
-        }
+    /// Logs what held for a pass alone.
+    pub(super) fn note_exceptions(&mut self, pass: &UnderWay) {
+        let Once { photons, batches } = pass.exceptions();
+        let changes = [photons.map(SettingChange::PhotonsOnce), batches.map(SettingChange::CutPass)];
+        changes.into_iter().flatten().for_each(|change| self.log(change));
+    }
+
+    /// Photons of the next pass's largest batch.
+    pub(crate) fn next_batch(&self) -> u64 {
+        let photons = self.once.photons.unwrap_or_else(|| self.settings.ppm.photons_after(self.passes));
+        let photons = u64::from(photons.get());
+        Batch::all(photons, self.max_in_batch).next().map_or(photons, |batch| batch.photons(photons))
     }
 
     /// Takes the changes on that were made while a pass was under way.

@@ -35,7 +35,9 @@ impl Ppm {
 
     /// Prepares for the batches of a pass.
     pub(super) fn begin_pass(&mut self) -> UnderWay {
-        let photons = u64::from(self.settings.ppm.photons_after(self.passes).get());
+        let once = std::mem::take(&mut self.once);
+        let scheduled = self.settings.ppm.photons_after(self.passes);
+        let photons = u64::from(once.photons.unwrap_or(scheduled).get());
         let slots = self.hit_points.statistics_slots.len();
         let adapts = !self.hit_points.radius_statistics_slots.is_empty();
         let batches: Vec<Batch> = Batch::all(photons, self.max_in_batch).collect();
@@ -51,11 +53,7 @@ impl Ppm {
             tally: Tally::default(),
             left_out: None,
         };
-        let mut pass = UnderWay::new(counts, self.settings.ppm.alpha, batches);
-        if let Some(batches) = self.cut_next.take() {
-            pass.cut_after(batches.get() as usize);
-        }
-        pass
+        UnderWay::new(counts, self.settings.ppm.alpha, batches, once)
     }
 
     pub(super) fn photon_pass(&self, photons: u64, batch: Batch) -> PhotonPass<'_> {
@@ -191,7 +189,7 @@ impl Ppm {
     /// Adds a pass to the image, its error to the error, and what it counted to the render's own.
     pub(super) fn accumulate(&mut self, pass: UnderWay, watch: &mut dyn FnMut(Stage)) -> PassReport {
         watch(Stage::Radiance);
-        self.note_cut(&pass);
+        self.note_exceptions(&pass);
         let mut counts = pass.counts;
         counts.leave_out(self.light.add_pass(&self.hit_points, counts.photons));
         let Counts { ledger, lights, losses, photons, rays, stored, tally, left_out } = counts;

@@ -1,5 +1,7 @@
 //! A pass under way: how far it is and what it has counted, so that it can be left anywhere and gone on with.
 
+use std::num::NonZeroU32;
+
 use foton_transport::Omissions;
 use foton_transport::light_paths::Batch;
 
@@ -20,11 +22,21 @@ pub(crate) enum NextStep {
     Gather,
 }
 
+/// What holds for one pass alone. Not part of a saved state, which has no pass under way or planned.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Once {
+    /// Its photons.
+    pub(super) photons: Option<NonZeroU32>,
+    /// The batches after which it ends.
+    pub(super) batches: Option<NonZeroU32>,
+}
+
 /// A pass under way.
 pub(crate) struct UnderWay {
     pub(super) counts: Counts,
     /// Photons that the pass was to have, of which batches are parts; those that it has are fewer where it is cut short.
     planned: u64,
+    photons_once: Option<NonZeroU32>,
     /// That of the whole pass: a change takes effect with the next one.
     pub(super) alpha: Alpha,
     batches: Vec<Batch>,
@@ -41,9 +53,10 @@ pub(crate) struct UnderWay {
 
 impl UnderWay {
     /// At its very beginning.
-    pub(super) fn new(counts: Counts, alpha: Alpha, batches: Vec<Batch>) -> Self {
-        Self {
+    pub(super) fn new(counts: Counts, alpha: Alpha, batches: Vec<Batch>, once: Once) -> Self {
+        let mut pass = Self {
             planned: counts.photons,
+            photons_once: once.photons,
             counts,
             alpha,
             batches,
@@ -52,7 +65,11 @@ impl UnderWay {
             tallies: Vec::new(),
             shadow_rays: Vec::new(),
             is_lit: false,
+        };
+        if let Some(batches) = once.batches {
+            pass.cut_after(batches.get() as usize);
         }
+        pass
     }
 
     /// Photons of the pass, in all batches that it was to have.
@@ -82,9 +99,11 @@ impl UnderWay {
         }
     }
 
-    /// The batches after which the pass ends early, if it does.
-    pub(super) fn batches_if_cut(&self) -> Option<usize> {
-        self.batches.last().filter(|batch| batch.is_closing()).map(|_| self.batches.len() - 1)
+    /// What held for this pass alone.
+    pub(super) fn exceptions(&self) -> Once {
+        let is_cut = self.batches.last().is_some_and(|batch| batch.is_closing());
+        let batches = u32::try_from(self.batches.len() - 1).ok().and_then(NonZeroU32::new);
+        Once { photons: self.photons_once, batches: batches.filter(|_| is_cut) }
     }
 
     /// The batch that is to be worked on; `None` once all are done.

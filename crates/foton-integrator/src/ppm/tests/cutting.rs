@@ -154,3 +154,18 @@ fn a_pass_that_is_given_up_has_not_happened() {
     assert_eq!(advance(&mut ppm), advance(&mut straight));
     assert!(state(&ppm) == state(&straight));
 }
+
+#[test]
+fn a_pass_of_photons_of_its_own_is_logged_and_the_next_is_as_ever() {
+    let mut ppm = start(DirectLight::Photons, RadiusRule::Adaptive);
+    let once = SettingChange::PhotonsOnce(NonZeroU32::new(5_000).expect("above 0"));
+    ppm.change(once);
+    assert_eq!(ppm.next_batch(), 5_000);
+    assert_eq!(advance(&mut ppm).photons_in_pass, 5_000);
+    assert_eq!(ppm.changes(), [(0, once)]);
+    assert_eq!(ppm.next_batch(), 20_000);
+    assert_eq!(advance(&mut ppm).photons_in_pass, u64::from(PHOTONS));
+    let mut restored = start(DirectLight::Photons, RadiusRule::Adaptive);
+    restored.restore(&ppm.save()).expect("its own state");
+    assert_eq!(restored.changes(), [(0, once)]);
+}
