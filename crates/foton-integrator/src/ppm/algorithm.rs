@@ -16,6 +16,7 @@ use super::hit_points::HitPoints;
 use super::light::Light;
 use super::lobes::lobe_use;
 use super::report::{PassReport, Start};
+use super::schedule::first_pass;
 use super::settings::{DirectLight, RadiusRule};
 use super::slots::EarlierBatches;
 use super::under_way::{Once, UnderWay};
@@ -72,7 +73,7 @@ impl Ppm {
     /// When cancelled.
     pub(crate) fn start(
         scene: Arc<Scene>,
-        settings: RenderSettings,
+        mut settings: RenderSettings,
         tell: &(dyn Fn(f64) + Sync),
         watch: &mut dyn FnMut(Stage),
         cancel: &Cancel,
@@ -96,6 +97,8 @@ impl Ppm {
         let not_finite = eye.left_out.map(|left_out| NotFinite::new(&scene, 0, left_out));
         drop((eye.hit_points, eye.gloss));
         let grid = Grid::new(&hit_points.packets, cancel)?;
+        let ppm = &mut settings.ppm;
+        ppm.first_pass = first_pass(&hit_points.packets, &grid, ppm.first_pass);
         cancel.check()?;
         let (width, samples) = (scene.sensors()[settings.sensor].width, settings.samples_per_pixel.get());
         let error = settings.error.then(|| ErrorSums::new(&hit_points, width, samples));

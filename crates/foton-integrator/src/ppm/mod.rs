@@ -19,6 +19,7 @@ mod radiance;
 mod refine;
 mod report;
 mod rule;
+mod schedule;
 pub(crate) mod settings;
 mod shadow_rays;
 mod slots;
