@@ -33,7 +33,9 @@ pub(crate) enum Tone {
 pub(crate) struct Message {
     pub(crate) tone: Tone,
     pub(crate) text: String,
-    /// When it was first drawn, in seconds of the window's clock.
+    /// How often it was told: the same again is no other message.
+    pub(crate) times: u32,
+    /// When it was first drawn since it was told last, in seconds of the window's clock.
     pub(crate) since: Option<f64>,
     /// Whether the frame log has it.
     pub(crate) is_logged: bool,
@@ -298,11 +300,24 @@ impl State {
     }
 
     pub(crate) fn notice(&mut self, text: impl Into<String>) {
-        self.messages.push(Message { tone: Tone::Notice, text: text.into(), since: None, is_logged: false });
+        self.tell(Tone::Notice, text.into());
     }
 
     pub(crate) fn error(&mut self, text: impl Into<String>) {
-        self.messages.push(Message { tone: Tone::Error, text: text.into(), since: None, is_logged: false });
+        self.tell(Tone::Error, text.into());
+    }
+
+    fn tell(&mut self, tone: Tone, text: String) {
+        // The newest stands last.
+        let same = self.messages.iter().position(|m| m.tone == tone && m.text == text);
+        let times = same.map_or(0, |i| self.messages.remove(i).times);
+        self.messages.push(Message {
+            tone,
+            text,
+            times: times.saturating_add(1),
+            since: None,
+            is_logged: false,
+        });
     }
 
     pub(crate) fn ask(&mut self, command: Command) {

@@ -47,7 +47,9 @@ pub(crate) fn interrupt_on_signals(console: &Console) -> Interrupt {
     let on_end = move || {
         handler.request();
         if handler.finishes_a_pass() {
-            say("interrupted: the render ends after the photons under way; interrupt again to discard their pass");
+            say(
+                "interrupted: the render ends after the photons under way; interrupt again to discard their pass",
+            );
         }
         let interrupt = handler.clone();
         // Without a thread the step is waited for.

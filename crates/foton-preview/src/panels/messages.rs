@@ -21,7 +21,12 @@ pub(super) fn show(ctx: &egui::Context, state: &mut State) {
             for (i, message) in state.messages.iter().enumerate().rev().take(5) {
                 egui::Frame::popup(ui.style()).show(ui, |ui| {
                     ui.horizontal_wrapped(|ui| {
-                        let text = egui::RichText::new(&message.text);
+                        let times = if message.times > 1 {
+                            format!(" ({} times)", message.times)
+                        } else {
+                            String::new()
+                        };
+                        let text = egui::RichText::new(format!("{}{times}", message.text));
                         let colour = ui.visuals().error_fg_color;
                         ui.label(if message.tone == Tone::Error { text.color(colour) } else { text });
                         if message.tone == Tone::Error && ui.small_button("Dismiss").clicked() {
