@@ -224,10 +224,17 @@ impl Render {
         each!(&self.0, r => r.radiance(pixel))
     }
 
-    /// The last pass's own, independent estimate of reflected radiance: the image is the mean of these, weighted by photons.
+    /// The last pass's own, independent estimate of what photons bring: their part of the image is the mean of these, weighted by
+    /// photons.
     #[must_use]
     pub fn last_pass(&self) -> Image {
         each!(&self.0, r => r.last_pass())
+    }
+
+    /// Luminance of each pixel's direct light by shadow rays (W/m²/sr) and its variance; `None` where photons bring it.
+    #[must_use]
+    pub fn direct_light(&self) -> Option<Vec<(f64, f64)>> {
+        each!(&self.0, r => r.direct_light())
     }
 
     /// A layer beside the image; `None` for one that is not made.

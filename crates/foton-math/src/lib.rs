@@ -10,6 +10,7 @@ mod frame;
 pub mod octahedral;
 mod ray;
 mod rgb;
+pub mod sobol;
 mod stream;
 pub mod warp;
 

@@ -65,6 +65,12 @@ impl Stream {
         self.random()
     }
 
+    /// 32 random digits.
+    #[inline]
+    pub fn next_bits(&mut self) -> u32 {
+        self.random()
+    }
+
     /// Uniform in [0, 1)².
     #[inline]
     pub fn next_2d(&mut self) -> Vec2 {

@@ -30,7 +30,7 @@ pub use bsdf::{Bsdf, BsdfSample, Coat, LobeFlags, LobeSample, LobeSamples, Scatt
 pub use build::{BuildError, BuildOptions, BuildStep, Tell};
 pub use census::{BsdfKind, Census};
 pub use description::SceneDescription;
-pub use emitter::{Emission, Emitter, Illumination};
+pub use emitter::{Emission, Emitter, Extent, Illumination};
 pub use far::{Far, FarKind};
 pub use filter::FilterSampler;
 pub use normalise::Normalisation;

@@ -77,6 +77,7 @@ impl Truth {
         let cancel = Cancel::default();
         let width = scene.sensors()[like.sensor].width as usize;
         let mut tiles = vec![(0.0, 0.0); (width / TILE).pow(2)];
+        let mut direct = tiles.clone();
         let halves = [0, 1].map(|half| {
             let photons = (SCALE, like.seed + (1 + half) * OTHER_PHOTONS);
             let mut run = OwnRun::start(scene, like, photons, &cancel).expect("not cancelled");
@@ -88,12 +89,18 @@ impl Truth {
                     *squares += x * x;
                 }
             }
+            for (pixel, (light, variance)) in run.direct_light().into_iter().enumerate() {
+                let tile = pixel / width / TILE * (width / TILE) + pixel % width / TILE;
+                direct[tile].0 += 0.5 * light / (TILE * TILE) as f64;
+                direct[tile].1 += 0.25 * variance / ((TILE * TILE) as f64).powi(2);
+            }
             run.conclude().expect("an asset has light")
         });
         let n = (passes / 2 * 2) as f64;
-        for (sum, squares) in &mut tiles {
+        for ((sum, squares), (light, variance)) in tiles.iter_mut().zip(direct) {
             *sum /= n;
-            *squares = ((*squares / n - *sum * *sum) / (n - 1.0)).max(0.0);
+            *squares = ((*squares / n - *sum * *sum) / (n - 1.0)).max(0.0) + variance;
+            *sum += light;
         }
         Self { halves, tiles, width }
     }

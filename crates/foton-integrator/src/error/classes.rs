@@ -80,8 +80,8 @@ impl Classes {
     }
 
     /// Splits squares of noise and bias; `None` until both are known of each class. `trust` is the share of what is seen of the
-    /// bias that is not its own noise: for the rest of it the split is that of the noise. `variance` is the sum over pixels of
-    /// that of the image: what shadow rays add to it, if they do, is direct light's.
+    /// bias that is not its own noise: for the rest of it the split is that of the noise. `shadow_rays` is the sum over pixels of
+    /// that of direct light by shadow rays, if it is that.
     pub(super) fn split(
         &self,
         (noise2, bias2): (f64, f64),
@@ -94,9 +94,7 @@ impl Classes {
         }
         let mut noise = self.noise;
         if let Some(variance) = shadow_rays {
-            let photons: f64 = noise.iter().sum();
-            noise[PathClass::Direct as usize] =
-                (variance * weights.photons * weights.photons - photons).max(0.0);
+            noise[PathClass::Direct as usize] = variance * weights.photons * weights.photons;
         }
         let rates = [0, 1, 2].map(|c| (self.bias[c] / self.bias_photons[c]).max(0.0));
         // By chance no class's bias may be seen to have anything in common with all of it: then it is split as the noise is.

@@ -2,6 +2,11 @@
 
 use super::classes::ClassError;
 use super::moments::{Scatter, Weights};
+use crate::ppm::Noise;
+
+/// The variance of a squared difference of direct light over its squared mean: 2 for a normal variable, more where some rays find an
+/// emitter and others do not.
+const OF_DIRECT: f64 = 8.0;
 
 /// Half of the outer 10 % of a normal distribution lie beyond this many standard deviations.
 const Z_90: f64 = 1.645;
@@ -113,6 +118,10 @@ pub(super) struct Sums {
     pub(super) unknown2: f64,
     /// What the pass found of one class.
     pub(super) answer: f64,
+    /// Of direct light by shadow rays: all pixels' noise, its variance, and pixels of tiles that do not know any.
+    pub(super) direct: Noise,
+    pub(super) direct_variance: f64,
+    pub(super) direct_unknown: f64,
 }
 
 impl Sums {
@@ -129,7 +138,26 @@ impl Sums {
             unknown: self.unknown + o.unknown,
             unknown2: self.unknown2 + o.unknown2,
             answer: self.answer + o.answer,
+            direct: self.direct.plus(o.direct),
+            direct_variance: self.direct_variance + o.direct_variance,
+            direct_unknown: self.direct_unknown + o.direct_unknown,
         }
+    }
+
+    /// Takes a tile's direct light by shadow rays.
+    pub(super) fn add_direct(&mut self, tile: &Noise) {
+        self.direct = self.direct.plus(*tile);
+        if tile.known() > 0.0 {
+            self.direct_variance += tile.sum(0.0);
+        } else {
+            self.direct_unknown += tile.sum(1.0);
+        }
+    }
+
+    /// The variance of direct light by shadow rays, once all tiles are in.
+    pub(super) fn close_direct(&mut self) {
+        self.direct_variance += self.direct_unknown * self.direct.per_visit(0.0);
+        self.direct_unknown = 0.0;
     }
 
     /// The figure; `None` while there are too few passes, or no light, to say anything.
@@ -138,20 +166,25 @@ impl Sums {
     /// from how much whole passes scatter. B̂ is as noisy as √3 σ, so its own variance is taken off its square before anything
     /// else is done. With K = 2/ρ² independent parts, the realised mean of (b + ε)² has variance ρ²(σ⁴ + 2 b² σ²).
     pub(super) fn estimate(&self, weights: &Weights, scatter: &Scatter) -> Option<ErrorEstimate> {
-        let rho2 = scatter.relative_variance()?;
+        // Where shadow rays bring all light, photons do not scatter.
+        let rho2 = if scatter.is_at_rest() { 0.0 } else { scatter.relative_variance()? };
         let mean = self.light / self.seen;
         if self.seen == 0.0 || mean <= 0.0 {
             return None;
         }
         let relative = |sum: f64| sum / self.seen / (mean * mean);
-        let (noise2, unknown2) = (relative(self.variance), relative(self.unknown2));
+        let (photons2, unknown2) = (relative(self.variance), relative(self.unknown2));
+        let direct2 = relative(self.direct_variance);
+        let noise2 = photons2 + direct2;
         let (bias2, bias_variance) = (relative(self.bias2).max(0.0), relative(self.bias_variance));
         let concentration = weights.concentration();
-        let of_noise = (1.0 + concentration) * noise2 * noise2 + 2.0 * bias2 * noise2;
+        let of_noise = (1.0 + concentration) * photons2 * photons2 + 2.0 * bias2 * noise2;
+        // Pixels' direct light is independent.
+        let of_direct = OF_DIRECT / self.direct.known().max(1.0) * direct2 * direct2;
         let of_bias = bias_variance * bias_variance + 2.0 * bias2 * bias_variance;
         let effective_passes = 1.0 / concentration;
         let of_focus = relative(self.focus_variance) / (self.seen * mean * mean);
-        let sigma = (rho2 * (of_noise + of_bias) + of_focus).sqrt();
+        let sigma = (rho2 * (of_noise + of_bias) + of_focus + of_direct).sqrt();
         // Student's t in place of the normal's quantile, to first order.
         let t = Z_90 * (1.0 + (Z_90 * Z_90 + 1.0) / (4.0 * (effective_passes - 1.0).max(1.0)));
         let total2 = noise2 + unknown2 + bias2;

@@ -22,7 +22,7 @@ pub(crate) use classes::Question;
 pub use estimate::{ErrorEstimate, TileError};
 pub(crate) use pass::{Pass, PassFacts};
 
-use crate::ppm::{HitPoints, Radiance};
+use crate::ppm::{Direct, HitPoints, Noise, Radiance};
 use classes::Classes;
 use estimate::Sums;
 use foton_transport::photon_map::LANES;
@@ -115,11 +115,32 @@ impl ErrorSums {
         self.estimate
     }
 
+    /// Pixels of a tile.
+    fn pixels_of(&self, tile: usize) -> impl Iterator<Item = usize> {
+        let (width, height) = (self.width, self.pixels.len().div_ceil(self.width.max(1)));
+        let across = width.div_ceil(TILE);
+        let (x, y) = (tile % across * TILE, tile / across * TILE);
+        let row = move |y: usize| (x..(x + TILE).min(width)).map(move |x| y * width + x);
+        (y..(y + TILE).min(height)).flat_map(row)
+    }
+
+    /// The variance of a visit to a pixel: of each tile, where that knows any.
+    fn per_visit(&self, direct: &Direct) -> Vec<f64> {
+        let tiles: Vec<Noise> = (0..self.tiles.len()).map(|t| direct.noise(self.pixels_of(t))).collect();
+        let all = tiles.iter().fold(Noise::default(), |all, tile| all.plus(*tile)).per_visit(0.0);
+        tiles.iter().map(|tile| tile.per_visit(all)).collect()
+    }
+
     /// All tiles of 8 × 8 pixels, row by row.
-    pub(crate) fn tiles(&self) -> Vec<TileError> {
-        let of = |tile: &Tile| {
+    pub(crate) fn tiles(&self, direct: Option<&Direct>) -> Vec<TileError> {
+        let per_visit = direct.map_or_else(Vec::new, |direct| self.per_visit(direct));
+        let of = |(index, tile): (usize, &Tile)| {
             let pixels = f64::from(tile.pixels.max(1));
-            let (mean, variance) = tile.light.mean_and_variance(&self.weights);
+            let (mut mean, mut variance) = tile.light.mean_and_variance(&self.weights);
+            for pixel in direct.iter().flat_map(|direct| self.pixels_of(index).map(|p| direct.known(p))) {
+                let (more, its_variance) = pixel.mean_and_variance(per_visit[index]);
+                (mean, variance) = (mean + more, variance + its_variance);
+            }
             let (bias, bias_variance) = tile.bias.mean_and_variance(&self.weights);
             TileError {
                 pixels: tile.pixels,
@@ -131,17 +152,18 @@ impl ErrorSums {
                 unknown: tile.unknown,
             }
         };
-        self.tiles.iter().map(of).collect()
+        self.tiles.iter().enumerate().map(of).collect()
     }
 
     /// Standard deviation and bias of each pixel's luminance. The bias is a root mean square over the 5 × 5 pixels around it,
     /// since a single pixel's is hardly known.
-    pub(crate) fn planes(&self, radiance: &Radiance) -> (Vec<f32>, Vec<f32>) {
+    pub(crate) fn planes(&self, radiance: &Radiance, direct: Option<&Direct>) -> (Vec<f32>, Vec<f32>) {
         let shares = self.weights.shares();
+        let direct_variances = direct.map_or_else(Vec::new, |direct| self.direct_variances(direct));
         let of = |(index, pixel): (usize, &Pixel)| {
             let mut sums = Sums::default();
             pixel.sum_up(radiance.luminance_sum(index) * shares.per_photon, &shares, &mut sums);
-            (sums.variance, sums.bias2)
+            (sums.variance + direct_variances.get(index).unwrap_or(&0.0), sums.bias2)
         };
         let (variance, bias2): (Vec<f64>, Vec<f64>) = self.pixels.iter().enumerate().map(of).unzip();
         let (width, height) = (self.width, self.pixels.len().div_ceil(self.width.max(1)));
@@ -154,6 +176,17 @@ impl ErrorSums {
             (sum / count).max(0.0).sqrt() as f32
         };
         (variance.iter().map(|v| v.sqrt() as f32).collect(), (0..bias2.len()).map(smooth).collect())
+    }
+
+    /// That of direct light by pixel: a mean over the tile's, since a single pixel's is hardly known.
+    fn direct_variances(&self, direct: &Direct) -> Vec<f64> {
+        let mut variances = vec![0.0; self.pixels.len()];
+        for (tile, per_visit) in self.per_visit(direct).into_iter().enumerate() {
+            for pixel in self.pixels_of(tile) {
+                variances[pixel] = per_visit / direct.known(pixel).visits();
+            }
+        }
+        variances
     }
 
     /// The estimated bias of each pixel.

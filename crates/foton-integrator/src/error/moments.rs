@@ -121,6 +121,11 @@ impl Scatter {
         self.sum += deviation;
     }
 
+    /// Whether after three passes none has scattered at all.
+    pub(crate) fn is_at_rest(&self) -> bool {
+        self.count >= 3.0 && self.sum == 0.0
+    }
+
     /// ρ²: variance over squared mean, from differences of neighbours in time, so that the slow rise as radii shrink does not
     /// count. A mean of K independent squares of normal variables has ρ² = 2/K. `None` before the third pass.
     pub(crate) fn relative_variance(&self) -> Option<f64> {

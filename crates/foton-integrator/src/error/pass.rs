@@ -6,13 +6,15 @@ use super::classes::Question;
 use super::estimate::{ErrorEstimate, Sums};
 use super::moments::{Shares, Weights};
 use super::{ErrorSums, Pixel, SlotMoments, TILE, Tile};
-use crate::ppm::{HitPoints, Irradiance, Radiance};
+use crate::ppm::{Direct, HitPoints, Irradiance, Noise, Radiance};
 
 /// A pass that has been added to the image.
 pub(crate) struct Pass<'a, const LAYERS: usize> {
     pub(crate) hit_points: &'a HitPoints,
     pub(crate) irradiance_slots: &'a [Irradiance<LAYERS>],
     pub(crate) radiance: &'a Radiance,
+    /// Direct light by shadow rays, with what it has just got; `None` where photons bring it.
+    pub(crate) direct: Option<&'a Direct>,
     pub(crate) facts: PassFacts,
 }
 
@@ -25,8 +27,6 @@ pub(crate) struct PassFacts {
     pub(crate) power: f64,
     /// What was summed over the photons of one class.
     pub(crate) question: Question,
-    /// Whether direct light came by shadow rays.
-    pub(crate) shadow_rays: bool,
     /// How many were before it.
     pub(crate) before: u64,
 }
@@ -38,6 +38,7 @@ struct OfTile {
     bias: f64,
     focus2: f64,
     unknown: u32,
+    direct: Noise,
 }
 
 /// What a pixel's own pass says.
@@ -145,6 +146,7 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
             tile.light.add(of_tile.light, scales.photons);
             tile.bias.add(of_tile.bias, scales.photons);
             tile.unknown = of_tile.unknown;
+            sums.add_direct(&of_tile.direct);
             if self.sums_foci() {
                 tile.focus2 = of_tile.focus2;
             }
@@ -176,11 +178,17 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
         sums.focus2 += focus2;
         sums.focus_variance += addend.focus_variance * shares.per_photon.powi(4);
         sums.deviation += (addend.light * scales.per_photon - mean).powi(2);
-        let mut is_unknown = mean <= 0.0;
-        if is_unknown || self.facts.shadow_rays {
+        let direct = self.direct.map(|direct| direct.known(index));
+        let all = mean + direct.map_or(0.0, |direct| direct.mean);
+        if let Some(direct) = direct {
+            sums.light += direct.mean;
+            of_tile.direct.add(&direct);
+        }
+        let mut is_unknown = all <= 0.0;
+        if is_unknown || direct.is_some() {
             // Shadow rays say nothing about indirect light.
             let one_photon = self.one_photon(index, scales.samples) / weights.photons;
-            is_unknown |= one_photon > mean;
+            is_unknown |= one_photon > all;
             sums.unknown2 += one_photon.powi(2);
         }
         sums.unknown += f64::from(u8::from(is_unknown));
@@ -198,6 +206,7 @@ impl ErrorSums {
         let before = self.weights.photons;
         self.weights.add(photons);
         let mut sums = self.add_to_pixels(pass, before);
+        sums.close_direct();
         if pass.sums_foci() {
             self.foci = [sums.focus2, sums.focus_variance];
         } else {
@@ -212,8 +221,8 @@ impl ErrorSums {
             let squares = (whole.noise * whole.noise, whole.bias * whole.bias);
             let bias2 = sums.bias2.max(0.0);
             let trust = if bias2 > 0.0 { bias2 / (bias2 + sums.bias_variance) } else { 0.0 };
-            let variance = pass.facts.shadow_rays.then_some(sums.variance);
-            ErrorEstimate { classes: self.classes.split(squares, trust, variance, &self.weights), ..whole }
+            let direct = pass.direct.map(|_| sums.direct_variance);
+            ErrorEstimate { classes: self.classes.split(squares, trust, direct, &self.weights), ..whole }
         });
     }
 

@@ -11,12 +11,13 @@ use foton_transport::photon_map::{Chunk, Grid, PhotonMap};
 use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite, ShouldSuspend, Stage};
 use pulp::Arch;
 
+use super::direct::Direct;
 use super::eye_samples::eye_pass;
 use super::hit_points::HitPoints;
 use super::light::Light;
 use super::lobes::lobe_use;
 use super::report::{PassReport, Start};
-use super::schedule::first_pass;
+use super::schedule::begin_small;
 use super::settings::{DirectLight, RadiusRule};
 use super::slots::EarlierBatches;
 use super::under_way::{Once, UnderWay};
@@ -35,6 +36,8 @@ pub(crate) struct Ppm {
     pub(super) hit_points: HitPoints,
     pub(super) shapes: Vec<u32>,
     pub(super) light: Light,
+    /// Direct light by shadow rays; `None` where photons bring it.
+    pub(super) direct: Option<Direct>,
     pub(super) error: Option<ErrorSums>,
     pub(super) grid: Grid,
     pub(super) marked_radius2: f64,
@@ -66,6 +69,13 @@ pub(crate) struct Ppm {
     pub(super) arch: Arch,
 }
 
+/// Where photons start, for an eye that sees these points.
+fn sources(scene: &Scene, seen: &[HitPoint]) -> Sources {
+    let disc = |h: &HitPoint| (h.position, h.radius2.sqrt());
+    let discs: Vec<(Vec3, f32)> = seen.iter().step_by((seen.len() / MAX_PROBED).max(1)).map(disc).collect();
+    scene.sources(&discs)
+}
+
 impl Ppm {
     /// Collects hit points. `tell` is told by many threads what share of the pixels has its hit points, `watch` each stage as it begins.
     ///
@@ -86,21 +96,17 @@ impl Ppm {
         let normals = lobe_use(&scene).shading_normals;
         let hit_points =
             HitPoints::new(&eye.hit_points, &eye.gloss, eye.pixel_start(), normals, shadow_rays, cancel)?;
-        let adapts = settings.ppm.radius_rule == RadiusRule::Adaptive;
-        let hit_points =
-            if settings.error || adapts { hit_points.with_radius_statistics() } else { hit_points };
+        let has_statistics = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;
+        let hit_points = if has_statistics { hit_points.with_radius_statistics() } else { hit_points };
         let start = Start { hit_points: hit_points.len() as u64, eye_rays: eye.rays, dropped: eye.dropped };
-        let step = (eye.hit_points.len() / MAX_PROBED).max(1);
-        let disc = |h: &HitPoint| (h.position, h.radius2.sqrt());
-        let seen: Vec<(Vec3, f32)> = eye.hit_points.iter().step_by(step).map(disc).collect();
-        let sources = scene.sources(&seen);
+        let sources = sources(&scene, &eye.hit_points);
         let not_finite = eye.left_out.map(|left_out| NotFinite::new(&scene, 0, left_out));
         drop((eye.hit_points, eye.gloss));
         let grid = Grid::new(&hit_points.packets, cancel)?;
-        let ppm = &mut settings.ppm;
-        ppm.first_pass = first_pass(&hit_points.packets, &grid, ppm.first_pass);
+        begin_small(&mut settings.ppm, &hit_points.packets, &grid);
         cancel.check()?;
         let (width, samples) = (scene.sensors()[settings.sensor].width, settings.samples_per_pixel.get());
+        let direct = shadow_rays.then(|| Direct::new(&scene, &hit_points, width));
         let error = settings.error.then(|| ErrorSums::new(&hit_points, width, samples));
         cancel.check()?;
         Ok(Self {
@@ -109,6 +115,7 @@ impl Ppm {
             scene,
             sources,
             light: Light::new(eye.emission, &hit_points, &settings),
+            direct,
             settings,
             hit_points,
             shapes: eye.shapes,

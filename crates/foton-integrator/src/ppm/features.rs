@@ -8,6 +8,7 @@ use foton_transport::LobeUse;
 use foton_transport::camera_paths::Gloss;
 
 use super::adaptive::RadiusStatistics;
+use super::direct::Direct;
 use super::hit_points::ShadowOrigin;
 use super::lobes::lobe_use;
 use super::radiance::Radiance;
@@ -165,9 +166,9 @@ fn asked_for(settings: &RenderSettings) -> [Feature; 4] {
             "shadow rays",
             settings.ppm.direct_light == DirectLight::ShadowRays,
             ["asked for by --direct", "direct light comes by photons"],
-            "a ray per hit point and pass",
+            "about a quarter of a pass",
         )
-        .with_bytes(size_of::<ShadowOrigin>(), 0),
+        .with_bytes(size_of::<ShadowOrigin>(), Direct::BYTES_PER_PIXEL),
         Feature::new(
             "light by path class",
             settings.layers,

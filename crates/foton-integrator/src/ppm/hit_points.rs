@@ -3,6 +3,8 @@
 //! Three orders meet here. *Sample order* is that of the eye pass: a pixel's hit points are neighbours in it. *Slot order* is
 //! that of the packets, 16 slots each, some empty. Statistics have slots of their own, apart from the query records.
 
+use std::ops::Range;
+
 use foton_math::Rgb;
 use foton_math::glam::Vec3;
 use foton_transport::camera_paths::{Gloss, HitPoint};
@@ -138,6 +140,11 @@ impl HitPoints {
     pub(crate) fn left_out_at(&self, first: u32) -> LeftOut {
         let slot = self.slot_of[first as usize] as usize;
         self.packets[slot / LANES].left_out(Quantity::PixelSum, slot % LANES)
+    }
+
+    /// Those of a pixel, in sample order.
+    pub(crate) fn of_pixel(&self, pixel: usize) -> Range<usize> {
+        self.pixel_start[pixel] as usize..self.pixel_start[pixel + 1] as usize
     }
 
     /// Statistics of all hit points, in sample order.

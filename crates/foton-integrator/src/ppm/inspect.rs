@@ -115,12 +115,6 @@ impl Ppm {
         }
     }
 
-    /// Radiance of one pixel as it stands; black beyond the image.
-    #[must_use]
-    pub(crate) fn radiance(&self, pixel: usize) -> Rgb {
-        self.light.pixel(pixel, self.photons_emitted)
-    }
-
     /// Mean radius of each pixel's hit points, in world units; 0 without hit points.
     #[must_use]
     pub(crate) fn mean_radii(&self) -> Vec<f32> {

@@ -1,15 +1,13 @@
 //! Light as it is summed: in one, or by path class where layers are asked for.
 
 use foton_math::Rgb;
-use foton_scene::Scene;
 use foton_transport::Omissions;
 use foton_transport::codec::{Reader, StateError, Writer};
 use foton_transport::photon_map::{LANES, PathClass};
 
-use super::by_block::ByBlock;
+use super::direct::Direct;
 use super::hit_points::{HitPoints, Irradiance};
 use super::radiance::Radiance;
-use super::shadow_rays::{self, PassKey};
 use crate::error::{self, ErrorSums, PassFacts};
 use crate::settings::RenderSettings;
 
@@ -65,35 +63,31 @@ impl Light {
         }
     }
 
-    /// Adds direct light by shadow rays to the pass, block by block.
-    pub(crate) fn add_direct(
-        &mut self,
-        scene: &Scene,
-        hit_points: &HitPoints,
-        key: PassKey,
-        by_block: ByBlock<'_, (u64, Omissions)>,
-    ) {
-        each!(self, s => shadow_rays::add(scene, hit_points, &mut s.irradiance_slots, key, by_block));
-    }
-
     /// Adds the pass of so many photons to the pixels; says what was left out because it was not finite.
     pub(crate) fn add_pass(&mut self, hit_points: &HitPoints, photons: u64) -> Omissions {
         each!(self, s => s.radiance.add(hit_points, &s.irradiance_slots, photons))
     }
 
     /// Adds a pass, which is in the pixels already, to the error.
-    pub(crate) fn add_error(&self, error: &mut ErrorSums, hit_points: &HitPoints, facts: PassFacts) {
+    pub(crate) fn add_error(
+        &self,
+        error: &mut ErrorSums,
+        hit_points: &HitPoints,
+        direct: Option<&Direct>,
+        facts: PassFacts,
+    ) {
         each!(self, s => error.add(&error::Pass {
             hit_points,
             irradiance_slots: &s.irradiance_slots,
             radiance: &s.radiance,
+            direct,
             facts,
         }));
     }
 
     /// Noise and bias by pixel.
-    pub(crate) fn error_planes(&self, error: &ErrorSums) -> (Vec<f32>, Vec<f32>) {
-        each!(self, s => error.planes(&s.radiance))
+    pub(crate) fn error_planes(&self, error: &ErrorSums, direct: Option<&Direct>) -> (Vec<f32>, Vec<f32>) {
+        each!(self, s => error.planes(&s.radiance, direct))
     }
 
     /// All radiance after `photons`, emission included.

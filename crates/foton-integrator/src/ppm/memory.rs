@@ -9,6 +9,7 @@ use foton_transport::light_paths::{Batch, MAX_PHOTONS};
 use foton_transport::photon_map::{LANES, MAX_CELLS, Packet, Photon, PhotonMap};
 
 use super::adaptive::RadiusStatistics;
+use super::direct::Direct;
 use super::eye_samples::eye_pass;
 use super::hit_points::{Irradiance, ShadowOrigin};
 use super::lobes::lobe_use;
@@ -118,6 +119,7 @@ impl MemoryEstimate {
         let slot = slot as f64 + layers * size_of::<Irradiance<1>>() as f64;
         let per_pixel =
             Radiance::BYTES_PER_PIXEL + if settings.layers { Radiance::BYTES_BY_CLASS } else { 0 };
+        let per_pixel = per_pixel + if shadow { Direct::BYTES_PER_PIXEL } else { 0 };
         let per_pixel = per_pixel + if settings.error { ErrorSums::BYTES_PER_PIXEL } else { 0 };
         let photon = 2.0 * size_of::<Photon>() as f64 + size_of::<u32>() as f64;
         let pass = settings.ppm.photons_per_pass.get().into();

@@ -6,7 +6,7 @@ use foton_transport::photon_map::PathClass;
 
 use super::algorithm::Ppm;
 use super::statistics::Statistics;
-use crate::error::{ErrorEstimate, ErrorSums, TileError};
+use crate::error::{ErrorEstimate, TileError};
 use crate::layers::LayerKind;
 
 impl Ppm {
@@ -24,10 +24,38 @@ impl Ppm {
     /// Radiance after all passes so far.
     #[must_use]
     pub(crate) fn image(&self) -> Image {
-        self.as_image(self.light.total(self.photons_emitted))
+        let mut pixels = self.light.total(self.photons_emitted);
+        self.add_direct(&mut pixels);
+        self.as_image(pixels)
     }
 
-    /// The last pass's own, independent estimate of reflected radiance: the image is the mean of these, weighted by photons.
+    /// Adds what shadow rays have brought.
+    fn add_direct(&self, pixels: &mut [Rgb]) {
+        if let Some(direct) = &self.direct {
+            pixels.iter_mut().enumerate().for_each(|(pixel, light)| *light += direct.radiance(pixel));
+        }
+    }
+
+    /// Radiance of one pixel as it stands; black beyond the image.
+    #[must_use]
+    pub(crate) fn radiance(&self, pixel: usize) -> Rgb {
+        let mut light = self.light.pixel(pixel, self.photons_emitted);
+        if let Some(direct) = self.direct.as_ref().filter(|_| pixel < self.shapes.len()) {
+            light += direct.radiance(pixel);
+        }
+        light
+    }
+
+    /// Luminance of each pixel's direct light by shadow rays and its variance; `None` where photons bring it.
+    #[must_use]
+    pub(crate) fn direct_light(&self) -> Option<Vec<(f64, f64)>> {
+        let direct = self.direct.as_ref()?;
+        let elsewhere = direct.noise(0..self.shapes.len()).per_visit(0.0);
+        let of = |pixel| direct.known(pixel).mean_and_variance(elsewhere);
+        Some((0..self.shapes.len()).map(of).collect())
+    }
+
+    /// The last pass's own, independent estimate of what photons bring: their part of the image is the mean of these, weighted by photons.
     #[must_use]
     pub(crate) fn last_pass(&self) -> Image {
         let scale = 1.0 / self.last_photons.max(1) as f64;
@@ -70,7 +98,11 @@ impl Ppm {
     pub(crate) fn colour_layer(&self, kind: LayerKind) -> Option<Image> {
         let class = |class| self.light.class(class);
         let pixels = match kind {
-            LayerKind::Direct => class(PathClass::Direct)?,
+            LayerKind::Direct => {
+                let mut pixels = class(PathClass::Direct)?;
+                self.add_direct(&mut pixels);
+                pixels
+            }
             LayerKind::Caustic => class(PathClass::Caustic)?,
             LayerKind::Indirect => class(PathClass::Indirect)?,
             LayerKind::Emission => self.light.emission().to_vec(),
@@ -94,7 +126,7 @@ impl Ppm {
     /// The means of all squares of 8 × 8 pixels with their errors, row by row; none without [`RenderSettings::error`](crate::RenderSettings::error).
     #[must_use]
     pub(crate) fn error_tiles(&self) -> Vec<TileError> {
-        self.error.as_ref().map_or_else(Vec::new, ErrorSums::tiles)
+        self.error.as_ref().map_or_else(Vec::new, |error| error.tiles(self.direct.as_ref()))
     }
 
     /// What bias from the radius has added to each pixel's luminance, as estimated (W/m²/sr): with its sign, and √3 times as noisy as the
@@ -107,7 +139,7 @@ impl Ppm {
     /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`RenderSettings::error`](crate::RenderSettings::error).
     #[must_use]
     pub(crate) fn error_plane(&self, kind: LayerKind) -> Option<Vec<f32>> {
-        let (noise, bias) = self.light.error_planes(self.error.as_ref()?);
+        let (noise, bias) = self.light.error_planes(self.error.as_ref()?, self.direct.as_ref());
         match kind {
             LayerKind::ErrorNoise => Some(noise),
             LayerKind::ErrorBias => Some(bias),

@@ -8,6 +8,7 @@ use foton_transport::photon_map::{Chunk, Photon};
 use foton_transport::{Ledger, LightUse, Loss, NotFinite};
 
 use super::algorithm::Ppm;
+use super::direct::Direct;
 use super::report::Start;
 use super::under_way::{Once, UnderWay};
 use crate::error::ErrorSums;
@@ -165,6 +166,7 @@ impl Ppm {
         self.scene.bytes()
             + self.hit_points.bytes()
             + self.light.bytes()
+            + self.direct.as_ref().map_or(0, Direct::bytes)
             + self.error.as_ref().map_or(0, ErrorSums::bytes)
             + self.grid.bytes()
             + self.map.bytes()

@@ -5,6 +5,8 @@ use std::num::NonZeroU32;
 
 use foton_transport::photon_map::{Grid, Packet};
 
+use super::settings::PpmSettings;
+
 /// About this many packets stand for all of them.
 const PROBED: usize = 4096;
 
@@ -17,18 +19,14 @@ const FEWEST: f64 = 64.0;
 /// Places at which a photon is stored, about.
 const STORED: f64 = 2.0;
 
-/// The photons of the first pass: those asked for, unless they would be tested against too many packets.
-pub(super) fn first_pass(packets: &[Packet], grid: &Grid, asked: NonZeroU32) -> NonZeroU32 {
+/// Lets the first pass have fewer photons than asked for where they would be tested against too many packets.
+pub(super) fn begin_small(settings: &mut PpmSettings, packets: &[Packet], grid: &Grid) {
     let fitting = (TESTS / (STORED * packets_of_a_photon(packets, grid)).max(f64::MIN_POSITIVE)).max(FEWEST);
+    let photons = &mut settings.first_pass;
     // Halved as often as needed: passes double from there, and meet the sizes that they would have had.
-    let mut photons = asked;
-    while f64::from(photons.get()) > fitting {
-        photons = NonZeroU32::new(photons.get() / 2).unwrap_or(NonZeroU32::MIN);
-        if photons == NonZeroU32::MIN {
-            break;
-        }
+    while photons.get() > 1 && f64::from(photons.get()) > fitting {
+        *photons = NonZeroU32::new(photons.get() / 2).unwrap_or(NonZeroU32::MIN);
     }
-    photons
 }
 
 /// Packets that a photon is tested against wherever it is stored, if photons are spread evenly over touched cells.
@@ -47,7 +45,6 @@ mod tests {
 
     use super::*;
     use crate::ppm::Ppm;
-    use crate::ppm::settings::PpmSettings;
     use crate::ppm::tests::scene::scene;
     use crate::settings::RenderSettings;
 

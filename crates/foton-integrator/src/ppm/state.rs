@@ -58,6 +58,9 @@ impl Ppm {
         statistics.iter().for_each(|s| s.write(&mut out));
         self.hit_points.radius_statistics_slots.iter().for_each(|e| e.write(&mut out));
         self.light.write(&mut out);
+        if let Some(direct) = &self.direct {
+            direct.write(&mut out);
+        }
         out.u64(u64::from(self.error.is_some()));
         if let Some(error) = &self.error {
             error.write(&mut out);
@@ -84,6 +87,9 @@ impl Ppm {
         self.restore_accounts(&mut input)?;
         self.restore_hit_points(&mut input)?;
         self.light.read(&mut input)?;
+        if let Some(direct) = &mut self.direct {
+            direct.read(&mut input)?;
+        }
         let error = self.error.as_mut();
         input.expect(usize::from(error.is_some()))?;
         if let Some(error) = error {

@@ -1,19 +1,17 @@
 //! The steps of a pass.
 
 use foton_transport::light_paths::{Batch, PhotonPass};
-use foton_transport::{
-    Cancel, Cancelled, Halt, LeftOut, NotFinite, Omissions, ShouldSuspend, Stage, Suspended,
-};
+use foton_transport::{Cancel, Cancelled, Halt, LeftOut, NotFinite, ShouldSuspend, Stage, Suspended};
 
 use super::algorithm::{MAX_PROBED, Ppm};
 use super::by_block::ByBlock;
 use super::counts::Counts;
+use super::direct::Lighting;
 use super::light::Light;
 use super::lobes::LOBE_POLICY;
 use super::report::PassReport;
 use super::rule::Rule;
-use super::settings::{DirectLight, RadiusRule};
-use super::shadow_rays::PassKey;
+use super::settings::RadiusRule;
 use super::slots::EarlierBatches;
 use super::sweep::{Photons, sweep};
 use super::tally::Tally;
@@ -56,20 +54,24 @@ impl Ppm {
         UnderWay::new(counts, self.settings.ppm.alpha, batches, once)
     }
 
+    /// Whether photons can add light: not to emitters that are seen directly, nor to surfaces that only shadow rays light.
+    fn needs_photons(&self) -> bool {
+        self.settings.max_depth_in(&self.scene) > if self.direct.is_some() { 2 } else { 1 }
+    }
+
     pub(super) fn photon_pass(&self, photons: u64, batch: Batch) -> PhotonPass<'_> {
         PhotonPass {
             scene: &self.scene,
             sources: &self.sources,
             grid: &self.grid,
-            stores_direct: self.settings.ppm.direct_light == DirectLight::Photons,
+            stores_direct: self.direct.is_none(),
             policy: LOBE_POLICY,
             directions: self.hit_points.need_directions(),
             arch: self.arch,
             max_depth: self.settings.max_depth_in(&self.scene),
             seed: self.settings.seed,
             pass: self.passes,
-            // A path of one edge is an emitter seen directly: no photon can add to it.
-            photons: if self.settings.max_depth_in(&self.scene) > 1 { photons } else { 0 },
+            photons: if self.needs_photons() { photons } else { 0 },
             batch,
         }
     }
@@ -168,21 +170,25 @@ impl Ppm {
         watch: &mut dyn FnMut(Stage),
         should_suspend: ShouldSuspend<'_>,
     ) -> Result<(), Suspended> {
-        if self.settings.ppm.direct_light != DirectLight::ShadowRays || pass.is_lit {
-            return Ok(());
-        }
+        let Some(direct) = self.direct.as_ref().filter(|_| !pass.is_lit) else { return Ok(()) };
         watch(Stage::ShadowRays);
-        let key = PassKey { seed: self.settings.seed, pass: self.passes, photons: pass.counts.photons };
-        let by_block = ByBlock { done: &mut pass.shadow_rays, should_suspend };
-        self.light.add_direct(&self.scene, &self.hit_points, key, by_block);
-        let (mut rays, mut omissions) = (0, Omissions::default());
-        for of_block in &pass.shadow_rays {
-            let (more, left_out) = (*of_block).ok_or(Suspended)?;
-            (rays, omissions) = (rays + more, omissions.followed_by(left_out));
+        let lighting = Lighting {
+            scene: &self.scene,
+            hit_points: &self.hit_points,
+            seed: self.settings.seed,
+            set: 0,
+            samples: self.settings.samples_per_pixel.get() as f32,
+        };
+        let by_block = ByBlock { done: &mut pass.lit, should_suspend };
+        lighting.light(direct, &direct.turns(pass.counts.photons), by_block);
+        if pass.lit.iter().any(Option::is_none) {
+            return Err(Suspended);
         }
         pass.is_lit = true;
-        pass.counts.rays += rays;
-        pass.counts.leave_out(omissions);
+        for block in pass.lit.iter().flatten() {
+            pass.counts.rays += block.rays;
+            pass.counts.leave_out(block.omissions);
+        }
         Ok(())
     }
 
@@ -192,6 +198,9 @@ impl Ppm {
         self.note_exceptions(&pass);
         let mut counts = pass.counts;
         counts.leave_out(self.light.add_pass(&self.hit_points, counts.photons));
+        if let Some(direct) = &mut self.direct {
+            direct.add(&direct.turns(counts.photons), pass.lit.into_iter().flatten());
+        }
         let Counts { ledger, lights, losses, photons, rays, stored, tally, left_out } = counts;
         (self.ledger, self.lights, self.losses) = (ledger, lights, losses);
         if let (None, Some(left_out)) = (&self.not_finite, left_out) {
@@ -199,16 +208,11 @@ impl Ppm {
         }
         self.mark_cells(&tally);
         self.photons_emitted += photons;
-        let power = self.mean_power();
+        let power = if self.needs_photons() { self.mean_power() } else { 0.0 };
         if let Some(error) = &mut self.error {
-            let facts = PassFacts {
-                photons,
-                power,
-                question: Question::after(self.passes),
-                shadow_rays: self.settings.ppm.direct_light == DirectLight::ShadowRays,
-                before: self.passes,
-            };
-            self.light.add_error(error, &self.hit_points, facts);
+            let facts =
+                PassFacts { photons, power, question: Question::after(self.passes), before: self.passes };
+            self.light.add_error(error, &self.hit_points, self.direct.as_ref(), facts);
         }
         self.last_photons = photons;
         self.passes += 1;

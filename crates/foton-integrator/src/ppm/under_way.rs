@@ -2,10 +2,10 @@
 
 use std::num::NonZeroU32;
 
-use foton_transport::Omissions;
 use foton_transport::light_paths::Batch;
 
 use super::counts::Counts;
+use super::direct::Lit;
 use super::settings::Alpha;
 use super::tally::Tally;
 
@@ -45,8 +45,8 @@ pub(crate) struct UnderWay {
     pub(super) next: NextStep,
     /// By block of packets, of those that have gathered the batch.
     pub(super) tallies: Vec<Option<Tally>>,
-    /// By block of slots, rays and what they left out, of those that have direct light by shadow rays.
-    pub(super) shadow_rays: Vec<Option<(u64, Omissions)>>,
+    /// By block of pixels, of those that shadow rays have lit.
+    pub(super) lit: Vec<Option<Lit>>,
     /// Whether shadow rays are done.
     pub(super) is_lit: bool,
 }
@@ -63,7 +63,7 @@ impl UnderWay {
             done: 0,
             next: NextStep::Begin,
             tallies: Vec::new(),
-            shadow_rays: Vec::new(),
+            lit: Vec::new(),
             is_lit: false,
         };
         if let Some(batches) = once.batches {

@@ -138,7 +138,7 @@ pub fn extrapolated(fine: f64, wide: f64) -> f64 {
 /// A reference under way.
 pub struct OwnRun {
     runs: Variants,
-    /// Σ and Σ² of passes' luminance, fine and wide.
+    /// Σ and Σ² of passes' luminance by photons, fine and wide.
     sums: [Known; 2],
     /// Radius over the centre's first.
     scale: f64,
@@ -162,7 +162,7 @@ impl OwnRun {
             ppm: PpmSettings {
                 alpha: Alpha::new(1.0).unwrap_or_default(),
                 radius_scale: RadiusScale::new(scale * base.ppm.radius_scale.get()).unwrap_or_default(),
-                radius_floor: RadiusFloor::NONE, // Equal passes, whose scatter is that of equals; many, since each has one shadow ray a hit point.
+                radius_floor: RadiusFloor::NONE, // Equal passes, whose scatter is that of equals.
                 photons_per_pass,
                 first_pass: photons_per_pass,
                 direct_light: DirectLight::ShadowRays,
@@ -183,7 +183,7 @@ impl OwnRun {
         self.runs.runs()[0].passes()
     }
 
-    /// One more pass. Returns its own estimates of reflected luminance by pixel: in discs of the radius, and of twice that.
+    /// One more pass. Returns its own estimates of what photons bring, in luminance by pixel: in discs of the radius, and of twice that.
     ///
     /// # Errors
     /// When cancelled.
@@ -199,14 +199,22 @@ impl OwnRun {
         Ok(passes)
     }
 
+    /// Luminance of direct light by pixel, and its variance.
+    #[must_use]
+    pub fn direct_light(&self) -> Vec<(f64, f64)> {
+        self.runs.runs()[0].direct_light().unwrap_or_default()
+    }
+
     /// The reference; `None` where nothing is seen, or all is dark.
     #[must_use]
     pub fn conclude(&self) -> Option<Reference> {
         let [fine, wide] = self.runs.runs() else { return None };
         let n = fine.passes() as f64;
+        let direct = self.direct_light();
         let variances = |sums: &Known| -> Vec<f64> {
             let of = |(s, q): (&f64, &f64)| ((q / n - (s / n) * (s / n)) / (n - 1.0)).max(0.0);
-            sums.luminance.iter().zip(&sums.variance).map(of).collect()
+            let of_photons = sums.luminance.iter().zip(&sums.variance).map(of);
+            of_photons.zip(&direct).map(|(photons, (_, direct))| photons + direct).collect()
         };
         let class = |kind| fine.colour_layer(kind).map(|image| luminance(&image));
         let [direct, caustic, indirect] = CLASSES.map(class);

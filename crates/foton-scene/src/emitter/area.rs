@@ -7,6 +7,8 @@ use foton_math::{Aabb, Frame, Rgb, warp};
 
 use super::aim::{Aim, one_minus_cos_of_cone};
 use super::emission::{Emission, Illumination};
+use super::extent::Extent;
+use super::rectangle::Rectangle;
 use crate::discrete::Discrete;
 use crate::plane::Plane;
 use crate::primitive::Primitive;
@@ -19,6 +21,7 @@ pub(crate) struct Area {
     pub(crate) primitives: Vec<Primitive>,
     /// Those of triangles; whatever for other primitives.
     planes: Vec<Plane>,
+    rectangle: Option<Rectangle>,
     pub(crate) by_area: Discrete,
     pub(crate) area: f32,
     pub(crate) shape: u32,
@@ -34,6 +37,7 @@ impl Area {
             radiance,
             primitives: primitives.to_vec(),
             planes: primitives.iter().map(Primitive::plane).collect(),
+            rectangle: Rectangle::of(primitives),
             by_area: Discrete::new(areas().map(f64::from)),
             area: areas().sum(),
             shape,
@@ -76,6 +80,10 @@ impl Area {
         }
     }
 
+    pub(super) fn extent(&self) -> Extent {
+        Extent::of_surfaces(&self.primitives, self.radiance.luminance())
+    }
+
     /// The middle of the box around it.
     pub(crate) fn middle(&self) -> Vec3 {
         self.primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds())).centre()
@@ -107,6 +115,16 @@ impl Area {
             && let Some(seen) = self.illuminate_from_sphere(centre, radius, position, u)
         {
             return Some(seen);
+        }
+        if let Some(seen) = self.rectangle.as_ref().and_then(|rectangle| rectangle.seen_from(position)) {
+            let (direction, distance) = seen.sample(u);
+            let radiance_over_pdf = self.radiance * seen.solid_angle();
+            return Some(Illumination {
+                direction,
+                distance,
+                radiance_over_pdf,
+                pdf: 1.0 / seen.solid_angle(),
+            });
         }
         let surface = self.sample(u_part, u);
         let d = surface.position - position;
@@ -150,6 +168,9 @@ impl Area {
             && let Some(one_minus_cos) = one_minus_cos_of_cone(radius, centre.distance(position))
         {
             return warp::square_to_cone_pdf(one_minus_cos);
+        }
+        if let Some(seen) = self.rectangle.as_ref().and_then(|rectangle| rectangle.seen_from(position)) {
+            return 1.0 / seen.solid_angle();
         }
         let d = point.position - position;
         let distance2 = d.length_squared();

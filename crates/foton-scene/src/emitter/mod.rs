@@ -8,7 +8,9 @@ mod directional;
 mod emission;
 mod environment;
 mod environment_map;
+mod extent;
 mod point;
+mod rectangle;
 mod spot;
 #[cfg(test)]
 mod tests;
@@ -24,6 +26,7 @@ pub(crate) use directional::Directional;
 pub use emission::{Emission, Illumination};
 pub(crate) use environment::{Constant, Environment};
 pub(crate) use environment_map::EnvironmentMap;
+pub use extent::Extent;
 pub(crate) use point::Point;
 pub(crate) use spot::Spot;
 
@@ -143,6 +146,17 @@ impl Emitter {
             Kind::Constant(sky) => sky.emit(aim, u_part, u_position, u_direction),
             Kind::Directional(sun) => sun.emit(aim, u_part, u_position),
             Kind::Environment(sky) => sky.emit(aim, u_part, u_position, u_direction),
+        }
+    }
+
+    /// Where it lies; `None` if that is infinitely far away.
+    #[must_use]
+    pub fn extent(&self) -> Option<Extent> {
+        match &self.kind {
+            Kind::Area(area) => Some(area.extent()),
+            Kind::Point(point) => Some(point.extent()),
+            Kind::Spot(spot) => Some(spot.extent()),
+            Kind::Constant(_) | Kind::Directional(_) | Kind::Environment(_) => None,
         }
     }
 

@@ -7,6 +7,7 @@ use foton_math::{Rgb, warp};
 
 use super::aim::Aim;
 use super::emission::{Emission, Illumination, from_point};
+use super::extent::Extent;
 
 /// The same radiant intensity in all directions from one point.
 #[derive(Clone, Debug)]
@@ -29,6 +30,10 @@ impl Point {
         let uniform = |_| warp::square_to_sphere_pdf();
         let (direction, pdf) = aim.divergent(position, u_direction, warp::square_to_sphere, uniform);
         Emission { origin: position, direction, power: intensity / pdf }
+    }
+
+    pub(super) fn extent(&self) -> Extent {
+        Extent::of_point(self.position, self.intensity.luminance())
     }
 
     pub(super) fn illuminate(&self, position: Vec3) -> Option<Illumination> {

@@ -1,10 +1,13 @@
 //! A point emitter with a cone.
 
+use std::f32::consts::FRAC_PI_2;
+
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Frame, Rgb, warp};
 
 use super::aim::Aim;
 use super::emission::{Emission, Illumination, from_point};
+use super::extent::Extent;
 
 /// A point emitter with a cone.
 #[derive(Clone, Debug)]
@@ -45,6 +48,16 @@ impl Spot {
             aim.divergent(self.position, u, own, |d| if self.falloff(d) > 0.0 { uniform } else { 0.0 })
         };
         Emission { origin: self.position, direction, power: self.intensity * (self.falloff(direction) / pdf) }
+    }
+
+    pub(super) fn extent(&self) -> Extent {
+        Extent {
+            axis: self.frame.normal,
+            // Beyond a right angle of the axis it is as if normals spread.
+            normals: (self.cutoff - FRAC_PI_2).max(0.0),
+            reach: self.cutoff.min(FRAC_PI_2),
+            ..Extent::of_point(self.position, self.intensity.luminance())
+        }
     }
 
     pub(super) fn illuminate(&self, position: Vec3) -> Option<Illumination> {

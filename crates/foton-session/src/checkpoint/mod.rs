@@ -24,7 +24,7 @@ use crate::session::Session;
 pub use keeper::{Keeper, Unwritten};
 
 const MAGIC: [u8; 8] = *b"fotonPPM";
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 const HEADER: usize = 8 + 4 + 4 * 8;
 const TRAILER: usize = 8;
 

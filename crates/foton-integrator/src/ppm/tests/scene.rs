@@ -10,7 +10,7 @@ use foton_scene::description::{
     SceneDescription, SensorDescription, ShapeDescription,
 };
 
-/// A box with a diffuse and a glass ball under a point light.
+/// A box with a diffuse and a glass ball under a point light and a lamp.
 pub(crate) fn scene() -> Arc<Scene> {
     let diffuse = Bsdf::Diffuse(Diffuse { reflectance: Rgb::new(0.7, 0.5, 0.3).into() });
     let glass = Bsdf::Dielectric(Dielectric {
@@ -30,6 +30,7 @@ pub(crate) fn scene() -> Arc<Scene> {
         radiance: None,
     };
     let ball = |x: f64| Geometry::Sphere { centre: DVec3::new(x, -0.5, -0.3), radius: 0.4 };
+    let lamp = Geometry::Sphere { centre: DVec3::new(-0.3, 0.6, 0.3), radius: 0.1 };
     Arc::new(
         Scene::build(&SceneDescription {
             sensors: vec![SensorDescription {
@@ -49,6 +50,7 @@ pub(crate) fn scene() -> Arc<Scene> {
                 shape(Geometry::Mesh(Arc::new(Mesh::cube())), 0),
                 shape(ball(-0.45), 0),
                 shape(ball(0.45), 1),
+                ShapeDescription { radiance: Some(Rgb::splat(9.0)), ..shape(lamp, 0) },
             ],
             emitters: vec![EmitterDescription {
                 name: "lamp".into(),

@@ -1,0 +1,104 @@
+//! Sobol' points: of each 2^k in a row one lies in each of 2^k equal intervals, in every dimension, and in the first two in each
+//! of 2^k equal boxes, whatever their shape. `[SOB67]`
+//!
+//! A scramble flips the same digits of all points, which keeps that: for a random one each point is uniform.
+
+/// Dimensions of a point.
+pub const DIMENSIONS: usize = 4;
+
+/// For each bit of an index, what it adds to each coordinate.
+const COLUMNS: [[u32; DIMENSIONS]; 32] = columns();
+
+/// Degree, inner coefficients and first odd numbers of the primitive polynomials of all dimensions but the first. `[JK08]`
+const POLYNOMIALS: [(usize, u32, [u32; 3]); DIMENSIONS - 1] =
+    [(1, 0, [1, 0, 0]), (2, 1, [1, 3, 0]), (3, 1, [1, 3, 1])];
+
+const fn columns() -> [[u32; DIMENSIONS]; 32] {
+    let mut columns = [[0u32; DIMENSIONS]; 32];
+    let mut i = 0;
+    while i < 32 {
+        columns[i][0] = 1 << (31 - i);
+        let mut d = 1;
+        while d < DIMENSIONS {
+            let (degree, inner, first) = POLYNOMIALS[d - 1];
+            columns[i][d] = if i < degree {
+                first[i] << (31 - i)
+            } else {
+                let mut sum = columns[i - degree][d] ^ (columns[i - degree][d] >> degree);
+                let mut k = 1;
+                while k < degree {
+                    if (inner >> (degree - 1 - k)) & 1 == 1 {
+                        sum ^= columns[i - k][d];
+                    }
+                    k += 1;
+                }
+                sum
+            };
+            d += 1;
+        }
+        i += 1;
+    }
+    columns
+}
+
+/// The point of an index, as binary fractions of 32 digits, scrambled.
+#[must_use]
+#[inline]
+pub fn point(index: u32, scramble: [u32; DIMENSIONS]) -> [u32; DIMENSIONS] {
+    let (mut point, mut left) = (scramble, index);
+    while left != 0 {
+        let column = &COLUMNS[left.trailing_zeros() as usize];
+        point.iter_mut().zip(column).for_each(|(x, c)| *x ^= c);
+        left &= left - 1;
+    }
+    point
+}
+
+/// A binary fraction as a number in [0, 1).
+#[must_use]
+#[inline]
+pub const fn unit(fraction: u32) -> f32 {
+    (fraction >> 8) as f32 * (1.0 / (1 << 24) as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_power_of_two_of_points_is_stratified_in_every_dimension() {
+        let scramble = [0x1234_5678, 0x9abc_def0, 0x0f1e_2d3c, 0xdead_beef];
+        for k in 0..8 {
+            for block in 0..4 {
+                for d in 0..DIMENSIONS {
+                    let mut found = vec![false; 1 << k];
+                    for i in 0..1 << k {
+                        let x = point((block << k) + i, scramble)[d];
+                        found[if k == 0 { 0 } else { (x >> (32 - k)) as usize }] = true;
+                    }
+                    assert!(found.iter().all(|f| *f), "dimension {d}, block {block} of {}", 1 << k);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_first_two_dimensions_are_stratified_in_boxes_of_all_shapes() {
+        for across in 0..=6u32 {
+            let down = 6 - across;
+            let mut found = [false; 64];
+            for i in 0..64 {
+                let p = point(i + 128, [0xaaaa_5555, 0x1357_9bdf, 0, 0]).map(|x| u64::from(x) << 32);
+                let cell = |x: u64, bits: u32| if bits == 0 { 0 } else { (x >> (64 - bits)) as usize };
+                found[cell(p[0], across) << down | cell(p[1], down)] = true;
+            }
+            assert!(found.iter().all(|f| *f), "{across} digits by {down}");
+        }
+    }
+
+    #[test]
+    fn fractions_become_numbers_below_one() {
+        assert_eq!((unit(0), unit(1 << 31)), (0.0, 0.5));
+        assert!(unit(u32::MAX) < 1.0);
+    }
+}
