@@ -11,7 +11,7 @@ use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite
 
 use crate::error::{ErrorEstimate, TileError};
 use crate::layers::LayerKind;
-use crate::ppm::{Disc, PassReport, Ppm, Radii, Start, StoredPhoton};
+use crate::ppm::{Disc, PassReport, PhotonPath, Ppm, Radii, Start, StoredPhoton};
 use crate::settings::{Method, RenderSettings, SettingChange};
 
 /// A scene, settings, and what passes have made of them so far.
@@ -307,6 +307,13 @@ impl Render {
     #[must_use]
     pub fn photons_near(&self, position: DVec3, radius: f64, at_most: usize) -> Vec<StoredPhoton> {
         each!(&self.0, r => r.photons_near(position, radius, at_most))
+    }
+
+    /// Paths of photons of the last pass that count for a pixel's hit points, `at_most` of them: of a large pass those among its first
+    /// 65,536, which are traced again for that. `pixel` counts along rows from the top left; one beyond the image has none.
+    #[must_use]
+    pub fn paths_to(&self, pixel: usize, at_most: usize) -> Vec<PhotonPath> {
+        each!(&self.0, r => r.paths_to(pixel, at_most))
     }
 
     /// Mean radius of each pixel's hit points, in world units; 0 without hit points.

@@ -145,6 +145,8 @@ pub(crate) struct State {
     pub(crate) reloads: bool,
     pub(crate) view: ViewMode,
     pub(crate) show_photons: bool,
+    /// Whether the paths of photons to the pixel under the pointer are drawn.
+    pub(crate) show_paths: bool,
     pub(crate) auto_snapshots: bool,
     pub(crate) pinned: Option<Pinned>,
     pub(crate) looking: Looking,
@@ -210,6 +212,7 @@ impl State {
             reloads: false,
             view: ViewMode::Radiance,
             show_photons: false,
+            show_paths: false,
             auto_snapshots: false,
             pinned: None,
             looking: Looking::default(),

@@ -271,6 +271,11 @@ impl Session {
         Ok(())
     }
 
+    /// Does something on the threads of the render.
+    pub(crate) fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        self.pool.install(work)
+    }
+
     /// The render.
     #[must_use]
     pub const fn render(&self) -> &Render {

@@ -107,6 +107,9 @@ fn view(ui: &mut Ui, state: &mut State) {
     if entry(ui, true, "Photons as dots", "O").clicked() {
         actions::toggle_photons(state);
     }
+    if entry(ui, true, "Photon paths to the pixel", "V").clicked() {
+        actions::toggle_paths(state);
+    }
     views::over_the_picture(ui, state);
     ui.separator();
     region::entry(ui, state);

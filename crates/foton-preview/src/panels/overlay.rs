@@ -2,7 +2,7 @@
 
 use egui::{Color32, Pos2, Shape, Stroke};
 use foton_edit::Segment;
-use foton_session::engine::{Dot, Frame};
+use foton_session::engine::{Dot, DrawnPath, Frame};
 
 use super::dot_legend;
 use super::film_place::Film;
@@ -29,6 +29,9 @@ pub(super) fn draw(painter: &egui::Painter, state: &State, frame: &Frame, film: 
         let corners: Vec<Pos2> = probe.disc.iter().map(|&c| film.to_points(c)).collect();
         if corners.len() > 2 {
             painter.add(Shape::closed_line(corners, Stroke::new(1.2, DISC)));
+        }
+        if state.show_paths {
+            paths(painter, &probe.paths, film);
         }
         dots(painter, &probe.photons, film, 1.6);
     }
@@ -59,6 +62,18 @@ fn wipe_labels(painter: &egui::Painter, film: Film, wipe: f32, [left, right]: [S
 
 fn line(painter: &egui::Painter, segment: &Segment, film: Film, stroke: Stroke) {
     painter.line_segment(segment.map(|end| film.to_points(end)), stroke);
+}
+
+/// Paths of photons: thin, for there are many; the last edge, by which the light came, is the brightest.
+fn paths(painter: &egui::Painter, paths: &[DrawnPath], film: Film) {
+    for path in paths {
+        let colour = dot_legend::colour(path.class);
+        for (i, edge) in path.edges.iter().enumerate() {
+            let is_last = i + 1 == path.edges.len();
+            let colour = if is_last { colour } else { colour.gamma_multiply(0.55) };
+            line(painter, edge, film, Stroke::new(1.0, colour));
+        }
+    }
 }
 
 fn dots(painter: &egui::Painter, dots: &[Dot], film: Film, radius: f32) {

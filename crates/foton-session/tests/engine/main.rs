@@ -321,6 +321,18 @@ fn the_probe_says_what_the_picture_shows() {
     assert_eq!(probe.radiance, image(&frame).pixels[index]);
     assert_eq!(probe.surface, Some(SurfaceNames { shape: "floor".into(), material: "grey".into() }));
     assert!(probe.hit_points == 1 && probe.disc.len() > 8 && probe.radius.is_some_and(|r| r > 0.0));
+    assert!(probe.paths.is_empty(), "not asked for");
+    rig.send(Command::ShowPaths(true));
+    let with = rig.until("paths", |f| f.probe.as_ref().is_some_and(|p| !p.paths.is_empty()));
+    assert_eq!((image(&with), with.render), (image(&frame), frame.render), "the picture is the same");
+    let probe = with.probe.as_ref().expect("asked for");
+    for path in probe.paths.iter() {
+        let [_, end] = *path.edges.last().expect("an edge");
+        let off = [0, 1].map(|axis| (end[axis] - floor[axis] as f32 - 0.5).abs());
+        assert!(off.iter().all(|d| *d < 12.0), "{path:?} ends at the disc");
+    }
+    rig.send(Command::ShowPaths(false));
+    rig.until("no paths", |f| f.probe.as_ref().is_some_and(|p| p.paths.is_empty()));
     rig.send(Command::Probe(Some([9999, 0])));
     rig.until("nothing outside", |f| f.probe.is_none());
 }

@@ -3,6 +3,7 @@
 mod batches;
 mod cutting;
 mod instruction_sets;
+mod paths;
 pub(super) mod scene;
 mod suspending;
 

@@ -6,7 +6,7 @@ use foton_integrator::SettingChange;
 use foton_scene::description::SceneDescription;
 
 use super::Worker;
-use super::state::Flow;
+use super::state::{Flow, ProbedPaths};
 use crate::engine::command::{Command, Configuration, Event, SceneEdit};
 use crate::engine::editable_scene::{EditableScene, Effect};
 use crate::engine::kept::Subject;
@@ -66,6 +66,7 @@ impl Worker {
             Command::Edit(edit) => self.edit(edit),
             Command::SetView(mode) => self.view.mode = mode,
             Command::ShowPhotons(on) => self.view.photons = on,
+            Command::ShowPaths(on) => self.view.paths = on.then(ProbedPaths::default),
             Command::Probe(pixel) => self.view.probed = pixel,
             Command::ResumeCheckpoint(path) => {
                 self.restart();
