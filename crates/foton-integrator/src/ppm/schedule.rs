@@ -44,8 +44,8 @@ mod tests {
     use foton_transport::Cancel;
 
     use super::*;
-    use crate::ppm::Ppm;
     use crate::ppm::tests::scene::scene;
+    use crate::ppm::{EyeSamples, Ppm};
     use crate::settings::RenderSettings;
 
     fn start(radius: Option<f64>, samples: u32) -> Ppm {
@@ -55,7 +55,8 @@ mod tests {
             ppm: PpmSettings { photons_per_pass: number(5_000_000), radius, ..PpmSettings::default() },
             ..RenderSettings::default()
         };
-        Ppm::start(scene(), settings, &|_| (), &mut |_| (), &Cancel::default()).expect("not cancelled")
+        Ppm::start(EyeSamples::new(scene(), settings), &|_| (), &mut |_| (), &Cancel::default())
+            .expect("not cancelled")
     }
 
     #[test]

@@ -3,10 +3,11 @@
 use foton_transport::light_paths::{Batch, PhotonPass};
 use foton_transport::{Cancel, Cancelled, Halt, LeftOut, NotFinite, ShouldSuspend, Stage, Suspended};
 
-use super::algorithm::{MAX_PROBED, Ppm};
+use super::algorithm::Ppm;
 use super::by_block::ByBlock;
 use super::counts::Counts;
 use super::direct::Lighting;
+use super::laid_out::MAX_PROBED;
 use super::light::Light;
 use super::lobes::LOBE_POLICY;
 use super::report::PassReport;

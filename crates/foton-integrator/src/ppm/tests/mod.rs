@@ -2,6 +2,7 @@
 
 mod batches;
 mod cutting;
+mod eye_samples;
 mod instruction_sets;
 mod paths;
 pub(super) mod scene;

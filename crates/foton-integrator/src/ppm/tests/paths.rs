@@ -5,9 +5,9 @@ use std::num::NonZeroU32;
 use foton_transport::Cancel;
 use foton_transport::photon_map::PathClass;
 
-use crate::ppm::Ppm;
 use crate::ppm::settings::{Alpha, PpmSettings, RadiusRule};
 use crate::ppm::tests::scene::scene;
+use crate::ppm::{EyeSamples, Ppm};
 use crate::settings::RenderSettings;
 
 fn start() -> Ppm {
@@ -24,7 +24,8 @@ fn start() -> Ppm {
         },
         ..RenderSettings::default()
     };
-    Ppm::start(scene(), settings, &|_| (), &mut |_| (), &Cancel::default()).expect("not cancelled")
+    Ppm::start(EyeSamples::new(scene(), settings), &|_| (), &mut |_| (), &Cancel::default())
+        .expect("not cancelled")
 }
 
 fn advance(ppm: &mut Ppm) {
