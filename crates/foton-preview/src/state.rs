@@ -13,33 +13,11 @@ use foton_session::snapshot::Look;
 use crate::editing::Editing;
 use crate::files::FileDialog;
 use crate::looking::{BuiltIn, Looking};
+use crate::message::{self, Message, Tone};
 use crate::preferences::Preferences;
 
 /// Points of a plot at most; older ones are thinned.
 const PLOT_POINTS: usize = 512;
-
-/// How long a message stays, in seconds; errors stay until they are closed.
-pub(crate) const MESSAGE_SECONDS: f64 = 6.0;
-
-/// How a message is meant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Tone {
-    Notice,
-    Error,
-}
-
-/// Something to tell.
-#[derive(Clone, Debug)]
-pub(crate) struct Message {
-    pub(crate) tone: Tone,
-    pub(crate) text: String,
-    /// How often it was told: the same again is no other message.
-    pub(crate) times: u32,
-    /// When it was first drawn since it was told last, in seconds of the window's clock.
-    pub(crate) since: Option<f64>,
-    /// Whether the frame log has it.
-    pub(crate) is_logged: bool,
-}
 
 /// A picture to compare with.
 #[derive(Clone, Debug)]
@@ -303,24 +281,11 @@ impl State {
     }
 
     pub(crate) fn notice(&mut self, text: impl Into<String>) {
-        self.tell(Tone::Notice, text.into());
+        message::tell(&mut self.messages, Tone::Notice, text.into());
     }
 
     pub(crate) fn error(&mut self, text: impl Into<String>) {
-        self.tell(Tone::Error, text.into());
-    }
-
-    fn tell(&mut self, tone: Tone, text: String) {
-        // The newest stands last.
-        let same = self.messages.iter().position(|m| m.tone == tone && m.text == text);
-        let times = same.map_or(0, |i| self.messages.remove(i).times);
-        self.messages.push(Message {
-            tone,
-            text,
-            times: times.saturating_add(1),
-            since: None,
-            is_logged: false,
-        });
+        message::tell(&mut self.messages, Tone::Error, text.into());
     }
 
     pub(crate) fn ask(&mut self, command: Command) {

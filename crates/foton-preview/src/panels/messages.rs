@@ -1,6 +1,7 @@
 //! Short messages in a corner of the window. Notices go by themselves, errors are closed.
 
-use crate::state::{MESSAGE_SECONDS, State, Tone};
+use crate::message::{MESSAGE_SECONDS, Tone};
+use crate::state::State;
 
 pub(super) fn show(ctx: &egui::Context, state: &mut State) {
     let now = ctx.input(|i| i.time);

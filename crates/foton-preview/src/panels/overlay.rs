@@ -91,7 +91,30 @@ fn dots(painter: &egui::Painter, dots: &[Dot], film: Film, radius: f32) {
 
 #[cfg(test)]
 mod tests {
+    use egui::{Rect, Vec2};
+    use foton_session::PathClass;
+
     use super::*;
+
+    #[test]
+    fn paths_of_photons_have_the_colour_of_their_light_and_end_at_the_pixel() {
+        let edges = vec![[[2.0, 2.0], [40.0, 20.0]], [[40.0, 20.0], [40.0, 38.0]]];
+        let drawn = DrawnPath { edges, class: PathClass::Indirect };
+        let rect = Rect::from_min_size(Pos2::ZERO, Vec2::new(120.0, 80.0));
+        let film = Film { rect, image: rect, size: Vec2::new(60.0, 40.0) };
+        let ctx = egui::Context::default();
+        let output = ctx.run_ui(egui::RawInput::default(), |ui| {
+            paths(&ui.painter_at(rect), std::slice::from_ref(&drawn), film);
+        });
+        let lines = output.shapes.iter().filter_map(|shape| match &shape.shape {
+            Shape::LineSegment { points, stroke } => Some((*points, stroke.color)),
+            _ => None,
+        });
+        let [(_, dim), (last, bright)] = lines.collect::<Vec<_>>()[..] else { panic!("two edges") };
+        assert_eq!(bright, dot_legend::colour(PathClass::Indirect));
+        assert_eq!(last[1], Pos2::new(80.0, 76.0));
+        assert_ne!(dim, bright);
+    }
 
     #[test]
     fn the_wipe_says_which_side_is_pinned() {

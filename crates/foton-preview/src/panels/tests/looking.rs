@@ -1,8 +1,7 @@
 //! Looking closer: exposure, histogram, clipping, numbers in pixels, regions.
 
 use egui::{Key, Modifiers, MouseWheelUnit, PointerButton, TouchPhase, pos2, vec2};
-use foton_session::PathClass;
-use foton_session::engine::{DrawnPath, Probe, Region};
+use foton_session::engine::Region;
 
 use super::*;
 use crate::state::Placement;
@@ -176,36 +175,6 @@ fn the_dots_of_photons_have_a_legend() {
         area.map(&at).filter(|c| *c == [255, 215, 70]).count()
     };
     assert!(white(true) > 20 && white(false) == 0);
-}
-
-#[test]
-fn paths_of_photons_are_drawn_to_the_pixel_in_the_colour_of_their_light() {
-    let blue = |show: bool| {
-        let edges = vec![[[2.0, 2.0], [40.0, 20.0]], [[40.0, 20.0], [40.0, 38.0]]];
-        let path = DrawnPath { edges, class: PathClass::Indirect };
-        let probe = Probe {
-            pixel: [40, 38],
-            radiance: Rgb::BLACK,
-            radius: None,
-            photons_found: 1,
-            hit_points: 1,
-            distance: None,
-            surface: None,
-            disc: Vec::new(),
-            photons: Vec::new(),
-            paths: Arc::new(vec![path]),
-        };
-        let (at, canvas) = picture::drawn(|state| {
-            (state.show_paths, state.probed) = (show, Some(probe.pixel));
-            state.frame.as_mut().expect("there").probe = Some(probe);
-        });
-        // Above the legend.
-        let rows = [-0.2, 0.1].map(|y| canvas.center().y + y * canvas.height());
-        let columns = || canvas.left() as u32..canvas.right() as u32;
-        let pixels = rows.into_iter().flat_map(|y| columns().map(move |x| pos2(x as f32, y)));
-        pixels.map(at).filter(|[r, _, b]| *b > *r && *b > 100).count()
-    };
-    assert!(blue(true) > 1 && blue(false) == 0, "{} {}", blue(true), blue(false));
 }
 
 #[test]

@@ -63,16 +63,26 @@ impl Worker {
                 Ok(Effect::None)
             }),
             Command::Edit(edit) => self.edit(edit),
-            Command::SetView(mode) => self.view.mode = mode,
-            Command::ShowPhotons(on) => self.view.photons = on,
-            Command::ShowPaths(on) => self.view.paths = on.then(ProbedPaths::default),
-            Command::Probe(pixel) => self.view.probed = pixel,
+            Command::SetView(_) | Command::ShowPhotons(_) | Command::ShowPaths(_) | Command::Probe(_) => {
+                self.look(&command);
+            }
             Command::ResumeCheckpoint(path) => {
                 self.restart();
                 self.files.resuming = Some(path);
             }
             Command::Quit => {}
             _ => self.write_or_keep(command),
+        }
+    }
+
+    /// What frames are to carry.
+    fn look(&mut self, command: &Command) {
+        match *command {
+            Command::SetView(mode) => self.view.mode = mode,
+            Command::ShowPhotons(on) => self.view.photons = on,
+            Command::ShowPaths(on) => self.view.paths = on.then(ProbedPaths::default),
+            Command::Probe(pixel) => self.view.probed = pixel,
+            _ => {}
         }
     }
 
