@@ -103,9 +103,10 @@ mod tests {
         let rect = Rect::from_min_size(Pos2::ZERO, Vec2::new(120.0, 80.0));
         let film = Film { rect, image: rect, size: Vec2::new(60.0, 40.0) };
         let ctx = egui::Context::default();
-        let output = ctx.run_ui(egui::RawInput::default(), |ui| {
+        let mut output = ctx.run_ui(egui::RawInput::default(), |ui| {
             paths(&ui.painter_at(rect), std::slice::from_ref(&drawn), film);
         });
+        output.textures_delta.clear();
         let lines = output.shapes.iter().filter_map(|shape| match &shape.shape {
             Shape::LineSegment { points, stroke } => Some((*points, stroke.color)),
             _ => None,
