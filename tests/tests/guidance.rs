@@ -6,6 +6,8 @@ use std::sync::Arc;
 
 use foton_format::{Options, open};
 use foton_integrator::{Cancel, DirectLight, PpmSettings, Render, RenderSettings};
+use foton_math::Rgb;
+use foton_math::glam::DVec3;
 use foton_scene::Scene;
 
 const ASSETS: [&str; 7] =
@@ -76,6 +78,33 @@ fn noise_falls_where_most_photons_are_not_seen() {
     let scene = asset("ring");
     let [with, without] = [true, false].map(|guided| noise(&luminances(&scene, guided, 5, 6)));
     assert!(with < 0.5 * without, "{with} for {without}");
+}
+
+/// In a furnace that emits 1 and reflects half of what arrives, radiance is 2 everywhere.
+#[test]
+fn the_error_is_known_with_guidance_too() {
+    let photons = NonZeroU32::new(10_000).expect("above 0");
+    let settings = |seed| RenderSettings {
+        seed,
+        error: true,
+        ppm: PpmSettings { photons_per_pass: photons, radius: Some(0.1), ..PpmSettings::default() },
+        ..RenderSettings::default()
+    };
+    let walls = foton_tests::grey(0.5);
+    let sketch = foton_tests::Sketch::default()
+        .camera(DVec3::ZERO, -DVec3::Z, 60.0, 32)
+        .room(walls, Some(Rgb::splat(1.0)))
+        .sphere(DVec3::new(0.5, 0.5, -0.2), 0.2, foton_tests::glass(1.5), None);
+    for seed in 0..3 {
+        let render = sketch.render(settings(seed), 24);
+        let error = render.error().expect("passes");
+        let image = render.image();
+        let squares = image.pixels.iter().map(|p| (f64::from(p.luminance()) - 2.0).powi(2));
+        // Relative to what is reflected.
+        let truth = (squares.sum::<f64>() / 1024.0).sqrt();
+        assert!(error.low < truth && truth < error.high, "{error:?}, true {truth}");
+        assert!((error.total / truth - 1.0).abs() < 0.3, "{error:?}, true {truth}");
+    }
 }
 
 #[test]

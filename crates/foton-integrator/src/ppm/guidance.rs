@@ -9,6 +9,8 @@ use foton_transport::photon_map::Chunk;
 /// Where the photons of the next pass start, and what is known of those before.
 pub(crate) struct Guidance {
     cells: Cells,
+    /// Those of the pass before, where cells have been learnt from it.
+    cells_before: Option<Cells>,
     /// What light is worth where; `None` without guidance.
     worth: Option<Worth>,
     samples: Samples,
@@ -19,7 +21,12 @@ impl Guidance {
     pub(super) fn new(sources: &Sources, eye: &EyePaths, guided: bool) -> Self {
         let is_specular = |gloss: u32| eye.gloss.get(gloss as usize).is_some_and(|gloss| gloss.specular);
         let worth = || Worth::new(&eye.hit_points, |hit_point| hit_point.gloss.is_some_and(is_specular));
-        Self { cells: Cells::unguided(sources), worth: guided.then(worth), samples: Samples::default() }
+        Self {
+            cells: Cells::unguided(sources),
+            cells_before: None,
+            worth: guided.then(worth),
+            samples: Samples::default(),
+        }
     }
 
     /// Whether photons have been guided, or will be.
@@ -29,6 +36,11 @@ impl Guidance {
 
     pub(super) const fn cells(&self) -> &Cells {
         &self.cells
+    }
+
+    /// Where the photons of the last whole pass started.
+    pub(super) fn cells_of_last_pass(&self) -> &Cells {
+        self.cells_before.as_ref().unwrap_or(&self.cells)
     }
 
     /// What the pass of so many photons, which follows so many others, has to note.
@@ -49,20 +61,23 @@ impl Guidance {
 
     /// The pass that follows so many others is complete.
     pub(super) fn learn(&mut self, before: u64, sources: &Sources) {
+        self.cells_before = None;
         if self.worth.is_some() && is_training_pass(before) {
-            self.cells = grow(&mut self.samples, sources);
+            let learnt = grow(&mut self.samples, sources);
+            self.cells_before = Some(std::mem::replace(&mut self.cells, learnt));
             self.samples = Samples::default();
         }
     }
 
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
-        self.cells.bytes() + self.worth.as_ref().map_or(0, Worth::bytes) + self.samples.held()
+        let before = self.cells_before.as_ref().map_or(0, Cells::bytes);
+        self.cells.bytes() + before + self.worth.as_ref().map_or(0, Worth::bytes) + self.samples.held()
     }
 
     /// The largest number of bytes that the guidance of passes of so many photons takes.
     pub(super) const fn max_bytes(photons: u64, emitters: usize) -> u64 {
-        let lasting = Worth::MAX_BYTES + Cells::max_bytes(emitters);
+        let lasting = Worth::MAX_BYTES + 2 * Cells::max_bytes(emitters);
         lasting as u64 + Samples::bytes(photons)
     }
 

@@ -27,7 +27,7 @@ pub struct PhotonPath {
 
 impl Ppm {
     /// Paths of photons of the last pass that count for a pixel's hit points as their discs are now, `at_most` of them: of a large pass
-    /// those among its first 65,536. Where emission has learnt since, photons as it would emit them now. `pixel` counts along rows.
+    /// those among its first 65,536. `pixel` counts along rows.
     #[must_use]
     pub(crate) fn paths_to(&self, pixel: usize, at_most: usize) -> Vec<PhotonPath> {
         let Some(pass) = self.passes.checked_sub(1).filter(|_| pixel + 1 < self.hit_points.pixel_start.len())
@@ -35,7 +35,9 @@ impl Ppm {
             return Vec::new();
         };
         let Some(batch) = Batch::all(self.last_photons, self.max_in_batch).next() else { return Vec::new() };
-        let photon_pass = PhotonPass { pass, ..self.photon_pass(self.last_photons, batch) };
+        let cells = self.guidance.cells_of_last_pass();
+        let photon_pass =
+            PhotonPass { pass, cells, training: None, ..self.photon_pass(self.last_photons, batch) };
         let photons = batch.photons(self.last_photons).min(RETRACED);
         let mut found: Vec<Way> = Vec::new();
         // Some chunks at a time, so that a bright pixel is answered at once; the same ones on any number of threads.

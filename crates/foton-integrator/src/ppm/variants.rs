@@ -177,8 +177,8 @@ mod tests {
     use super::*;
     use std::num::NonZeroU32;
 
-    use super::super::settings::{Alpha, DirectLight, RadiusScale};
     use super::super::eye_samples::EyeSamples;
+    use super::super::settings::{Alpha, DirectLight, RadiusScale};
     use super::super::tests::scene::scene;
 
     #[test]

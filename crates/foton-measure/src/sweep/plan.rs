@@ -214,7 +214,10 @@ mod tests {
         assert_eq!(jobs.len(), 1 + 9);
         assert_eq!(jobs[0].configurations.len(), 7 + 4 + 2);
         assert_eq!(jobs[0].configurations.iter().filter(|c| **c == centre).count(), 1);
-        assert!(jobs[1].configurations.len() == 1 && jobs[1].configurations[0].direct_light != centre.direct_light);
+        assert!(
+            jobs[1].configurations.len() == 1
+                && jobs[1].configurations[0].direct_light != centre.direct_light
+        );
         assert!(jobs[2..].iter().all(|job| job.configurations.len() == 7));
         let mut photons: Vec<u32> = jobs[1..].iter().map(|job| job.photons.get()).collect();
         assert_eq!(&photons[..3], [1 << 18, 1 << 17, 1 << 19]);

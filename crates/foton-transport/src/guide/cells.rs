@@ -60,7 +60,8 @@ impl Cells {
     /// One cell for each emitter, as probable as it is without guidance.
     #[must_use]
     pub fn unguided(sources: &Sources) -> Self {
-        let (cells, probabilities) = sources.choices().map(|(i, chance)| (Cell::whole(i as u32), chance)).unzip();
+        let (cells, probabilities) =
+            sources.choices().map(|(i, chance)| (Cell::whole(i as u32), chance)).unzip();
         Self::new(cells, probabilities)
     }
 

@@ -94,7 +94,7 @@ impl Samples {
 #[must_use]
 pub const fn is_training_pass(before: u64) -> bool {
     let pass = before + 1;
-    if pass > 64 { pass % 64 == 0 } else { pass.is_power_of_two() }
+    if pass > 64 { pass.is_multiple_of(64) } else { pass.is_power_of_two() }
 }
 
 /// What a training pass needs while photons fly.

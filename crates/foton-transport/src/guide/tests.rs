@@ -153,7 +153,9 @@ fn numbers_that_an_emitter_does_not_use_are_not_cut() {
     let cells = grow(&mut samples, &sources);
     let mut lamps = cells.iter().filter(|(cell, _)| cell.emitter < 2);
     assert!(lamps.all(|(cell, _)| cell.size[..3] == [1.0; 3]));
-    assert!(cells.iter().all(|(cell, _)| cell.emitter < 2 || cell.size[0] == 1.0 && cell.size[3..] == [1.0; 2]));
+    assert!(
+        cells.iter().all(|(cell, _)| cell.emitter < 2 || cell.size[0] == 1.0 && cell.size[3..] == [1.0; 2])
+    );
 }
 
 #[test]

@@ -192,7 +192,8 @@ impl PhotonPass<'_> {
             return path.stored;
         }
         // Before the grid is asked, whose cells depend on radii.
-        if let (Some(training), Some(sample)) = (&self.training, chunk.samples.get_mut(path.sample as usize)) {
+        if let (Some(training), Some(sample)) = (&self.training, chunk.samples.get_mut(path.sample as usize))
+        {
             sample.is_stored(path.power, training.worth.at(surface.position));
         }
         let Some(cell) = self.grid.number(surface.position) else { return path.stored };
