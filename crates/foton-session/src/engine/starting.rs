@@ -49,7 +49,7 @@ impl Starting {
         Self { result, share, cancel }
     }
 
-    /// The share of the pixels that have their hit points.
+    /// The share of the eye samples that have been followed.
     pub(super) fn share(&self) -> f64 {
         f64::from_bits(self.share.load(Ordering::Relaxed))
     }
