@@ -63,6 +63,11 @@ impl Followed {
     pub(super) fn none(scene: Arc<Scene>, settings: RenderSettings) -> Self {
         Self { eye: EyeSamples::new(scene, settings), took: Duration::ZERO }
     }
+
+    /// The share of all samples.
+    pub(super) fn share(&self) -> f64 {
+        f64::from(self.eye.followed()) / f64::from(self.eye.settings().samples_per_pixel.get())
+    }
 }
 
 /// A render at one level.
