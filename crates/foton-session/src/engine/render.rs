@@ -346,3 +346,6 @@ fn classes(render: &Render, reflected: [bool; 3], emission: bool) -> Image {
     };
     layers.fold(first, add).unwrap_or_else(|| render.image())
 }
+
+#[cfg(test)]
+mod tests;
