@@ -38,9 +38,9 @@ impl Guidance {
         &self.cells
     }
 
-    /// Where the photons of the last whole pass started.
-    pub(super) fn cells_of_last_pass(&self) -> &Cells {
-        self.cells_before.as_ref().unwrap_or(&self.cells)
+    /// Where photons started: those of the pass under way, or of the one before.
+    pub(super) fn cells_of(&self, is_under_way: bool) -> &Cells {
+        self.cells_before.as_ref().filter(|_| !is_under_way).unwrap_or(&self.cells)
     }
 
     /// What the pass of so many photons, which follows so many others, has to note.
