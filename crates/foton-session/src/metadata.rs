@@ -74,11 +74,11 @@ pub(crate) fn of(render: &Render, layers: &[LayerKind], scene: &SceneIdentity) -
         ("foton:passes", render.passes().to_string()),
         ("foton:photons", render.photons_emitted().to_string()),
         ("foton:seed", s.seed.to_string()),
-        ("foton:photon-seed", s.photon_seed().to_string()),
         ("foton:settings", settings),
         ("foton:changes", changes.join("\n")),
     ]
     .into_iter()
+    .chain(s.photon_seed.map(|seed| ("foton:photon-seed", seed.to_string())))
     .chain(error.map(|error| ("foton:error", error)))
     .collect()
 }

@@ -34,7 +34,7 @@ pub(super) fn of(render: &Render, scene: &SceneIdentity) -> String {
         ("sensor", sensor.name.replace('\n', " ")),
         ("size", size(sensor)),
         ("seed", s.seed.to_string()),
-        ("photon-seed", s.photon_seed().to_string()),
+        ("photon-seed", s.photon_seed.map_or_else(|| "that of all".to_owned(), |seed| seed.to_string())),
         ("spp", s.samples_per_pixel.to_string()),
         ("radius", radius),
         ("radius-rule", s.ppm.radius_rule.name().to_owned()),
