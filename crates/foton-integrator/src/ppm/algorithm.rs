@@ -11,13 +11,13 @@ use foton_transport::photon_map::{Chunk, Grid, PhotonMap};
 use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite, ShouldSuspend, Stage};
 use pulp::Arch;
 
-use super::direct::Direct;
+use super::direct::{Direct, by_shadow_rays};
 use super::eye_samples::eye_pass;
 use super::hit_points::HitPoints;
 use super::light::Light;
 use super::lobes::lobe_use;
 use super::report::{PassReport, Start};
-use super::settings::{DirectLight, RadiusRule};
+use super::settings::RadiusRule;
 use super::slots::EarlierBatches;
 use super::under_way::UnderWay;
 use crate::changes::Changes;
@@ -89,7 +89,7 @@ impl Ppm {
         let max_depth = settings.max_depth_in(&scene);
         let eye = eye_pass(&scene, &settings, max_depth, Purpose::Eye).run(cancel, tell)?;
         watch(Stage::Layout);
-        let shadow_rays = settings.ppm.direct_light == DirectLight::ShadowRays;
+        let shadow_rays = by_shadow_rays(&scene, &settings);
         let normals = lobe_use(&scene).shading_normals;
         let hit_points =
             HitPoints::new(&eye.hit_points, &eye.gloss, eye.pixel_start(), normals, shadow_rays, cancel)?;

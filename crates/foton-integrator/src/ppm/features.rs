@@ -8,7 +8,7 @@ use foton_transport::LobeUse;
 use foton_transport::camera_paths::Gloss;
 
 use super::adaptive::RadiusStatistics;
-use super::direct::Direct;
+use super::direct::{Direct, by_shadow_rays};
 use super::hit_points::ShadowOrigin;
 use super::lobes::lobe_use;
 use super::radiance::Radiance;
@@ -55,7 +55,7 @@ pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
         .into_iter()
         .chain(surfaces(census, lobes))
         .chain(emitters(census, aims));
-    parts.chain(asked_for(settings)).collect()
+    parts.chain([shadow_rays(scene, settings)]).chain(asked_for(settings)).collect()
 }
 
 fn eye_paths(census: &Census, lobes: LobeUse, hit_points_per_sample: NonZeroU32) -> [Feature; 5] {
@@ -160,15 +160,21 @@ fn emitters(census: &Census, aims_at_casters: bool) -> [Feature; 2] {
     ]
 }
 
-fn asked_for(settings: &RenderSettings) -> [Feature; 4] {
+fn shadow_rays(scene: &Scene, settings: &RenderSettings) -> Feature {
+    let reasons = match settings.ppm.direct_light {
+        DirectLight::Auto => [
+            "what is seen sees the emitters",
+            "photons bring direct light: some is a narrow beam, or what is seen hardly sees the emitters",
+        ],
+        _ => ["asked for by --direct", "--direct asks for photons"],
+    };
+    let feature =
+        Feature::new("shadow rays", by_shadow_rays(scene, settings), reasons, "about a quarter of a pass");
+    feature.with_bytes(size_of::<ShadowOrigin>(), Direct::BYTES_PER_PIXEL)
+}
+
+fn asked_for(settings: &RenderSettings) -> [Feature; 3] {
     [
-        Feature::new(
-            "shadow rays",
-            settings.ppm.direct_light == DirectLight::ShadowRays,
-            ["asked for by --direct", "direct light comes by photons"],
-            "about a quarter of a pass",
-        )
-        .with_bytes(size_of::<ShadowOrigin>(), Direct::BYTES_PER_PIXEL),
         Feature::new(
             "light by path class",
             settings.layers,

@@ -80,8 +80,8 @@ impl Configuration {
         if self.radius_rule != RadiusRule::default() {
             options += &format!(" --radius-rule {}", self.radius_rule.name());
         }
-        if self.direct_light == DirectLight::ShadowRays {
-            options += " --direct shadow-rays";
+        if self.direct_light != DirectLight::default() {
+            options += &format!(" --direct {}", self.direct_light.name());
         }
         options
     }
@@ -106,8 +106,10 @@ impl fmt::Display for Configuration {
             RadiusRule::Global => write!(f, " shrinking together")?,
             RadiusRule::Adaptive => {}
         }
-        if self.direct_light == DirectLight::ShadowRays {
-            write!(f, ", shadow rays")?;
+        match self.direct_light {
+            DirectLight::Auto => {}
+            DirectLight::Photons => write!(f, ", direct light by photons")?,
+            DirectLight::ShadowRays => write!(f, ", shadow rays")?,
         }
         Ok(())
     }
@@ -186,13 +188,9 @@ fn arms(centre: &Configuration) -> Vec<Configuration> {
     let scales = SCALES.into_iter().filter_map(|s| RadiusScale::new(s * centre.radius_scale.get()));
     let mut arms: Vec<Configuration> =
         scales.map(|radius_scale| Configuration { radius_scale, ..*centre }).collect();
-    arms.push(Configuration {
-        direct_light: match centre.direct_light {
-            DirectLight::Photons => DirectLight::ShadowRays,
-            DirectLight::ShadowRays => DirectLight::Photons,
-        },
-        ..*centre
-    });
+    // What is chosen for a scene is one of the two.
+    let ways = [DirectLight::Photons, DirectLight::ShadowRays];
+    arms.extend(ways.map(|direct_light| Configuration { direct_light, ..*centre }));
     arms.extend(RadiusRule::ALL.map(|radius_rule| Configuration { radius_rule, ..*centre }));
     arms.retain(|arm| arm != centre);
     arms
@@ -207,7 +205,7 @@ mod tests {
         let centre = Configuration::of(&RenderSettings::default());
         let jobs = jobs(&centre);
         assert_eq!(jobs.len(), 9);
-        assert_eq!(jobs[0].configurations.len(), 7 + 4 + 3);
+        assert_eq!(jobs[0].configurations.len(), 7 + 4 + 4);
         assert_eq!(jobs[0].configurations.iter().filter(|c| **c == centre).count(), 1);
         assert!(jobs[1..].iter().all(|job| job.configurations.len() == 7));
         let mut photons: Vec<u32> = jobs.iter().map(|job| job.photons.get()).collect();

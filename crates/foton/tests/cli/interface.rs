@@ -10,7 +10,7 @@ const OPTIONS: &[(&str, &[&str])] = &[
     ("--radius-rule", &["local", "global", "adaptive"]),
     ("--radius", &["0.2", "x0.5"]),
     ("--radius-floor", &["0", "1.5"]),
-    ("--direct", &["photons", "shadow-rays"]),
+    ("--direct", &["auto", "photons", "shadow-rays"]),
     ("--photons", &["500"]),
     ("--alpha", &["0.5", "1"]),
     ("--error", &["off", "2%", "0.02"]),

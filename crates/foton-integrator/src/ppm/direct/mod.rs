@@ -8,11 +8,13 @@
 //! the noise falls faster than that of independent ones, and the difference of both sequences' means still says how large it is
 //! `[OWE98]`. Rays of one pixel never serve another, so variances of pixels add up.
 
+mod choice;
 mod lighting;
 mod noise;
 mod order;
 mod sums;
 
+pub(crate) use choice::by_shadow_rays;
 pub(crate) use lighting::Lighting;
 pub(crate) use noise::Noise;
 pub(crate) use sums::{Direct, Lit};
