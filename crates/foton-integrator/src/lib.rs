@@ -21,8 +21,9 @@ pub use foton_transport::{
 };
 pub use layers::LayerKind;
 pub use ppm::{
-    Alpha, DirectLight, Disc, Feature, MemoryEstimate, PassReport, PpmSettings, Radii, RadiusFloor,
-    RadiusRule, RadiusScale, Start, Statistics, Step, StoredPhoton, Variants, features, lobe_use,
+    Alpha, DirectLight, Disc, EyeSamples, Feature, MemoryEstimate, PassReport, PpmSettings, Radii,
+    RadiusFloor, RadiusRule, RadiusScale, Start, Statistics, Step, StoredPhoton, Variants, features,
+    lobe_use,
 };
 pub use render::Render;
 pub use settings::{Method, RenderSettings, SettingChange};

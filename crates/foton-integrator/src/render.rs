@@ -11,7 +11,7 @@ use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite
 
 use crate::error::{ErrorEstimate, TileError};
 use crate::layers::LayerKind;
-use crate::ppm::{Disc, PassReport, Ppm, Radii, Start, StoredPhoton};
+use crate::ppm::{Disc, EyeSamples, PassReport, Ppm, Radii, Start, StoredPhoton};
 use crate::settings::{Method, RenderSettings, SettingChange};
 
 /// A scene, settings, and what passes have made of them so far.
@@ -56,9 +56,39 @@ impl Render {
         watch: &mut dyn FnMut(Stage),
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
-        match settings.method {
+        Self::over(EyeSamples::new(scene, settings), tell, watch, cancel)
+    }
+
+    /// As [`Render::start_telling`], over eye samples of which some have been followed: no bit is another for that.
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub fn over(
+        eye: EyeSamples,
+        tell: &(dyn Fn(f64) + Sync),
+        watch: &mut dyn FnMut(Stage),
+        cancel: &Cancel,
+    ) -> Result<Self, Cancelled> {
+        match eye.settings().method {
+            Method::Ppm => Ok(Self(Running::Ppm(Box::new(Ppm::start(eye, tell, watch, cancel)?)))),
+        }
+    }
+
+    /// A render over the first `samples` of each pixel alone, to be looked at while the others are followed. Its passes have `settings` of
+    /// their own, and first radii are multiplied by `widened`.
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub fn over_some(
+        (eye, samples): (&mut EyeSamples, u32),
+        (settings, widened): (RenderSettings, f32),
+        tell: &(dyn Fn(f64) + Sync),
+        watch: &mut dyn FnMut(Stage),
+        cancel: &Cancel,
+    ) -> Result<Self, Cancelled> {
+        match eye.settings().method {
             Method::Ppm => {
-                let ppm = Ppm::start(scene, settings, tell, watch, cancel)?;
+                let ppm = Ppm::start_with_some((eye, samples), (settings, widened), tell, watch, cancel)?;
                 Ok(Self(Running::Ppm(Box::new(ppm))))
             }
         }

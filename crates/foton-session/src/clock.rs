@@ -15,6 +15,11 @@ impl StageTimes {
         self.0[stage as usize]
     }
 
+    /// Adds time to a stage.
+    pub(crate) fn add(&mut self, stage: Stage, time: Duration) {
+        self.0[stage as usize] += time;
+    }
+
     /// Each stage with its time, in order.
     pub fn iter(&self) -> impl Iterator<Item = (Stage, Duration)> {
         Stage::ALL.into_iter().zip(self.0)

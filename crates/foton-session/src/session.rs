@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use foton_integrator::{
     Cancel, Cancelled, Halt, MemoryEstimate, NotFinite, PassReport, Render, RenderSettings, ShouldSuspend,
-    StateError, Suspended,
+    Stage, StateError, Suspended,
 };
 use foton_scene::Scene;
 use rayon::{ThreadPool, ThreadPoolBuildError};
@@ -128,7 +128,7 @@ impl Session {
         threads::pool(threads, Rank::Equal)
     }
 
-    /// Collects hit points on the threads of `pool`, which tell what share of the pixels is done.
+    /// Collects hit points on the threads of `pool`, which tell what share of the eye samples is followed.
     pub(crate) fn start_on(
         pool: Arc<ThreadPool>,
         scene: Arc<Scene>,
@@ -136,21 +136,32 @@ impl Session {
         tell: &(dyn Fn(f64) + Sync),
         cancel: &Cancel,
     ) -> Result<Self, StartError> {
+        Self::start_by(pool, settings.seed, Duration::ZERO, |watch| {
+            Render::start_telling(scene, settings, tell, watch, cancel)
+        })
+    }
+
+    /// Starts a render on the threads of `pool`, by eye samples of which some took `followed` before. `seed` chooses a fault for tests.
+    pub(crate) fn start_by(
+        pool: Arc<ThreadPool>,
+        seed: u64,
+        followed: Duration,
+        start: impl FnOnce(&mut dyn FnMut(Stage)) -> Result<Render, Cancelled> + Send,
+    ) -> Result<Self, StartError> {
         let mut stages = StageTimes::default();
+        stages.add(Stage::EyePass, followed);
         let begin = Instant::now();
         let render = {
             let mut clock = StageClock::new(&mut stages);
-            let seed = settings.seed;
             let mut watch = |stage| {
                 clock.begin(stage);
                 inject_fault(seed, stage, 0);
             };
-            let started = catch_panic(|| {
-                pool.install(|| Render::start_telling(scene, settings, tell, &mut watch, cancel))
-            });
+            let started = catch_panic(|| pool.install(|| start(&mut watch)));
             started.map_err(|message| Panic { stage: clock.stage(), message })??
         };
-        Ok(Self { render, pool, stages, elapsed: begin.elapsed(), rays: 0, panic: None, not_finite: None })
+        let elapsed = followed.saturating_add(begin.elapsed());
+        Ok(Self { render, pool, stages, elapsed, rays: 0, panic: None, not_finite: None })
     }
 
     /// Runs passes until `rule` or `interrupt` says stop. `after_pass` sees each pass, and its time is not counted. It cannot

@@ -33,8 +33,9 @@ cargo xtask pictures [--window]     renders every scene in assets/ to docs/pictu
 cargo xtask screenshots [FOLDER]    the window in each state of its panels, both themes and several sizes (target/screenshots), to look at
 cargo xtask bench [WHAT]            how fast, on a quiet machine: whole (the benchmark box, stage by stage), parts (by criterion), scaling,
                                     wide, accuracy (error a processor second), answers (commands within a
-                                    long pass), census (what leaving parts out saves), to-error (processor
-                                    time that one foton needs to the error of another, scene by scene)
+                                    long pass), first-light (the window's first seconds), census (what
+                                    leaving parts out saves), to-error (processor time that one foton needs
+                                    to the error of another, scene by scene)
 cargo xtask monkey [--minutes N]    random clicks and keys in the window for N (10) minutes: no error, no memory that grows
 cargo xtask soak [MINUTES]          one small render for MINUTES (20): no memory that grows, no drift of the mean, no NaN
 cargo xtask kills [N]               kills N (200) renders at random moments: all checkpoints open, no file is half of one

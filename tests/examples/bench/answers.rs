@@ -22,10 +22,10 @@ const ROUNDS: usize = 10;
 const PATIENCE: Duration = Duration::from_secs(600);
 
 /// The default scene, with passes of so many photons, whatever is asked for.
-struct DefaultScene(PpmSettings);
+pub(crate) struct DefaultScene(pub(crate) PpmSettings);
 
 impl DefaultScene {
-    fn settings(&self) -> RenderSettings {
+    pub(crate) fn settings(&self) -> RenderSettings {
         let samples_per_pixel = NonZeroU32::new(4).expect("not zero");
         RenderSettings { error: true, samples_per_pixel, ppm: self.0, ..RenderSettings::default() }
     }
@@ -59,11 +59,15 @@ fn opened() -> Result<foton_format::Opened, String> {
     foton_format::open(&path, &foton_format::Options::default()).map_err(|error| error.to_string())
 }
 
+pub(crate) fn built() -> Arc<Scene> {
+    Arc::new(Scene::build(&opened().expect("it ships with foton").description).expect("sound"))
+}
+
 /// From the scene to its first whole pass: the engine with its previews, and a session without.
 fn first_pass() -> [f64; 2] {
     let loader = DefaultScene(PpmSettings::default());
     let (settings, cancel) = (loader.settings(), Cancel::default());
-    let scene = Arc::new(Scene::build(&opened().expect("it ships with foton").description).expect("sound"));
+    let scene = built();
     let begin = Instant::now();
     let mut session = Session::start(scene, settings, None, &cancel).expect("starts");
     session.advance(&cancel).expect("a pass");
@@ -72,13 +76,13 @@ fn first_pass() -> [f64; 2] {
     let engine = Engine::spawn(Setup::new(Arc::new(loader), Box::new(|| ()), None));
     let engine = engine.expect("a thread");
     engine.send(Command::Open(Source::File(PathBuf::new())));
-    until(&engine, &|f| f.activity == Activity::Collecting);
+    until(&engine, &mut |f| f.activity == Activity::Collecting);
     let begin = Instant::now();
-    until(&engine, &|f| f.stats.passes > 0);
+    until(&engine, &mut |f| f.stats.passes > 0);
     [begin.elapsed().as_secs_f64(), alone]
 }
 
-fn until(engine: &Engine, is_it: &dyn Fn(&Frame) -> bool) -> Frame {
+pub(crate) fn until(engine: &Engine, is_it: &mut dyn FnMut(&Frame) -> bool) -> Frame {
     loop {
         let frame = engine.frames().recv_timeout(PATIENCE).expect("the engine answers");
         while let Some(event) = engine.event() {
@@ -104,12 +108,12 @@ pub(crate) fn print() {
     let setup = Setup::new(Arc::new(DefaultScene(long)), Box::new(|| ()), None);
     let engine = Engine::spawn(setup).expect("a thread");
     engine.send(Command::Open(Source::File(PathBuf::new())));
-    until(&engine, &|f| f.activity == Activity::Rendering && f.pass_share > 0.0);
+    until(&engine, &mut |f| f.activity == Activity::Rendering && f.pass_share > 0.0);
     let mut rows: Vec<(&str, Vec<f64>)> = Vec::new();
     let mut time = |name: &'static str, command: Command, is_it: &dyn Fn(&Frame) -> bool| {
         let begin = Instant::now();
         engine.send(command);
-        let frame = until(&engine, is_it);
+        let frame = until(&engine, &mut |f| is_it(f));
         let took = 1e3 * begin.elapsed().as_secs_f64();
         match rows.iter_mut().find(|(n, _)| *n == name) {
             Some((_, all)) => all.push(took),
@@ -118,7 +122,7 @@ pub(crate) fn print() {
         frame
     };
     for round in 0..ROUNDS {
-        until(&engine, &|f| f.selection.is_none() && f.stats.passes > 0 && f.pass_share > 0.0);
+        until(&engine, &mut |f| f.selection.is_none() && f.stats.passes > 0 && f.pass_share > 0.0);
         let_it_work(round);
         let middle = [480.0, 400.0];
         time("select", Command::Choose(Some(middle)), &|f| f.selection.is_some());
@@ -137,7 +141,7 @@ pub(crate) fn print() {
         time("view back", Command::SetView(ViewMode::Radiance), &|f| f.view == ViewMode::Radiance);
         let_it_work(round);
         engine.send(Command::Choose(Some(middle)));
-        let before = until(&engine, &|f| f.selection.is_some());
+        let before = until(&engine, &mut |f| f.selection.is_some());
         let nudge = SceneEdit::Nudge { steps: [1.0, 0.0], mode: DragMode::Horizontal };
         let shown = move |f: &Frame| f.render > before.render && f.pictured == f.render;
         let edited = time("edit, its preview", Command::Edit(nudge), &shown);

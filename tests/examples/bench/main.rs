@@ -2,12 +2,13 @@
 //!
 //! `whole` (also without a word): stages, rates, efficiency and memory of the benchmark box. `scaling`: a pass over triangles, photons
 //! and hit points. `wide`: scenes that ask for more. `accuracy`: error a processor second. `answers`: commands within a long
-//! pass. Figures are medians over passes of the wall's time: they mean little on a machine that does anything else. `to-error`: the
-//! processor time that one foton needs to the error of another.
+//! pass. Figures are medians over passes of the wall's time: they mean little on a machine that does anything else. `first-light`: what the
+//! window shows in its first seconds of processor time. `to-error`: the processor time that one foton needs to the error of another.
 #![allow(clippy::print_stdout, reason = "a program that prints tables")]
 
 mod accuracy;
 mod answers;
+mod first_light;
 mod rig;
 mod scaling;
 mod to_error;
@@ -21,9 +22,12 @@ fn main() {
         Some("wide") => wide::print(),
         Some("accuracy") => accuracy::print(),
         Some("answers") => answers::print(),
+        Some("first-light") => first_light::print(),
         Some("to-error") => to_error::print(&std::env::args().skip(2).collect::<Vec<_>>()),
         Some(other) => {
-            eprintln!("no benchmark \"{other}\": whole, scaling, wide, accuracy, answers, to-error");
+            eprintln!(
+                "no benchmark \"{other}\": whole, scaling, wide, accuracy, answers, first-light, to-error"
+            );
             std::process::exit(2);
         }
     }

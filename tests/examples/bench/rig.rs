@@ -1,5 +1,6 @@
 //! Renders that are timed stage by stage, pass by pass.
 
+use std::fs;
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -18,6 +19,9 @@ pub(crate) const PHOTONS: u32 = 1 << 18;
 pub(crate) const WARM_UP: usize = 16;
 
 const STAGES: usize = Stage::ALL.len();
+
+/// Of the numbers in `/proc/PID/stat`: the same on all Linux systems.
+const TICKS_PER_SECOND: f64 = 100.0;
 
 /// What one render took.
 pub(crate) struct Run {
@@ -49,6 +53,15 @@ pub(crate) fn root() -> &'static Path {
 /// The folder that cargo builds into.
 pub(crate) fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
+}
+
+/// Processor time of a running process, user's and system's.
+pub(crate) fn processor_seconds(id: u32) -> Option<f64> {
+    let stat = fs::read_to_string(Path::new("/proc").join(id.to_string()).join("stat")).ok()?;
+    // The name, in brackets, may hold anything.
+    let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
+    let ticks: u64 = fields.get(11..13)?.iter().filter_map(|field| field.parse::<u64>().ok()).sum();
+    Some(ticks as f64 / TICKS_PER_SECOND)
 }
 
 /// FNV-1a.

@@ -2,30 +2,23 @@
 
 use std::sync::Arc;
 
-use foton_math::Purpose;
-use foton_math::glam::Vec3;
 use foton_scene::{Scene, Sources};
-use foton_transport::camera_paths::HitPoint;
 use foton_transport::light_paths::MAX_PHOTONS;
 use foton_transport::photon_map::{Chunk, Grid, PhotonMap};
 use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite, ShouldSuspend, Stage};
 use pulp::Arch;
 
 use super::direct::{Direct, by_shadow_rays};
-use super::eye_samples::eye_pass;
+use super::eye_samples::EyeSamples;
 use super::hit_points::HitPoints;
+use super::laid_out::LaidOut;
 use super::light::Light;
-use super::lobes::lobe_use;
 use super::report::{PassReport, Start};
-use super::settings::RadiusRule;
 use super::slots::EarlierBatches;
 use super::under_way::UnderWay;
 use crate::changes::Changes;
 use crate::error::ErrorSums;
 use crate::settings::{RenderSettings, SettingChange};
-
-/// About this many hit points stand for all of them.
-pub(super) const MAX_PROBED: usize = 4096;
 
 /// A render under way.
 pub(crate) struct Ppm {
@@ -66,44 +59,61 @@ pub(crate) struct Ppm {
     pub(super) arch: Arch,
 }
 
-/// Where photons start, for an eye that sees these points.
-fn sources(scene: &Scene, seen: &[HitPoint]) -> Sources {
-    let disc = |h: &HitPoint| (h.position, h.radius2.sqrt());
-    let discs: Vec<(Vec3, f32)> = seen.iter().step_by((seen.len() / MAX_PROBED).max(1)).map(disc).collect();
-    scene.sources(&discs)
-}
-
 impl Ppm {
-    /// Collects hit points. `tell` is told by many threads what share of the pixels has its hit points, `watch` each stage as it begins.
+    /// Collects hit points. `tell` is told by many threads what share of the eye samples is followed, `watch` each stage as it begins.
     ///
     /// # Errors
     /// When cancelled.
     pub(crate) fn start(
-        scene: Arc<Scene>,
-        settings: RenderSettings,
+        mut eye: EyeSamples,
         tell: &(dyn Fn(f64) + Sync),
         watch: &mut dyn FnMut(Stage),
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
         watch(Stage::EyePass);
-        let max_depth = settings.max_depth_in(&scene);
-        let eye = eye_pass(&scene, &settings, max_depth, Purpose::Eye).run(cancel, tell)?;
+        eye.follow_all(cancel, tell)?;
         watch(Stage::Layout);
-        let shadow_rays = by_shadow_rays(&scene, &settings);
-        let normals = lobe_use(&scene).shading_normals;
-        let hit_points =
-            HitPoints::new(&eye.hit_points, &eye.gloss, eye.pixel_start(), normals, shadow_rays, cancel)?;
-        let adapts = settings.ppm.radius_rule == RadiusRule::Adaptive;
-        let hit_points =
-            if settings.error || adapts { hit_points.with_radius_statistics() } else { hit_points };
-        let start = Start { hit_points: hit_points.len() as u64, eye_rays: eye.rays, dropped: eye.dropped };
-        let sources = sources(&scene, &eye.hit_points);
-        let not_finite = eye.left_out.map(|left_out| NotFinite::new(&scene, 0, left_out));
-        drop((eye.hit_points, eye.gloss));
+        let laid_out = LaidOut::new(&eye, &eye.settings, 1.0, cancel)?;
+        let EyeSamples { scene, settings, paths } = eye;
+        let shapes = paths.shapes;
+        // What was found is most of the memory at this point, and not needed any more.
+        drop((paths.hit_points, paths.gloss));
+        Self::over(scene, settings, shapes, laid_out, cancel)
+    }
+
+    /// The same over the first `samples` of each pixel alone: to be looked at while the others are followed, with other `settings` of
+    /// passes, and with first radii multiplied by `widened`.
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub(crate) fn start_with_some(
+        (eye, samples): (&mut EyeSamples, u32),
+        (settings, widened): (RenderSettings, f32),
+        tell: &(dyn Fn(f64) + Sync),
+        watch: &mut dyn FnMut(Stage),
+        cancel: &Cancel,
+    ) -> Result<Self, Cancelled> {
+        watch(Stage::EyePass);
+        eye.follow(samples, cancel, tell)?;
+        watch(Stage::Layout);
+        let laid_out = LaidOut::new(eye, &settings, widened, cancel)?;
+        Self::over(Arc::clone(&eye.scene), settings, eye.paths.shapes.clone(), laid_out, cancel)
+    }
+
+    fn over(
+        scene: Arc<Scene>,
+        settings: RenderSettings,
+        shapes: Vec<u32>,
+        laid_out: LaidOut,
+        cancel: &Cancel,
+    ) -> Result<Self, Cancelled> {
+        let LaidOut { hit_points, sources, samples, emission, start, not_finite } = laid_out;
+        cancel.check()?;
         let grid = Grid::new(&hit_points.packets, cancel)?;
         cancel.check()?;
-        let (width, samples) = (scene.sensors()[settings.sensor].width, settings.samples_per_pixel.get());
-        let direct = shadow_rays.then(|| Direct::new(&scene, &hit_points, width));
+        let width = scene.sensors()[settings.sensor].width;
+        let direct =
+            by_shadow_rays(&scene, &settings).then(|| Direct::new(&scene, &hit_points, width, samples));
         let error = settings.error.then(|| ErrorSums::new(&hit_points, width, samples));
         cancel.check()?;
         Ok(Self {
@@ -111,11 +121,11 @@ impl Ppm {
             losses: vec![Loss::default(); scene.materials().len()],
             scene,
             sources,
-            light: Light::new(eye.emission, &hit_points, &settings),
+            light: Light::new(emission, &hit_points, samples, settings.layers),
             direct,
             settings,
             hit_points,
-            shapes: eye.shapes,
+            shapes,
             error,
             grid,
             marked_radius2: f64::INFINITY,

@@ -8,8 +8,9 @@ use std::ops::Range;
 use foton_math::Rgb;
 use foton_math::glam::Vec3;
 use foton_transport::camera_paths::{Gloss, HitPoint};
-use foton_transport::photon_map::{self, LANES, Packet};
+use foton_transport::photon_map::{self, Groups, LANES, Packet};
 use foton_transport::{Cancel, Cancelled, LeftOut, Quantity};
+use rayon::prelude::*;
 
 use super::adaptive::RadiusStatistics;
 use super::statistics::Statistics;
@@ -62,54 +63,57 @@ impl HitPoints {
         shadow_rays: bool,
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
-        let mut groups = photon_map::group(found, |h| h.gloss.is_none(), cancel)?;
-        let first_glossy = groups.len();
-        if !gloss.is_empty() {
-            groups.extend(photon_map::group(found, |h| h.gloss.is_some(), cancel)?);
-        }
-        let mut gloss_slots = vec![None; (groups.len() - first_glossy) * LANES];
-        let mut packets = Vec::with_capacity(groups.len());
-        let mut normals = Vec::with_capacity(if shading_normals { groups.len() } else { 0 });
-        let mut slot_of = vec![0u32; found.len()];
-        let slots = groups.len() * LANES;
-        let mut statistics_slots = vec![Statistics::EMPTY_SLOT; slots];
-        let mut smallest2_slots = vec![0.0; slots];
+        let lambertian = photon_map::group(found, |h| h.gloss.is_none(), cancel)?;
+        let glossy = if gloss.is_empty() {
+            Groups::default()
+        } else {
+            photon_map::group(found, |h| h.gloss.is_some(), cancel)?
+        };
+        let groups: Vec<&[u32]> = lambertian.iter().chain(glossy.iter()).collect();
+        let packet =
+            |(p, group): (usize, &&[u32])| cancel.check_at(p).map(|()| Packet::new(members(found, group)));
+        let packets = groups.par_iter().enumerate().map(packet).collect::<Result<_, _>>()?;
+        let rows = |group: &&[u32]| photon_map::rows(members(found, group).map(|h| h.shading_normal / 127.0));
+        let none = if shading_normals { 0 } else { groups.len() };
+        let of_glossy = |h: &HitPoint| h.gloss.map(|g| gloss[g as usize]);
+        let shadow = |h: &HitPoint| ShadowOrigin { origin: h.origin, shading_normal: h.shading_normal };
         let nowhere = ShadowOrigin { origin: Vec3::ZERO, shading_normal: Vec3::ZERO };
-        let mut shadow_slots = vec![nowhere; if shadow_rays { slots } else { 0 }];
+        let shadowed = if shadow_rays { &groups[..] } else { &[] };
+        let mut slot_of = vec![0u32; found.len()];
         for (p, group) in groups.iter().enumerate() {
             cancel.check_at(p)?;
-            let members = || group.iter().map(|&i| &found[i as usize]);
-            packets.push(Packet::new(members()));
-            if shading_normals {
-                normals.push(photon_map::rows(members().map(|h| h.shading_normal / 127.0)));
-            }
             for (lane, &i) in group.iter().enumerate() {
-                let slot = p * LANES + lane;
-                let h = &found[i as usize];
-                slot_of[i as usize] = slot as u32;
-                statistics_slots[slot] = Statistics::new(h.radius2);
-                smallest2_slots[slot] = h.smallest2;
-                if let Some(g) = h.gloss {
-                    gloss_slots[slot - first_glossy * LANES] = Some(gloss[g as usize]);
-                }
-                if let Some(shadow) = shadow_slots.get_mut(slot) {
-                    *shadow = ShadowOrigin { origin: h.origin, shading_normal: h.shading_normal };
-                }
+                slot_of[i as usize] = (p * LANES + lane) as u32;
             }
         }
         Ok(Self {
             packets,
-            first_glossy,
-            gloss_slots,
-            shading_normals: normals,
-            shadow_slots,
-            statistics_slots,
-            smallest2_slots,
+            first_glossy: lambertian.count(),
+            gloss_slots: by_slot(&groups[lambertian.count()..], found, None, of_glossy),
+            shading_normals: groups[none..].par_iter().map(rows).collect(),
+            shadow_slots: by_slot(shadowed, found, nowhere, shadow),
+            statistics_slots: by_slot(&groups, found, Statistics::EMPTY_SLOT, |h| Statistics::new(h.radius2)),
+            smallest2_slots: by_slot(&groups, found, 0.0, |h| h.smallest2),
             radius_statistics_slots: Vec::new(),
             slot_of,
             weights: found.iter().map(|h| h.weight).collect(),
             pixel_start,
         })
+    }
+
+    /// With first radii multiplied by a factor.
+    #[must_use]
+    pub(crate) fn widened(mut self, factor: f32) -> Self {
+        let slots = self.statistics_slots.par_chunks_mut(LANES);
+        slots.zip(&mut self.packets).for_each(|(statistics, packet)| {
+            for (radius2, statistics) in
+                packet.radius2.iter_mut().zip(statistics).filter(|(r2, _)| **r2 >= 0.0)
+            {
+                *radius2 *= factor * factor;
+                *statistics = Statistics::new(*radius2);
+            }
+        });
+        self
     }
 
     /// Makes room for what radii that adapt go by, and the error's upper end.
@@ -163,4 +167,24 @@ impl HitPoints {
             + (size_of::<u32>() + size_of::<Rgb>()) * self.slot_of.len()
             + size_of::<u32>() * self.pixel_start.len()
     }
+}
+
+fn members<'a>(found: &'a [HitPoint], group: &'a [u32]) -> impl Iterator<Item = &'a HitPoint> + Clone {
+    group.iter().map(|&i| &found[i as usize])
+}
+
+/// A value for each slot of some groups, `empty` where there is no hit point.
+fn by_slot<T: Copy + Send + Sync>(
+    groups: &[&[u32]],
+    found: &[HitPoint],
+    empty: T,
+    of: impl Fn(&HitPoint) -> T + Sync,
+) -> Vec<T> {
+    let mut slots = vec![empty; groups.len() * LANES];
+    slots.par_chunks_mut(LANES).zip(groups).for_each(|(slots, group)| {
+        for (slot, &i) in slots.iter_mut().zip(*group) {
+            *slot = of(&found[i as usize]);
+        }
+    });
+    slots
 }

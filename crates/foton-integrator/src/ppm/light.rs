@@ -9,7 +9,6 @@ use super::direct::Direct;
 use super::hit_points::{HitPoints, Irradiance};
 use super::radiance::Radiance;
 use crate::error::{self, ErrorSums, PassFacts};
-use crate::settings::RenderSettings;
 
 /// Light of one pass at the hit points, and of all passes in the pixels.
 pub(crate) struct Sums<const LAYERS: usize> {
@@ -54,9 +53,8 @@ macro_rules! each {
 }
 
 impl Light {
-    pub(crate) fn new(emission: Vec<Rgb>, hit_points: &HitPoints, settings: &RenderSettings) -> Self {
-        let samples = settings.samples_per_pixel.get();
-        if settings.layers {
+    pub(crate) fn new(emission: Vec<Rgb>, hit_points: &HitPoints, samples: u32, by_class: bool) -> Self {
+        if by_class {
             Self::ByClass(Sums::new(emission, hit_points, samples))
         } else {
             Self::Whole(Sums::new(emission, hit_points, samples))

@@ -78,6 +78,12 @@ impl MemoryEstimate {
         Self::PROGRAM_BYTES + lasting + self.photon_bytes.max(self.layout_bytes)
     }
 
+    /// The largest number of bytes that are held at one time while another render of the scene, already under way, is kept.
+    #[must_use]
+    pub fn beside(&self, other: &Self) -> f64 {
+        self.peak_bytes() + other.hit_point_bytes + other.pixel_bytes + other.photon_bytes
+    }
+
     /// That of renders of one scene that share their photons ([`Variants`](crate::Variants)): each has hit points, pixels, and its share
     /// of the photons with their sorted copy; those are handed out from one more. `None` of none.
     #[must_use]

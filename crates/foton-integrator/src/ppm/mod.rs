@@ -10,6 +10,7 @@ mod features;
 mod gather;
 mod hit_points;
 mod inspect;
+mod laid_out;
 mod lanes;
 mod light;
 mod lobes;
@@ -34,6 +35,7 @@ mod variants;
 
 pub(crate) use algorithm::Ppm;
 pub(crate) use direct::{Direct, Noise};
+pub use eye_samples::EyeSamples;
 pub use features::{Feature, features};
 pub(crate) use hit_points::{HitPoints, Irradiance};
 pub use inspect::{Disc, Radii, StoredPhoton};

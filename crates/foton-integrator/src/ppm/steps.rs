@@ -3,10 +3,11 @@
 use foton_transport::light_paths::{Batch, PhotonPass};
 use foton_transport::{Cancel, Cancelled, Halt, LeftOut, NotFinite, ShouldSuspend, Stage, Suspended};
 
-use super::algorithm::{MAX_PROBED, Ppm};
+use super::algorithm::Ppm;
 use super::by_block::ByBlock;
 use super::counts::Counts;
 use super::direct::Lighting;
+use super::laid_out::MAX_PROBED;
 use super::light::Light;
 use super::lobes::LOBE_POLICY;
 use super::report::PassReport;
@@ -165,13 +166,8 @@ impl Ppm {
     ) -> Result<(), Suspended> {
         let Some(direct) = self.direct.as_ref().filter(|_| !pass.is_lit) else { return Ok(()) };
         watch(Stage::ShadowRays);
-        let lighting = Lighting {
-            scene: &self.scene,
-            hit_points: &self.hit_points,
-            seed: self.settings.seed,
-            set: 0,
-            samples: self.settings.samples_per_pixel.get() as f32,
-        };
+        let lighting =
+            Lighting { scene: &self.scene, hit_points: &self.hit_points, seed: self.settings.seed, set: 0 };
         let by_block = ByBlock { done: &mut pass.lit, should_suspend };
         lighting.light(direct, &direct.turns(pass.counts.photons), by_block);
         if pass.lit.iter().any(Option::is_none) {

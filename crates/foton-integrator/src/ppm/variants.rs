@@ -167,6 +167,7 @@ mod tests {
     use super::*;
     use std::num::NonZeroU32;
 
+    use super::super::eye_samples::EyeSamples;
     use super::super::settings::{Alpha, DirectLight};
     use super::super::tests::scene::scene;
 
@@ -196,7 +197,12 @@ mod tests {
             together.advance(&mut |_| (), &cancel).expect("not cancelled");
         }
         for (settings, run) in settings.iter().zip(together.runs()) {
-            let alone = Ppm::start(Arc::clone(&scene), settings.clone(), &|_| (), &mut |_| (), &cancel);
+            let alone = Ppm::start(
+                EyeSamples::new(Arc::clone(&scene), settings.clone()),
+                &|_| (),
+                &mut |_| (),
+                &cancel,
+            );
             let mut alone = alone.expect("not cancelled").with_batches_of(6_000);
             for _ in 0..3 {
                 alone.advance(&mut |_| (), &cancel, NEVER).expect("not cancelled");

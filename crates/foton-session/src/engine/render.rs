@@ -1,12 +1,12 @@
-//! One render under way: a small quick picture first, then the whole one.
+//! One render under way, at one level.
 
-use std::num::NonZeroU32;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use foton_film::{Image, Plane};
 use foton_integrator::{
-    Cancel, Cancelled, LayerKind, PpmSettings, Radii, RadiusScale, Render, RenderSettings, ShouldSuspend,
+    Cancel, Cancelled, EyeSamples, LayerKind, Radii, Render, RenderSettings, SettingChange, ShouldSuspend,
+    Stage,
 };
 use foton_math::Rgb;
 use foton_scene::Scene;
@@ -15,60 +15,10 @@ use rayon::ThreadPool;
 
 use super::command::{ErrorPart, ViewMode};
 use super::frame::{Picture, RenderStats};
+use super::level::Level;
 use super::rates::{Mark, PerSecond, Rates};
 use crate::findings::{self, Finding, SettingNames};
 use crate::session::{PassError, Session, StartError};
-
-/// How much of the whole picture is rendered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Level {
-    /// Few pixels: eye pass and first pass take some tens of milliseconds on two cores.
-    Small,
-    /// Something to look at while the hit points of the whole are collected.
-    Middle,
-    /// All of it.
-    Whole,
-}
-
-impl Level {
-    /// Pixels at most.
-    const fn pixels(self) -> u32 {
-        match self {
-            Self::Small => 160 * 120,
-            Self::Middle => 480 * 360,
-            Self::Whole => u32::MAX,
-        }
-    }
-
-    /// Passes that are rendered before the next level, if nothing moves.
-    const fn passes(self) -> u64 {
-        match self {
-            Self::Small => 1,
-            Self::Middle => 2,
-            Self::Whole => u64::MAX,
-        }
-    }
-
-    /// Photons of a pass at most.
-    const fn photons(self) -> NonZeroU32 {
-        match self {
-            Self::Small => NonZeroU32::new(1 << 13).unwrap(),
-            Self::Middle => NonZeroU32::new(1 << 16).unwrap(),
-            Self::Whole => NonZeroU32::MAX,
-        }
-    }
-
-    /// The level after this one. Where the whole has few eye samples anyway, there is nothing in between.
-    fn next(self, eye_samples: u64) -> Self {
-        match self {
-            Self::Small if eye_samples > 2 * u64::from(Self::Middle.pixels()) => Self::Middle,
-            _ => Self::Whole,
-        }
-    }
-}
-
-/// Factor on the first radius in pictures that are not the whole: smooth light after a pass or two is worth its bias.
-const SMOOTH: f64 = 2.0;
 
 /// Passes that a small picture gets while a person holds still in the middle of a move.
 const SMALL_PASSES: u64 = 8;
@@ -83,6 +33,38 @@ struct RecentRadii {
     radii: Radii,
 }
 
+/// What a picture rests on.
+#[derive(Clone, Copy, Debug)]
+struct Standing {
+    /// Share of hit points without a photon.
+    unlit: f64,
+    /// Photons that a hit point has found on average; zero where that says nothing.
+    found: f64,
+}
+
+impl Standing {
+    /// Whether a picture with more eye samples, and smaller discs, is better than a preview: few more hit points are unlit, if any, and not
+    /// many fewer photons make it noisy.
+    fn beats(self, preview: Self) -> bool {
+        const MORE_UNLIT: f64 = 0.04;
+        const OF_PHOTONS: f64 = 0.6;
+        self.unlit <= preview.unlit + MORE_UNLIT && self.found >= OF_PHOTONS * preview.found
+    }
+}
+
+/// Eye samples that have been followed, and how long that took.
+pub(super) struct Followed {
+    eye: EyeSamples,
+    took: Duration,
+}
+
+impl Followed {
+    /// None yet of a render of a scene.
+    pub(super) fn none(scene: Arc<Scene>, settings: RenderSettings) -> Self {
+        Self { eye: EyeSamples::new(scene, settings), took: Duration::ZERO }
+    }
+}
+
 /// A render at one level.
 pub(super) struct LevelRender {
     session: Session,
@@ -90,31 +72,28 @@ pub(super) struct LevelRender {
     rates: Rates,
     /// How long the pass under way has taken so far.
     pass_took: Duration,
-    /// Share of hit points without a photon in the preview that this render follows.
-    preview_share: f64,
+    /// What the picture rests on that is shown before this one's.
+    preview: Option<Standing>,
     no_photon_share: f64,
+    /// Photons that hit points have found in all passes.
+    found: u64,
     photons_in_pass: u64,
     /// Radii that were at the radius floor in the last pass.
     radii_at_floor: u64,
     radii: Option<RecentRadii>,
+    followed: Option<Followed>,
 }
 
 impl LevelRender {
-    /// The scene as the sensor sees it.
+    /// A picture of fewer pixels than the whole.
     pub(super) fn start(
         level: Level,
-        scene: &Arc<Scene>,
+        scene: &Scene,
         sensors: &[SensorDescription],
         settings: &RenderSettings,
         pool: &Arc<ThreadPool>,
-        tell: &(dyn Fn(f64) + Sync),
         cancel: &Cancel,
     ) -> Result<Self, StartError> {
-        if level == Level::Whole {
-            let (pool, scene) = (Arc::clone(pool), Arc::clone(scene));
-            let session = Session::start_on(pool, scene, settings.clone(), tell, cancel)?;
-            return Ok(Self::over(session, level));
-        }
         let mut sensors = sensors.to_vec();
         for sensor in &mut sensors {
             let [width, height] = sensor.crop.map_or([sensor.width, sensor.height], |c| [c.width, c.height]);
@@ -123,21 +102,38 @@ impl LevelRender {
             let shrink = |n: u32| ((f64::from(n) * factor).round() as u32).max(1);
             sensor.resize(shrink(sensor.width), shrink(sensor.height));
         }
-        let scale = settings.ppm.radius_scale.get();
-        let settings = RenderSettings {
-            samples_per_pixel: NonZeroU32::MIN,
-            error: false,
-            ppm: PpmSettings {
-                photons_per_pass: settings.ppm.photons_per_pass.min(level.photons()),
-                first_pass: level.photons(),
-                radius_scale: RadiusScale::new(SMOOTH * scale).unwrap_or(settings.ppm.radius_scale),
-                ..settings.ppm
-            },
-            ..settings.clone()
-        };
         // Sensors that made a scene once make one at any size.
         let scene = Arc::new(scene.with_sensors(&sensors).map_err(|_| Cancelled)?);
-        Ok(Self::over(Session::start_on(Arc::clone(pool), scene, settings, tell, cancel)?, level))
+        let settings = level.settings_of_fewer_pixels(settings);
+        Ok(Self::over(Session::start_on(Arc::clone(pool), scene, settings, &|_| (), cancel)?, level))
+    }
+
+    /// A picture of all pixels, by eye samples of which some have been followed.
+    pub(super) fn collect(
+        level: Level,
+        followed: Followed,
+        pool: &Arc<ThreadPool>,
+        tell: &(dyn Fn(f64) + Sync),
+        cancel: &Cancel,
+    ) -> Result<Self, StartError> {
+        let Followed { mut eye, took } = followed;
+        let (pool, seed) = (Arc::clone(pool), eye.settings().seed);
+        let Level::Samples(samples) = level else {
+            let session =
+                Session::start_by(pool, seed, took, |watch| Render::over(eye, tell, watch, cancel))?;
+            return Ok(Self::over(session, level));
+        };
+        let settings = (level.settings(eye.settings()), level.widened() as f32);
+        let session = Session::start_by(pool, seed, took, |watch| {
+            Render::over_some((&mut eye, samples), settings, tell, watch, cancel)
+        })?;
+        let took = session.stages().of(Stage::EyePass);
+        Ok(Self { followed: Some(Followed { eye, took }), ..Self::over(session, level) })
+    }
+
+    /// The eye samples that have been followed for it, for the level after it.
+    pub(super) const fn take_followed(&mut self) -> Option<Followed> {
+        self.followed.take()
     }
 
     fn over(session: Session, level: Level) -> Self {
@@ -147,30 +143,44 @@ impl LevelRender {
             level,
             rates,
             pass_took: Duration::ZERO,
-            preview_share: 1.0,
+            preview: None,
             no_photon_share: 1.0,
+            found: 0,
             photons_in_pass: 0,
             radii_at_floor: 0,
             radii: None,
+            followed: None,
         }
     }
 
     /// The render once its session has resumed a checkpoint: clocks, photons and rays are then the checkpoint's.
     pub(super) fn resumed(self) -> Self {
-        Self { preview_share: self.preview_share, ..Self::over(self.session, self.level) }
+        Self { preview: self.preview, ..Self::over(self.session, self.level) }
     }
 
     /// As the one that is shown instead of a preview, once it is better.
     pub(super) fn after(self, preview: Option<&Self>) -> Self {
-        Self { preview_share: preview.map_or(1.0, |preview| preview.no_photon_share), ..self }
+        Self { preview: preview.map(Self::standing), ..self }
     }
 
-    /// Whether the picture is better than that of the preview: few more hit points are still without a photon, if any, at more pixels.
-    /// After some passes, what is dark then will stay dark for a while.
+    /// What its picture rests on. With fewer pixels, photons say nothing.
+    fn standing(&self) -> Standing {
+        let hit_points = self.render().start_report().hit_points.max(1) as f64;
+        let counts = self.level > Level::Middle;
+        Standing {
+            unlit: self.no_photon_share,
+            found: if counts { self.found as f64 / hit_points } else { 0.0 },
+        }
+    }
+
+    /// Whether the picture is better than that of the preview. That with fewer pixels is no match for one of all of them. After some
+    /// passes, what is dark then will stay dark for a while.
     pub(super) fn beats_its_preview(&self) -> bool {
-        const MORE: f64 = 0.02;
         const PASSES: u64 = 16;
-        self.no_photon_share <= self.preview_share + MORE || self.render().passes() >= PASSES
+        let is_done = self.render().passes() >= self.level.passes().min(PASSES);
+        is_done
+            || self.level <= Level::Samples(1)
+            || self.preview.is_none_or(|preview| self.standing().beats(preview))
     }
 
     pub(super) const fn level(&self) -> Level {
@@ -181,9 +191,9 @@ impl LevelRender {
         self.level == Level::Whole
     }
 
-    /// The level that is due once this one is as good as it gets, where the whole has so many eye samples.
-    pub(super) fn next_level(&self, eye_samples: u64) -> Option<Level> {
-        (self.render().passes() >= self.level.passes()).then(|| self.level.next(eye_samples))
+    /// The level that is due once this one is as good as it gets, where the whole has so many pixels and eye samples of each.
+    pub(super) fn next_level(&self, pixels: u64, samples: u32) -> Option<Level> {
+        (self.render().passes() >= self.level.passes()).then(|| self.level.next(pixels, samples))
     }
 
     /// Whether there is nothing to do until a person goes on, or stops.
@@ -207,6 +217,18 @@ impl LevelRender {
         self.session.elapsed()
     }
 
+    /// From the next pass on with α and photons of these settings.
+    pub(super) fn steer(&mut self, wanted: &RenderSettings) {
+        let (render, wanted) = (self.session.render_mut(), wanted.ppm);
+        let now = render.settings().ppm;
+        if now.alpha != wanted.alpha {
+            render.change(SettingChange::Alpha(wanted.alpha));
+        }
+        if now.photons_per_pass != wanted.photons_per_pass {
+            render.change(SettingChange::PhotonsPerPass(wanted.photons_per_pass));
+        }
+    }
+
     /// One pass, or a part of it; returns how long the pass took, once it is whole.
     pub(super) fn advance(
         &mut self,
@@ -221,6 +243,7 @@ impl LevelRender {
             Err(error) => return Err(error),
         };
         self.no_photon_share = report.no_photon_share;
+        self.found += report.accepted;
         self.photons_in_pass = report.photons_in_pass;
         self.radii_at_floor = report.floored;
         self.rates.add(Mark::of(&self.session));

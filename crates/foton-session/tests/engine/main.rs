@@ -6,6 +6,7 @@ mod history;
 mod pausing;
 mod regions;
 mod rig;
+mod rounds;
 mod things;
 
 use std::num::NonZeroU32;

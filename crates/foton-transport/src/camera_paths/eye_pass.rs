@@ -1,4 +1,4 @@
-//! The eye pass: from the sensor through mirrors, glass and narrow gloss to the surfaces that spread light, once.
+//! The eye pass: from the sensor through mirrors, glass and narrow gloss to the surfaces that spread light, each sample once.
 //!
 //! At each surface a hit point gathers light for the lobes that spread it, and the path goes on by the specular ones. Where there
 //! are several of those, it splits, weighted by Fresnel, while its weight and depth are worth it and the sample's share of hit
@@ -21,13 +21,15 @@ pub const NO_SHAPE: u32 = u32::MAX;
 /// What the eye pass finds in some pixels.
 #[derive(Default)]
 pub struct EyePaths {
+    /// Samples of each pixel that were followed: the first so many.
+    pub samples: u32,
     /// Pixel by pixel.
     pub hit_points: Vec<HitPoint>,
     /// How those scatter that are not Lambertian.
     pub gloss: Vec<Gloss>,
     /// Hit points of each pixel.
     pub counts: Vec<u32>,
-    /// Mean emitted light that each pixel sees directly or by specular bounces.
+    /// Emitted light that each pixel sees directly or by specular bounces, summed over its samples.
     pub emission: Vec<Rgb>,
     /// Shape that each pixel's first sample meets first; [`NO_SHAPE`] for none.
     pub shapes: Vec<u32>,
@@ -40,6 +42,11 @@ pub struct EyePaths {
 }
 
 impl EyePaths {
+    /// Mean emitted light that each pixel sees directly or by specular bounces.
+    pub fn mean_emission(&self) -> Vec<Rgb> {
+        self.emission.iter().map(|&sum| sum / self.samples as f32).collect()
+    }
+
     /// Where each pixel's hit points begin, and one entry more.
     pub fn pixel_start(&self) -> Vec<u32> {
         let mut start = Vec::with_capacity(self.counts.len() + 1);

@@ -1,5 +1,6 @@
 //! Paths from the camera: through mirrors, glass and narrow gloss to the surfaces that gather light.
 
+mod earlier;
 mod eye_pass;
 mod highlights;
 mod hit_point;

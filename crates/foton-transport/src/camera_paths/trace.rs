@@ -2,10 +2,11 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use foton_math::{Cancel, Cancelled, Rgb, Stream};
+use foton_math::{Cancel, Cancelled, Stream};
 use rayon::prelude::*;
 
-use super::eye_pass::{EyePass, EyePaths, NO_SHAPE};
+use super::earlier::Earlier;
+use super::eye_pass::{EyePass, EyePaths};
 use super::pixel_samples::PixelSamples;
 use super::walk::{SamplePoints, Walk};
 use crate::not_finite::{self, LeftOut, Quantity};
@@ -14,25 +15,32 @@ use crate::not_finite::{self, LeftOut, Quantity};
 const CHUNK: usize = 1024;
 
 impl EyePass<'_> {
-    /// Follows all samples of all pixels. `tell` is told by many threads what share of the pixels is done.
+    /// Follows the first `samples` of all pixels, of which `earlier` has some, if any. `tell` is told by many threads what share of the
+    /// pixels is done. In how many steps samples are followed changes no bit of what is found.
     ///
     /// # Errors
     /// When cancelled.
-    pub fn run(&self, cancel: &Cancel, tell: &(dyn Fn(f64) + Sync)) -> Result<EyePaths, Cancelled> {
-        let done = AtomicUsize::new(0);
+    pub fn run(
+        &self,
+        earlier: EyePaths,
+        samples: u32,
+        cancel: &Cancel,
+        tell: &(dyn Fn(f64) + Sync),
+    ) -> Result<EyePaths, Cancelled> {
+        let (earlier, done) = (Earlier::new(earlier), AtomicUsize::new(0));
         let all = self.sensor().width as usize * self.sensor().height as usize;
         let parts: Vec<EyePaths> = (0..all.div_ceil(CHUNK))
             .into_par_iter()
             .map(|chunk| {
                 let pixels = (chunk * CHUNK..all.min((chunk + 1) * CHUNK)).map(|p| p as u32);
                 let of = pixels.len();
-                let part = self.follow(pixels, cancel);
+                let part = self.go_on(&earlier, samples, pixels, cancel);
                 let so_far = done.fetch_add(of, Ordering::Relaxed) + of;
                 tell(so_far as f64 / all as f64);
                 cancel.check().map(|()| part)
             })
             .collect::<Result<_, _>>()?;
-        let mut all = EyePaths::default();
+        let mut all = EyePaths { samples, ..earlier.counts() };
         all.hit_points.reserve_exact(parts.iter().map(|p| p.hit_points.len()).sum());
         for part in parts {
             cancel.check()?;
@@ -54,22 +62,30 @@ impl EyePass<'_> {
 
     /// Follows all samples of some pixels; once cancelled no more of them.
     pub fn follow(&self, pixels: impl Iterator<Item = u32>, cancel: &Cancel) -> EyePaths {
-        let mut paths = EyePaths::default();
-        let samples = self.samples_per_pixel.get();
+        self.go_on(&Earlier::new(EyePaths::default()), self.samples_per_pixel.get(), pixels, cancel)
+    }
+
+    fn go_on(
+        &self,
+        earlier: &Earlier,
+        samples: u32,
+        pixels: impl Iterator<Item = u32>,
+        cancel: &Cancel,
+    ) -> EyePaths {
+        let mut paths = EyePaths { samples, ..EyePaths::default() };
         let mut branches = Vec::new();
         for pixel in pixels {
             let before = paths.hit_points.len();
-            let mut emission = Rgb::BLACK;
+            let mut emission = earlier.append_to(&mut paths, pixel as usize);
             let mut scramble = Stream::new(self.seed, self.purpose, 0, u64::from(pixel));
             let places = PixelSamples::new(&mut scramble);
             let facets = PixelSamples::new(&mut scramble);
             let emitters = PixelSamples::new(&mut scramble);
-            paths.shapes.push(NO_SHAPE);
-            for sample in 0..samples {
+            for sample in earlier.samples()..samples {
                 if cancel.is_requested() {
                     return paths;
                 }
-                let index = u64::from(pixel) * u64::from(samples) + u64::from(sample);
+                let index = u64::from(pixel) * u64::from(self.samples_per_pixel.get()) + u64::from(sample);
                 let points = SamplePoints {
                     place: places.point(sample),
                     facet: facets.point(sample),
@@ -93,7 +109,7 @@ impl EyePass<'_> {
                 }
             }
             paths.counts.push((paths.hit_points.len() - before) as u32);
-            paths.emission.push(emission / samples as f32);
+            paths.emission.push(emission);
         }
         paths
     }

@@ -43,12 +43,27 @@ struct Growth {
 impl Growth {
     /// The growth for these packets, if they reach far.
     fn of(packets: &[Packet], bounds: &Aabb, cancel: &Cancel) -> Result<Option<Self>, Cancelled> {
+        // Few scenes do, and one hit point of each packet mostly shows that clearly.
+        if Self::by(packets, 1, bounds, 0.5 * FAR, cancel)?.is_none() {
+            return Ok(None);
+        }
+        Self::by(packets, LANES, bounds, FAR, cancel)
+    }
+
+    /// The growth by the first lanes of packets, if they reach as far as `far` median distances.
+    fn by(
+        packets: &[Packet],
+        lanes: usize,
+        bounds: &Aabb,
+        far: f32,
+        cancel: &Cancel,
+    ) -> Result<Option<Self>, Cancelled> {
         let median = |axis: usize| {
             cancel.check()?;
-            let there = |(x, r2): (&f32, &f32)| (*r2 >= 0.0).then_some(*x);
             let mut of_axis: Vec<f32> = packets
                 .iter()
-                .flat_map(|p| p.position[axis].iter().zip(&p.radius2).filter_map(there))
+                .flat_map(|p| p.position[axis][..lanes].iter().zip(&p.radius2))
+                .filter_map(|(x, radius2)| (*radius2 >= 0.0).then_some(*x))
                 .collect();
             Ok(median_of(&mut of_axis))
         };
@@ -57,13 +72,13 @@ impl Growth {
             .iter()
             .flat_map(|p| {
                 let at = |l: usize| Vec3::new(p.position[0][l], p.position[1][l], p.position[2][l]);
-                (0..LANES).filter(|&l| p.radius2[l] >= 0.0).map(move |l| (at(l) - centre).abs().max_element())
+                (0..lanes).filter(|&l| p.radius2[l] >= 0.0).map(move |l| (at(l) - centre).abs().max_element())
             })
             .collect();
         cancel.check()?;
         let scale = median_of(&mut distances);
         let farthest = (bounds.max - centre).abs().max((bounds.min - centre).abs()).max_element();
-        Ok((farthest > FAR * scale && scale > 0.0).then(|| Self { centre, inverse_scale: 1.0 / scale }))
+        Ok((farthest > far * scale && scale > 0.0).then(|| Self { centre, inverse_scale: 1.0 / scale }))
     }
 
     /// ± log₂(1 + |x|/scale) axis by axis, about: exact at powers of two and straight between, so that it grows with x whatever is
@@ -142,8 +157,13 @@ impl Grid {
         let bits: Vec<AtomicU64> = self.words.iter().map(|_| AtomicU64::new(0)).collect();
         packets.par_iter().try_for_each(|packet| {
             cancel.check()?;
+            let mut marked = None;
             for disc in packet.disc_boxes() {
-                self.for_each_row(&disc, |first, last| mark_row(&bits, first, last));
+                // Neighbours mostly touch the same cells.
+                let cells = self.cells_of(&disc);
+                if marked.replace(cells) != Some(cells) {
+                    self.for_each_row(cells, |first, last| mark_row(&bits, first, last));
+                }
             }
             Ok(())
         })?;
@@ -199,12 +219,17 @@ impl Grid {
         word.rank + (word.touched & ((1u64 << (cell % 64)) - 1)).count_ones()
     }
 
-    /// Calls `f` with the first and last cell of each row along x that a box meets, in ascending order.
+    /// The first and the last cell along each axis that a box meets.
     #[inline]
-    fn for_each_row(&self, bounds: &Aabb, mut f: impl FnMut(u32, u32)) {
+    fn cells_of(&self, bounds: &Aabb) -> (UVec3, UVec3) {
         let last = (self.cells - 1).as_vec3();
         let to_cell = |p: Vec3| self.in_cells(p).clamp(Vec3::ZERO, last).as_uvec3();
-        let (low, high) = (to_cell(bounds.min), to_cell(bounds.max));
+        (to_cell(bounds.min), to_cell(bounds.max))
+    }
+
+    /// Calls `f` with the first and last cell of each row along x of a block of cells, in ascending order.
+    #[inline]
+    fn for_each_row(&self, (low, high): (UVec3, UVec3), mut f: impl FnMut(u32, u32)) {
         for z in low.z..=high.z {
             for y in low.y..=high.y {
                 let row = (z * self.cells.y + y) * self.cells.x;
@@ -216,7 +241,7 @@ impl Grid {
     /// Calls `f` with ranges of cell numbers that together hold every photon in a box, in ascending order.
     #[inline]
     pub fn for_each_run(&self, bounds: &Aabb, mut f: impl FnMut(u32, u32)) {
-        self.for_each_row(bounds, |first, last| {
+        self.for_each_row(self.cells_of(bounds), |first, last| {
             let (start, end) = (self.rank(first), self.rank(last + 1));
             if start < end {
                 f(start, end);

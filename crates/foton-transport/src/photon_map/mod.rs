@@ -2,12 +2,14 @@
 
 mod chunk;
 mod grid;
+mod groups;
 mod map;
 mod packet;
 mod photon;
 
 pub use chunk::{CHUNK, Chunk};
 pub use grid::{Grid, MAX_CELLS};
+pub use groups::{Groups, group};
 pub use map::PhotonMap;
-pub use packet::{LANES, Packet, group, rows};
+pub use packet::{LANES, Packet, rows};
 pub use photon::{PathClass, Photon};

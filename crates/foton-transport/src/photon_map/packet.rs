@@ -1,7 +1,7 @@
 //! Sixteen hit points side by side, to be tested together against one photon.
 
+use foton_math::Aabb;
 use foton_math::glam::Vec3;
-use foton_math::{Aabb, Cancel, Cancelled};
 
 use super::photon::patch_mark;
 use crate::camera_paths::HitPoint;
@@ -9,10 +9,6 @@ use crate::not_finite::{LeftOut, Quantity, Surface};
 
 /// Hit points in a packet.
 pub const LANES: usize = 16;
-
-/// A packet is split further while it is wider than this many of its largest radius: most photons near a wide packet are near
-/// none of its discs.
-const MAX_WIDTH: f32 = 6.0;
 
 /// Hot query records of up to [`LANES`] hit points. Empty lanes have a negative squared radius, which nothing reaches.
 #[derive(Clone, Debug)]
@@ -106,64 +102,3 @@ impl Packet {
         bounds
     }
 }
-
-/// A hit point on its way into a group.
-#[derive(Clone, Copy)]
-struct Point {
-    position: Vec3,
-    radius: f32,
-    index: u32,
-}
-
-/// Groups the hit points that `belongs` selects into packets: halved at the median of the longest axis until at most [`LANES`] are close together.
-/// Returns indices into `found`; the same for any number of threads.
-///
-/// # Errors
-/// When cancelled.
-pub fn group(
-    found: &[HitPoint],
-    belongs: impl Fn(&HitPoint) -> bool,
-    cancel: &Cancel,
-) -> Result<Vec<Vec<u32>>, Cancelled> {
-    let mut points: Vec<Point> = found
-        .iter()
-        .enumerate()
-        .filter(|(_, h)| belongs(h))
-        .map(|(i, h)| Point { position: h.position, radius: h.radius2.sqrt(), index: i as u32 })
-        .collect();
-    halve(&mut points, cancel)
-}
-
-fn halve(points: &mut [Point], cancel: &Cancel) -> Result<Vec<Vec<u32>>, Cancelled> {
-    if points.is_empty() {
-        return Ok(Vec::new());
-    }
-    cancel.check()?;
-    let bounds = points.iter().fold(Aabb::EMPTY, |b, p| b.with(p.position));
-    let size = bounds.size();
-    if points.len() <= LANES {
-        let radius = points.iter().fold(0f32, |r, p| r.max(p.radius));
-        if points.len() == 1 || size.max_element() <= MAX_WIDTH * radius {
-            return Ok(vec![points.iter().map(|p| p.index).collect()]);
-        }
-    }
-    let axis = size.max_position();
-    // Whole packets to the left, so that few are left part empty.
-    let half = points.len().div_ceil(2);
-    let middle = if points.len() > LANES { half.next_multiple_of(LANES).min(points.len() - 1) } else { half };
-    let by_axis =
-        |a: &Point, b: &Point| a.position[axis].total_cmp(&b.position[axis]).then(a.index.cmp(&b.index));
-    points.select_nth_unstable_by(middle, by_axis);
-    let (left, right) = points.split_at_mut(middle);
-    let (groups, rest) = if left.len() > 4096 {
-        rayon::join(|| halve(left, cancel), || halve(right, cancel))
-    } else {
-        (halve(left, cancel), halve(right, cancel))
-    };
-    let mut groups = groups?;
-    groups.extend(rest?);
-    Ok(groups)
-}
-
-#[cfg(test)]
-mod tests;

@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::io::{BufRead, BufReader};
-use std::path::Path;
 use std::process::{Command, Stdio};
 
 use foton_film::{Image, read_exr};
@@ -11,9 +10,6 @@ use serde_json::Value;
 use super::options::{Options, Program};
 use super::scenes::SceneFile;
 use crate::rig;
-
-/// Of the numbers in `/proc/PID/stat`: the same on all Linux systems.
-const TICKS_PER_SECOND: f64 = 100.0;
 
 /// Renders until so many processor seconds have gone by. Images are those after powers of two of passes, and the last.
 pub(super) fn course(
@@ -58,7 +54,7 @@ fn watch(command: &mut Command, limit: f64) -> Result<Vec<(u64, f64)>, String> {
         let event: Value = serde_json::from_str(&line.map_err(text)?).map_err(text)?;
         match (event["event"].as_str(), event["pass"].as_u64()) {
             (Some("pass"), Some(pass)) => {
-                let Some(seconds) = processor_seconds(id) else { continue };
+                let Some(seconds) = rig::processor_seconds(id) else { continue };
                 spent.push((pass, seconds));
                 if seconds >= limit && !interrupted {
                     interrupted = true;
@@ -71,15 +67,6 @@ fn watch(command: &mut Command, limit: f64) -> Result<Vec<(u64, f64)>, String> {
     }
     child.wait().map_err(text)?;
     error.map_or(Ok(spent), Err)
-}
-
-/// Processor time of a running process, user's and system's.
-fn processor_seconds(id: u32) -> Option<f64> {
-    let stat = fs::read_to_string(Path::new("/proc").join(id.to_string()).join("stat")).ok()?;
-    // The name, in brackets, may hold anything.
-    let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
-    let ticks: u64 = fields.get(11..13)?.iter().filter_map(|field| field.parse::<u64>().ok()).sum();
-    Some(ticks as f64 / TICKS_PER_SECOND)
 }
 
 pub(super) fn text(error: impl ToString) -> String {

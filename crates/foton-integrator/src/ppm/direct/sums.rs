@@ -37,6 +37,8 @@ pub(crate) struct Lit {
 /// Sums over the visits to all pixels.
 pub(crate) struct Direct {
     pub(super) lights: Lights,
+    /// Eye samples a pixel.
+    pub(super) samples: f32,
     pub(super) order: Order,
     /// Places that have been lit, in the order of turns.
     lit: u64,
@@ -61,7 +63,7 @@ struct Pixel {
 
 impl Direct {
     /// Nothing has been lit.
-    pub(crate) fn new(scene: &Scene, hit_points: &HitPoints, width: u32) -> Self {
+    pub(crate) fn new(scene: &Scene, hit_points: &HitPoints, width: u32, samples: u32) -> Self {
         let (width, lights) = (width as usize, Lights::new(scene));
         let pixels = hit_points.pixel_start.len() - 1;
         let order = Order::new(width, pixels.div_ceil(width.max(1)));
@@ -69,6 +71,7 @@ impl Direct {
         Self {
             rays_per_place: hit_points * f64::from(lights.rays()) / order.places() as f64,
             lights,
+            samples: samples as f32,
             order,
             lit: 0,
             fixed: vec![Rgb::BLACK; pixels],

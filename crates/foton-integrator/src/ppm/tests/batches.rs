@@ -10,7 +10,7 @@ use foton_transport::{Cancel, Stage};
 use crate::layers::LayerKind;
 use crate::ppm::settings::{DirectLight, PpmSettings, RadiusRule};
 use crate::ppm::tests::scene::scene;
-use crate::ppm::{PassReport, Ppm};
+use crate::ppm::{EyeSamples, PassReport, Ppm};
 use crate::settings::RenderSettings;
 
 const PHOTONS: u32 = 30_000;
@@ -28,7 +28,7 @@ fn settings() -> RenderSettings {
 }
 
 fn start(settings: RenderSettings, max_in_batch: u64) -> Ppm {
-    Ppm::start(scene(), settings, &|_| (), &mut |_| (), &Cancel::default())
+    Ppm::start(EyeSamples::new(scene(), settings), &|_| (), &mut |_| (), &Cancel::default())
         .expect("not cancelled")
         .with_batches_of(max_in_batch)
 }
@@ -149,7 +149,8 @@ fn a_start_that_is_cancelled_ends_in_that_wherever_it_comes() {
     loop {
         let mut last = None;
         let mut watch = |stage| last = Some(stage);
-        let started = Ppm::start(scene(), settings(), &|_| (), &mut watch, &Cancel::after(questions));
+        let started =
+            Ppm::start(EyeSamples::new(scene(), settings()), &|_| (), &mut watch, &Cancel::after(questions));
         stages.extend(last);
         if started.is_ok() {
             break;

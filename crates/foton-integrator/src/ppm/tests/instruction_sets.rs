@@ -7,9 +7,9 @@ use foton_scene::Scene;
 use foton_transport::Cancel;
 use pulp::Arch;
 
-use crate::ppm::Ppm;
 use crate::ppm::settings::PpmSettings;
 use crate::ppm::tests::scene::scene;
+use crate::ppm::{EyeSamples, Ppm};
 use crate::settings::RenderSettings;
 
 /// Bits of the image after three passes, and photons found.
@@ -22,7 +22,8 @@ fn render(scene: &Arc<Scene>, arch: Arch) -> (Vec<[u32; 3]>, u64) {
         ..RenderSettings::default()
     };
     let cancel = Cancel::default();
-    let mut ppm = Ppm::start(scene.clone(), settings, &|_| (), &mut |_| (), &cancel).expect("not cancelled");
+    let mut ppm = Ppm::start(EyeSamples::new(scene.clone(), settings), &|_| (), &mut |_| (), &cancel)
+        .expect("not cancelled");
     ppm.arch = arch;
     let accepted =
         (0..3).map(|_| ppm.advance(&mut |_| (), &cancel, &|| false).expect("not cancelled").accepted).sum();

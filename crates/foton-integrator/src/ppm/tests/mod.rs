@@ -1,6 +1,7 @@
 //! Tests of whole passes.
 
 mod batches;
+mod eye_samples;
 mod instruction_sets;
 pub(super) mod scene;
 mod suspending;

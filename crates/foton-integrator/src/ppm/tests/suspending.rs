@@ -8,7 +8,7 @@ use foton_transport::{Cancel, Halt, Stage};
 use crate::layers::LayerKind;
 use crate::ppm::settings::{Alpha, DirectLight, PpmSettings};
 use crate::ppm::tests::scene::scene;
-use crate::ppm::{PassReport, Ppm};
+use crate::ppm::{EyeSamples, PassReport, Ppm};
 use crate::settings::{RenderSettings, SettingChange};
 
 /// Three batches of several chunks.
@@ -32,7 +32,8 @@ fn start(direct_light: DirectLight) -> Ppm {
         ppm,
         ..RenderSettings::default()
     };
-    let ppm = Ppm::start(scene(), settings, &|_| (), &mut |_| (), &Cancel::default()).expect("not cancelled");
+    let ppm = Ppm::start(EyeSamples::new(scene(), settings), &|_| (), &mut |_| (), &Cancel::default())
+        .expect("not cancelled");
     ppm.with_batches_of(MAX)
 }
 

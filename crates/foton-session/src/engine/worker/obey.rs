@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use foton_integrator::SettingChange;
 use foton_scene::description::SceneDescription;
 
 use super::Worker;
@@ -198,14 +197,7 @@ impl Worker {
     /// Goes on with a render from before an edit, paused or not.
     fn return_to(&mut self, mut render: LevelRender) {
         self.end_render();
-        let (now, wanted) = (render.render().settings().ppm, self.plan.settings.ppm);
-        if now.alpha != wanted.alpha {
-            render.session_mut().render_mut().change(SettingChange::Alpha(wanted.alpha));
-        }
-        if now.photons_per_pass != wanted.photons_per_pass {
-            let change = SettingChange::PhotonsPerPass(wanted.photons_per_pass);
-            render.session_mut().render_mut().change(change);
-        }
+        render.steer(&self.plan.settings);
         self.current.render = Some(render);
     }
 

@@ -60,12 +60,13 @@ impl Worker {
         self.current.render.as_ref().filter(|render| render.is_whole())
     }
 
-    /// Takes the picture of the newest pass. That of a preview stays until there is a better one, unless a person is waiting for this pass.
+    /// Takes the picture of the newest pass. That of a preview stays until there is a better one, unless a person is waiting
+    /// for this pass.
     fn renew_picture(&mut self) {
         let waits = self.plan.flow != Flow::Run || self.is_idle();
         let Some(render) = self.current.render.as_ref().filter(|r| r.render().passes() > 0) else { return };
         let has_preview = self.published.pictured == self.current.number;
-        if render.is_whole() && has_preview && !waits && !render.beats_its_preview() {
+        if has_preview && !(waits && render.is_whole()) && !render.beats_its_preview() {
             return;
         }
         let of = PictureOf {

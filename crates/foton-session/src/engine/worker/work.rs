@@ -4,17 +4,18 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use foton_integrator::{RenderSettings, ShouldSuspend};
-use foton_scene::Scene;
 
 use super::Worker;
 use super::publish::When;
 use super::state::Flow;
 use crate::engine::command::Event;
 use crate::engine::editable_scene::EditableScene;
+use crate::engine::level::Level;
 use crate::engine::loader::{Arrival, Ready};
-use crate::engine::render::{Level, LevelRender};
+use crate::engine::memory::within_memory;
+use crate::engine::render::{Followed, LevelRender};
 use crate::engine::starting::Starting;
-use crate::session::{PassError, Session, StartError};
+use crate::session::{PassError, StartError};
 use crate::threads::{self, Rank};
 
 /// A pass makes way for a frame that shows how far it is after this long.
@@ -58,11 +59,18 @@ impl Worker {
         match started {
             Ok(Some(render)) => {
                 let render = render.after(self.current.render.as_ref());
-                self.current.render = self.resume_in(render);
+                self.current.render = if render.is_whole() { self.resume_in(render) } else { Some(render) };
+                self.steer_as_planned();
             }
             Ok(None) => {}
             Err(message) => self.refuse(message),
         }
+    }
+
+    /// Takes on what was changed while hit points were collected.
+    fn steer_as_planned(&mut self) {
+        let Some(render) = self.current.render.as_mut().filter(|render| render.is_whole()) else { return };
+        render.steer(&self.plan.settings);
     }
 
     /// Whether there is nothing to do but wait.
@@ -119,11 +127,11 @@ impl Worker {
         match &self.current.render {
             None => Some(Level::Small),
             Some(render) if self.plan.moving || render.is_whole() => None,
-            Some(render) => render.next_level(self.eye_samples(scene)),
+            Some(render) => render.next_level(self.pixels(scene), self.plan.settings.samples_per_pixel.get()),
         }
     }
 
-    /// Starts a render at a level; `None` where that was cancelled, or goes on elsewhere, as it does for the whole.
+    /// Starts a render at a level; `None` where that was cancelled, or goes on elsewhere, as it does for all pixels.
     fn start(&mut self, level: Level) -> Result<Option<LevelRender>, String> {
         // A small picture is there so soon that a frame without it would be drawn for nothing.
         if level != Level::Small || self.published.picture.is_none() {
@@ -138,18 +146,18 @@ impl Worker {
             }
         };
         let (threads, limit, pool) = (self.plan.threads, self.setup.memory_limit, Arc::clone(pool));
-        let (settings, scene, sensors) =
-            (self.plan.settings.clone(), Arc::clone(scene.scene()), scene.rendered_sensors());
-        if level != Level::Whole {
+        let (settings, sensors) = (self.plan.settings.clone(), scene.rendered_sensors());
+        if level <= Level::Middle {
             let cancel = &self.cancels.work;
-            return started(LevelRender::start(level, &scene, &sensors, &settings, &pool, &|_| (), cancel));
+            return started(LevelRender::start(level, scene.scene(), &sensors, &settings, &pool, cancel));
         }
+        let scene = Arc::clone(scene.scene());
         self.current.subject = self.subject();
+        let followed = self.current.render.as_mut().and_then(LevelRender::take_followed);
         self.current.starting = Some(Starting::begin(move |tell, cancel| {
-            if let Some(message) = beyond_memory(&scene, &settings, threads, limit) {
-                return Err(message);
-            }
-            let render = LevelRender::start(level, &scene, &[], &settings, &pool, tell, cancel);
+            let level = within_memory(level, &scene, &settings, threads, limit)?;
+            let followed = followed.unwrap_or_else(|| Followed::none(scene, settings));
+            let render = LevelRender::collect(level, followed, &pool, tell, cancel);
             started(render).map(|render| render.map(Box::new))
         }));
         Ok(None)
@@ -169,11 +177,10 @@ impl Worker {
         })
     }
 
-    /// Eye samples of the whole picture.
-    fn eye_samples(&self, scene: &EditableScene) -> u64 {
+    /// Pixels of the whole picture.
+    fn pixels(&self, scene: &EditableScene) -> u64 {
         let sensor = &scene.scene().sensors()[self.plan.settings.sensor];
-        let pixels = u64::from(sensor.width) * u64::from(sensor.height);
-        pixels * u64::from(self.plan.settings.samples_per_pixel.get())
+        u64::from(sensor.width) * u64::from(sensor.height)
     }
 
     /// Finishes a pass that has refined hit points already, so that what is written is of a whole pass. No photon is traced for that.
@@ -234,15 +241,4 @@ fn started(outcome: Result<LevelRender, StartError>) -> Result<Option<LevelRende
         Err(StartError::Panicked(panic)) => Err(panic.to_string()),
         Err(_) => Ok(None),
     }
-}
-
-/// Why the whole render is refused, if it would take too much memory.
-fn beyond_memory(
-    scene: &Scene,
-    settings: &RenderSettings,
-    threads: Option<usize>,
-    limit: Option<f64>,
-) -> Option<String> {
-    let refusal = Session::estimate_memory(scene, settings, threads).refusal(limit)?;
-    Some(format!("{refusal}. Fewer samples/pixel or photons/pass need less"))
 }

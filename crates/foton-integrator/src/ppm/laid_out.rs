@@ -1,0 +1,67 @@
+//! What the start of a render makes of its eye samples: hit points laid out for the gather, and what photons are aimed at.
+
+use foton_math::Rgb;
+use foton_math::glam::Vec3;
+use foton_scene::Sources;
+use foton_transport::camera_paths::HitPoint;
+use foton_transport::{Cancel, Cancelled, NotFinite};
+
+use super::direct::by_shadow_rays;
+use super::eye_samples::EyeSamples;
+use super::hit_points::HitPoints;
+use super::lobes::lobe_use;
+use super::report::Start;
+use super::settings::RadiusRule;
+use crate::settings::RenderSettings;
+
+/// About this many hit points stand for all of them.
+pub(super) const MAX_PROBED: usize = 4096;
+
+/// Eye samples, laid out.
+pub(super) struct LaidOut {
+    pub(super) hit_points: HitPoints,
+    pub(super) sources: Sources,
+    /// Samples a pixel.
+    pub(super) samples: u32,
+    /// [`foton_transport::camera_paths::EyePaths::mean_emission`].
+    pub(super) emission: Vec<Rgb>,
+    pub(super) start: Start,
+    pub(super) not_finite: Option<NotFinite>,
+}
+
+impl LaidOut {
+    /// Lays out what has been followed for a render with such settings, with first radii multiplied by `widened`.
+    pub(super) fn new(
+        eye: &EyeSamples,
+        settings: &RenderSettings,
+        widened: f32,
+        cancel: &Cancel,
+    ) -> Result<Self, Cancelled> {
+        let EyeSamples { scene, paths, .. } = eye;
+        let shadow_rays = by_shadow_rays(scene, settings);
+        let normals = lobe_use(scene).shading_normals;
+        let (found, gloss) = (&paths.hit_points, &paths.gloss);
+        let mut hit_points = HitPoints::new(found, gloss, paths.pixel_start(), normals, shadow_rays, cancel)?;
+        if widened != 1.0 {
+            hit_points = hit_points.widened(widened);
+        }
+        if settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive {
+            hit_points = hit_points.with_radius_statistics();
+        }
+        let step = (found.len() / MAX_PROBED).max(1);
+        let disc = |h: &HitPoint| (h.position, h.radius2.sqrt());
+        let seen: Vec<(Vec3, f32)> = found.iter().step_by(step).map(disc).collect();
+        Ok(Self {
+            sources: scene.sources(&seen),
+            samples: eye.followed(),
+            emission: paths.mean_emission(),
+            start: Start {
+                hit_points: hit_points.len() as u64,
+                eye_rays: paths.rays,
+                dropped: paths.dropped,
+            },
+            not_finite: paths.left_out.map(|left_out| NotFinite::new(scene, 0, left_out)),
+            hit_points,
+        })
+    }
+}
