@@ -195,7 +195,7 @@ fn rays_are_a_share_of_a_pass() {
     };
     let [first, few] = rays(1);
     let [_, more] = rays(1000);
-    assert!(first > 24 * 24 && few > 0 && few * 15 < first, "{first} {few}");
-    // A thousand photons cost about as much as 7,000 rays, of which a third are added; photons' own rays are counted, too.
-    assert!(more > 2_000 && more < 5_000, "{more}");
+    assert!(first > 400 && few > 0 && few * 10 < first, "{first} {few}");
+    // A thousand photons cost about as much as 7,000 rays, of which a third may be added.
+    assert!(more > 10 * few && more < 2_500, "{more}");
 }

@@ -113,7 +113,7 @@ impl Ppm {
         cancel.check()?;
         let width = scene.sensors()[settings.sensor].width;
         let direct =
-            by_shadow_rays(&scene, &settings).then(|| Direct::new(&scene, &hit_points, width, samples));
+            by_shadow_rays(&scene, &settings).then(|| Direct::new(&scene, &settings, &hit_points, samples));
         let error = settings.error.then(|| ErrorSums::new(&hit_points, width, samples));
         cancel.check()?;
         Ok(Self {

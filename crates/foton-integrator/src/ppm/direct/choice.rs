@@ -29,7 +29,7 @@ pub(crate) fn by_shadow_rays(scene: &Scene, settings: &RenderSettings) -> bool {
         DirectLight::Photons => false,
         DirectLight::ShadowRays => true,
         DirectLight::Auto => {
-            !scene.emitters().iter().any(is_beam) && noise(&Lights::new(scene), scene, settings) <= NOISIEST
+            !scene.emitters().iter().any(is_beam) && noise(scene, &Lights::new(scene), settings) <= NOISIEST
         }
     }
 }
@@ -40,7 +40,7 @@ fn is_beam(emitter: &Emitter) -> bool {
 }
 
 /// The variance of a visit over the squared mean, both over hit points; 0 in the dark.
-fn noise(lights: &Lights, scene: &Scene, settings: &RenderSettings) -> f64 {
+pub(super) fn noise(scene: &Scene, lights: &Lights, settings: &RenderSettings) -> f64 {
     let sensor = &scene.sensors()[settings.sensor];
     let pixels = u64::from(sensor.width) * u64::from(sensor.height);
     // The same for all seeds.

@@ -8,9 +8,11 @@ use foton_transport::Omissions;
 use foton_transport::codec::{Reader, StateError, Writer};
 use foton_transport::direct_light::Lights;
 
+use super::choice::noise;
 use super::noise::{Known, Noise};
 use super::order::Order;
 use crate::ppm::hit_points::HitPoints;
+use crate::settings::RenderSettings;
 
 /// What a photon costs, in shadow rays: its own rays, and what is gathered of it. Measured in the default scene.
 const RAYS_PER_PHOTON: f64 = 7.0;
@@ -18,8 +20,11 @@ const RAYS_PER_PHOTON: f64 = 7.0;
 /// What a pass costs a hit point whatever its photons, in shadow rays.
 const RAYS_PER_HIT_POINT: f64 = 0.1;
 
-/// Rays over what the rest of a pass costs: then they are a quarter of the whole.
-const SHARE: f64 = 1.0 / 3.0;
+/// Rays over what the rest of a pass costs, at most: then they are a quarter of the whole.
+const LARGEST_SHARE: f64 = 1.0 / 3.0;
+
+/// The noise of a visit from which on they are. Below that the share falls with its root: then rays and photons lower the error alike.
+const NOISY: f64 = 0.1;
 
 /// A pass lights a pixel this often at most.
 const MAX_VISITS: u64 = 16;
@@ -39,6 +44,8 @@ pub(crate) struct Direct {
     pub(super) lights: Lights,
     /// Eye samples a pixel.
     pub(super) samples: f32,
+    /// Rays over what the rest of a pass costs.
+    share: f64,
     pub(super) order: Order,
     /// Places that have been lit, in the order of turns.
     lit: u64,
@@ -63,8 +70,14 @@ struct Pixel {
 
 impl Direct {
     /// Nothing has been lit.
-    pub(crate) fn new(scene: &Scene, hit_points: &HitPoints, width: u32, samples: u32) -> Self {
-        let (width, lights) = (width as usize, Lights::new(scene));
+    pub(crate) fn new(
+        scene: &Scene,
+        settings: &RenderSettings,
+        hit_points: &HitPoints,
+        samples: u32,
+    ) -> Self {
+        let (width, lights) = (scene.sensors()[settings.sensor].width as usize, Lights::new(scene));
+        let noise = noise(scene, &lights, settings);
         let pixels = hit_points.pixel_start.len() - 1;
         let order = Order::new(width, pixels.div_ceil(width.max(1)));
         let hit_points = hit_points.len() as f64;
@@ -72,6 +85,7 @@ impl Direct {
             rays_per_place: hit_points * f64::from(lights.rays()) / order.places() as f64,
             lights,
             samples: samples as f32,
+            share: LARGEST_SHARE * (noise / NOISY).sqrt().clamp(0.1, 1.0),
             order,
             lit: 0,
             fixed: vec![Rgb::BLACK; pixels],
@@ -87,7 +101,7 @@ impl Direct {
             all - self.lit
         } else if self.rays_per_place > 0.0 {
             let rest = RAYS_PER_PHOTON * photons as f64 + RAYS_PER_HIT_POINT * self.hit_points;
-            ((SHARE * rest / self.rays_per_place) as u64).clamp(1, MAX_VISITS * all)
+            ((self.share * rest / self.rays_per_place) as u64).clamp(1, MAX_VISITS * all)
         } else {
             0
         };
