@@ -5,7 +5,7 @@ use std::num::NonZeroU32;
 
 use foton_integrator::{Cancel, DirectLight, PpmSettings, Render, RenderSettings};
 use foton_math::Rgb;
-use foton_math::glam::DVec3;
+use foton_math::glam::{DAffine3, DQuat, DVec3};
 use foton_scene::description::{EmitterDescription, EmitterKind};
 use foton_tests::{Sketch, glass, grey};
 
@@ -198,4 +198,25 @@ fn rays_are_a_share_of_a_pass() {
     assert!(first > 400 && few > 0 && few * 10 < first, "{first} {few}");
     // A thousand photons cost about as much as 7,000 rays, of which a third may be added.
     assert!(more > 10 * few && more < 2_500, "{more}");
+}
+
+#[test]
+fn beams_and_what_hardly_sees_an_emitter_get_direct_light_by_photons() {
+    let by_rays = |sketch: &Sketch| sketch.render(settings(100, DirectLight::Auto), 0).has_shadow_rays();
+    assert!(by_rays(&lamps()) && by_rays(&deltas()) && by_rays(&many()));
+    // A spot, wide and as narrow as a beam.
+    let spot = |degrees: f64| {
+        let mut sketch = lamps();
+        let to_world = DAffine3::from_rotation_translation(DQuat::from_rotation_x(PI / 2.0), DVec3::Y);
+        let (cutoff_degrees, beam_degrees) = (degrees, degrees);
+        let kind = EmitterKind::Spot { to_world, intensity: Rgb::WHITE, cutoff_degrees, beam_degrees };
+        sketch.0.emitters.push(EmitterDescription { name: "spot".into(), kind });
+        sketch
+    };
+    assert!(by_rays(&spot(20.0)) && !by_rays(&spot(0.1)));
+    // A closed room under a sky.
+    let mut room = Sketch::default().camera(DVec3::ZERO, -DVec3::Z, 60.0, 24).room(grey(0.5), None);
+    let kind = EmitterKind::Constant { radiance: Rgb::WHITE };
+    room.0.emitters.push(EmitterDescription { name: "sky".into(), kind });
+    assert!(!by_rays(&room));
 }

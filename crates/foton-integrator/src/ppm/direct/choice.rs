@@ -39,7 +39,7 @@ fn is_beam(emitter: &Emitter) -> bool {
     emitter.is_delta() && emitter.extent().is_some_and(|extent| extent.normals + extent.reach < BEAM)
 }
 
-/// The variance of a visit over the squared mean, both over hit points; 0 in the dark.
+/// The variance of a visit over the squared mean, both over hit points.
 pub(super) fn noise(scene: &Scene, lights: &Lights, settings: &RenderSettings) -> f64 {
     let sensor = &scene.sensors()[settings.sensor];
     let pixels = u64::from(sensor.width) * u64::from(sensor.height);
@@ -60,7 +60,12 @@ pub(super) fn noise(scene: &Scene, lights: &Lights, settings: &RenderSettings) -
         mean += 0.5 * (a + b);
     }
     let points = found.hit_points.len().max(1) as f64;
-    if mean > 0.0 { square * points / (mean * mean) } else { 0.0 }
+    match mean {
+        _ if mean > 0.0 => square * points / (mean * mean),
+        // Nothing of what rays look for has been found.
+        _ if lights.rays() > 0 => f64::INFINITY,
+        _ => 0.0,
+    }
 }
 
 /// What a visit finds at a hit point, in luminance, as if it were Lambertian.
