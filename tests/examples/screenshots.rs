@@ -13,7 +13,7 @@ const SIZES: [([u32; 2], f64); 3] = [([900, 600], 1.0), ([1280, 800], 1.0), ([72
 const PASSES: f64 = 12.0;
 
 /// What is done before a picture, in words of [`Shots::act`], and the picture's name.
-const STATES: [(&str, &[&str]); 14] = [
+const STATES: [(&str, &[&str]); 19] = [
     ("01-start", &[]),
     ("02-selection", &["choose"]),
     ("03-photons-as-dots", &["key Escape", "key o"]),
@@ -28,6 +28,11 @@ const STATES: [(&str, &[&str]); 14] = [
     ("12-keys", &["canvas", "key question"]),
     ("13-open", &["key Escape", "key ctrl+o"]),
     ("14-panels-hidden", &["key Escape", "canvas", "key Tab"]),
+    ("15-histogram", &["key Tab", "key l", "key c"]),
+    ("16-photon-paths", &["key l", "key c", "key v", "hover"]),
+    ("17-history", &["key v", "key b", "key period", "key b", "key t"]),
+    ("18-region-drag", &["key t", "click view menu", "click region entry", "drag"]),
+    ("19-region", &["mouseup 1"]),
 ];
 
 struct Shots {
@@ -88,6 +93,19 @@ impl Shots {
                 let [x, y] = self.window.on_film([0.8145, 0.843]).map(|v| v * self.scale);
                 self.display.hand(&format!("mousemove {x:.0} {y:.0} click 1"));
                 self.window.frame("a choice", |f| f.get("chosen").map(|_| ()));
+            }
+            // A pixel of the paper, beside the ring.
+            ("hover", _) => {
+                let [x, y] = self.window.on_film([0.66, 0.8]).map(|v| v * self.scale);
+                self.display.hand(&format!("mousemove {x:.0} {y:.0}"));
+            }
+            // Across a part of the picture, and not let go.
+            ("drag", _) => {
+                let [from, to] = [[0.55, 0.5], [0.95, 0.95]]
+                    .map(|share| self.window.on_film(share).map(|v| v * self.scale));
+                self.display.hand(&format!("mousemove {:.0} {:.0} mousedown 1", from[0], from[1]));
+                self.settle();
+                self.display.hand(&format!("mousemove {:.0} {:.0}", to[0], to[1]));
             }
             // To the end of a panel.
             (way @ ("down" | "up"), side) => {

@@ -16,6 +16,8 @@ struct Step {
     name: String,
     /// The other side of the step: before it on the undo stack, after it on the redo stack.
     description: Arc<SceneDescription>,
+    /// Whether both sides are the same picture.
+    is_naming: bool,
 }
 
 /// A description with its past and its undone future.
@@ -53,7 +55,8 @@ impl History {
     /// Begins a step that [`proceed`](Self::proceed) may change many times; one under way is committed first.
     pub fn begin(&mut self, name: impl Into<String>) {
         self.commit();
-        self.open = Some(Step { name: name.into(), description: Arc::clone(&self.current) });
+        self.open =
+            Some(Step { name: name.into(), description: Arc::clone(&self.current), is_naming: false });
     }
 
     /// The next description of the step under way; without one it is a step of its own, without a name.
@@ -101,21 +104,48 @@ impl History {
         &self.current
     }
 
+    /// A step of one description in which things have other names and nothing else is different.
+    pub fn record_naming(
+        &mut self,
+        name: impl Into<String>,
+        next: SceneDescription,
+    ) -> &Arc<SceneDescription> {
+        self.begin(name);
+        self.current = Arc::new(next);
+        if let Some(step) = &mut self.open {
+            step.is_naming = true;
+        }
+        self.commit();
+        &self.current
+    }
+
+    /// Whether [`undo`](Self::undo) would give things other names and change nothing else.
+    #[must_use]
+    pub fn undoes_naming(&self) -> bool {
+        self.open.as_ref().or_else(|| self.past.back()).is_some_and(|step| step.is_naming)
+    }
+
+    /// Whether [`redo`](Self::redo) would give things other names and change nothing else.
+    #[must_use]
+    pub fn redoes_naming(&self) -> bool {
+        self.future.last().is_some_and(|step| step.is_naming)
+    }
+
     /// Takes the last step back, one under way included. Its name, or `None` if there is none.
     pub fn undo(&mut self) -> Option<String> {
         self.commit();
-        let Step { name, description } = self.past.pop_back()?;
+        let Step { name, description, is_naming } = self.past.pop_back()?;
         let after = std::mem::replace(&mut self.current, description);
-        self.future.push(Step { name: name.clone(), description: after });
+        self.future.push(Step { name: name.clone(), description: after, is_naming });
         Some(name)
     }
 
     /// Takes the last undone step again. Its name, or `None` if there is none.
     pub fn redo(&mut self) -> Option<String> {
         self.commit();
-        let Step { name, description } = self.future.pop()?;
+        let Step { name, description, is_naming } = self.future.pop()?;
         let before = std::mem::replace(&mut self.current, description);
-        self.past.push_back(Step { name: name.clone(), description: before });
+        self.past.push_back(Step { name: name.clone(), description: before, is_naming });
         Some(name)
     }
 

@@ -21,8 +21,8 @@ pub use foton_transport::{
 };
 pub use layers::LayerKind;
 pub use ppm::{
-    Alpha, DirectLight, Disc, EyeSamples, Feature, MemoryEstimate, PassReport, PpmSettings, Radii,
-    RadiusFloor, RadiusRule, RadiusScale, Start, Statistics, Step, StoredPhoton, Variants, features,
+    Alpha, DirectLight, Disc, EyeSamples, Feature, MemoryEstimate, PassReport, PhotonPath, PpmSettings,
+    Radii, RadiusFloor, RadiusRule, RadiusScale, Start, Statistics, Step, StoredPhoton, Variants, features,
     lobe_use,
 };
 pub use render::Render;

@@ -11,7 +11,7 @@ use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite
 
 use crate::error::{ErrorEstimate, TileError};
 use crate::layers::LayerKind;
-use crate::ppm::{Disc, EyeSamples, PassReport, Ppm, Radii, Start, StoredPhoton};
+use crate::ppm::{Disc, EyeSamples, PassReport, PhotonPath, Ppm, Radii, Start, StoredPhoton};
 use crate::settings::{Method, RenderSettings, SettingChange};
 
 /// A scene, settings, and what passes have made of them so far.
@@ -128,6 +128,24 @@ impl Render {
     #[must_use]
     pub fn has_refined(&self) -> bool {
         each!(&self.0, r => r.has_refined())
+    }
+
+    /// Lets a suspended pass that has several batches end early, as a valid pass of fewer photons: after the batch under way; or, if
+    /// `drops`, without that one unless its photons have all been traced. [`Render::advance`] then finishes it, and [`Render::changes`]
+    /// says after how many batches it ended.
+    pub fn cut_pass(&mut self, drops: bool) {
+        each!(&mut self.0, r => r.cut_pass(drops));
+    }
+
+    /// Photons of the next pass's largest batch.
+    #[must_use]
+    pub fn next_batch(&self) -> u64 {
+        each!(&self.0, r => r.next_batch())
+    }
+
+    /// Gives up a suspended pass, which then has not happened; `false` where it has refined hit points, or there is none.
+    pub fn discard_pass(&mut self) -> bool {
+        each!(&mut self.0, r => r.discard_pass())
     }
 
     /// From now on a pass in which a value is not finite does not happen. Otherwise such values are left out and counted.
@@ -325,6 +343,13 @@ impl Render {
     #[must_use]
     pub fn photons_near(&self, position: DVec3, radius: f64, at_most: usize) -> Vec<StoredPhoton> {
         each!(&self.0, r => r.photons_near(position, radius, at_most))
+    }
+
+    /// Paths of photons of the last pass that count for a pixel's hit points, `at_most` of them: of a large pass those among its first
+    /// 65,536, which are traced again for that. `pixel` counts along rows from the top left; one beyond the image has none.
+    #[must_use]
+    pub fn paths_to(&self, pixel: usize, at_most: usize) -> Vec<PhotonPath> {
+        each!(&self.0, r => r.paths_to(pixel, at_most))
     }
 
     /// Mean radius of each pixel's hit points, in world units; 0 without hit points.

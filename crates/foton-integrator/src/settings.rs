@@ -79,6 +79,8 @@ impl RenderSettings {
         match change {
             SettingChange::Alpha(_) => SettingChange::Alpha(self.ppm.alpha),
             SettingChange::PhotonsPerPass(_) => SettingChange::PhotonsPerPass(self.ppm.photons_per_pass),
+            SettingChange::CutPass(_) => SettingChange::CutPass(NonZeroU32::MAX),
+            SettingChange::PhotonsOnce(_) => SettingChange::PhotonsOnce(NonZeroU32::MAX),
         }
     }
 
@@ -87,6 +89,8 @@ impl RenderSettings {
         match change {
             SettingChange::Alpha(alpha) => self.ppm.alpha = alpha,
             SettingChange::PhotonsPerPass(photons) => self.ppm.photons_per_pass = photons,
+            // Of one pass, not of those after it.
+            SettingChange::CutPass(_) | SettingChange::PhotonsOnce(_) => {}
         }
     }
 }
@@ -98,6 +102,10 @@ pub enum SettingChange {
     Alpha(Alpha),
     /// A new [`PpmSettings::photons_per_pass`].
     PhotonsPerPass(NonZeroU32),
+    /// The next pass alone ends after that many of its batches, as one of fewer photons.
+    CutPass(NonZeroU32),
+    /// The next pass alone has that many photons.
+    PhotonsOnce(NonZeroU32),
 }
 
 impl SettingChange {
@@ -112,6 +120,8 @@ impl fmt::Display for SettingChange {
         match self {
             Self::Alpha(alpha) => write!(f, "alpha={alpha}"),
             Self::PhotonsPerPass(n) => write!(f, "photons={n}"),
+            Self::CutPass(batches) => write!(f, "batches={batches}"),
+            Self::PhotonsOnce(n) => write!(f, "photons_once={n}"),
         }
     }
 }

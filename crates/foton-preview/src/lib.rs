@@ -9,6 +9,7 @@ mod editing;
 mod files;
 mod light_scale;
 mod looking;
+mod message;
 mod panels;
 mod preferences;
 mod present;

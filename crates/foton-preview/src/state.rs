@@ -13,31 +13,11 @@ use foton_session::snapshot::Look;
 use crate::editing::Editing;
 use crate::files::FileDialog;
 use crate::looking::{BuiltIn, Looking};
+use crate::message::{self, Message, Tone};
 use crate::preferences::Preferences;
 
 /// Points of a plot at most; older ones are thinned.
 const PLOT_POINTS: usize = 512;
-
-/// How long a message stays, in seconds; errors stay until they are closed.
-pub(crate) const MESSAGE_SECONDS: f64 = 6.0;
-
-/// How a message is meant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Tone {
-    Notice,
-    Error,
-}
-
-/// Something to tell.
-#[derive(Clone, Debug)]
-pub(crate) struct Message {
-    pub(crate) tone: Tone,
-    pub(crate) text: String,
-    /// When it was first drawn, in seconds of the window's clock.
-    pub(crate) since: Option<f64>,
-    /// Whether the frame log has it.
-    pub(crate) is_logged: bool,
-}
 
 /// A picture to compare with.
 #[derive(Clone, Debug)]
@@ -143,6 +123,8 @@ pub(crate) struct State {
     pub(crate) reloads: bool,
     pub(crate) view: ViewMode,
     pub(crate) show_photons: bool,
+    /// Whether the paths of photons to the pixel under the pointer are drawn.
+    pub(crate) show_paths: bool,
     pub(crate) auto_snapshots: bool,
     pub(crate) pinned: Option<Pinned>,
     pub(crate) looking: Looking,
@@ -208,6 +190,7 @@ impl State {
             reloads: false,
             view: ViewMode::Radiance,
             show_photons: false,
+            show_paths: false,
             auto_snapshots: false,
             pinned: None,
             looking: Looking::default(),
@@ -298,11 +281,11 @@ impl State {
     }
 
     pub(crate) fn notice(&mut self, text: impl Into<String>) {
-        self.messages.push(Message { tone: Tone::Notice, text: text.into(), since: None, is_logged: false });
+        message::tell(&mut self.messages, Tone::Notice, text.into());
     }
 
     pub(crate) fn error(&mut self, text: impl Into<String>) {
-        self.messages.push(Message { tone: Tone::Error, text: text.into(), since: None, is_logged: false });
+        message::tell(&mut self.messages, Tone::Error, text.into());
     }
 
     pub(crate) fn ask(&mut self, command: Command) {

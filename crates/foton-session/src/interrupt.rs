@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use foton_integrator::Cancel;
 
-/// Asked once, the pass under way is finished and the render stops. Asked again, the pass is discarded. Before there are passes
+/// Asked once, the batch of photons under way is finished, with it the pass, and the render stops. Asked again, the pass is discarded. Before there are passes
 /// there is nothing to finish, and asking once is enough.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt {
@@ -40,6 +40,12 @@ impl Interrupt {
     #[must_use]
     pub fn may_end_at_once(&self) -> bool {
         self.is_requested() && self.disposable.load(Ordering::SeqCst)
+    }
+
+    /// Whether someone asked, and the pass under way is being finished for it.
+    #[must_use]
+    pub fn finishes_a_pass(&self) -> bool {
+        self.is_requested() && !self.cancel.is_requested()
     }
 
     /// Asks.
@@ -80,7 +86,8 @@ mod tests {
         interrupt.request();
         assert!(!interrupt.may_end_at_once());
         assert!(interrupt.is_requested() && !interrupt.cancel().is_requested());
+        assert!(interrupt.finishes_a_pass());
         interrupt.request();
-        assert!(interrupt.cancel().is_requested());
+        assert!(interrupt.cancel().is_requested() && !interrupt.finishes_a_pass());
     }
 }

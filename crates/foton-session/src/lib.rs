@@ -23,6 +23,7 @@ mod clock;
 pub mod engine;
 pub mod findings;
 pub mod folders;
+mod in_time;
 mod interrupt;
 mod metadata;
 mod panic;

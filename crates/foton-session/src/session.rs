@@ -172,24 +172,31 @@ impl Session {
         interrupt: &Interrupt,
         after_pass: &mut dyn FnMut(&Progress<'_>),
     ) -> StopCause {
-        let mut last = Duration::ZERO;
+        let mut last = None;
         loop {
             let passes = self.render.passes();
             if interrupt.is_requested() && passes > 0 {
                 return StopCause::Interrupted;
             }
-            if rule.is_reached(passes, self.elapsed, last, self.render.error().as_ref()) {
+            let is_reached = |session: &Self, next| {
+                rule.is_reached(passes, session.elapsed, next, session.render.error().as_ref())
+            };
+            if is_reached(self, Duration::ZERO) {
+                return StopCause::Rule;
+            }
+            let next = self.plan_for(rule.time, last);
+            if is_reached(self, next) {
                 return StopCause::Rule;
             }
             let before = self.elapsed;
-            let report = self.advance(interrupt.cancel());
-            last = self.elapsed.saturating_sub(before);
-            let report = match report {
-                Ok(report) => report,
+            let report = match self.advance_in_time(rule.time, interrupt) {
+                Ok(Some(report)) => report,
+                Ok(None) => return StopCause::Rule,
                 Err(PassError::Cancelled(_) | PassError::Suspended(_)) => return StopCause::Interrupted,
                 Err(PassError::Panicked(_)) => return StopCause::Panicked,
                 Err(PassError::NotFinite(_)) => return StopCause::NotFinite,
             };
+            last = Some((self.elapsed.saturating_sub(before), report.photons_in_pass));
             after_pass(&Progress {
                 render: &self.render,
                 report,
@@ -273,6 +280,11 @@ impl Session {
         self.elapsed = elapsed;
         self.rays = rays;
         Ok(())
+    }
+
+    /// Does something on the threads of the render.
+    pub(crate) fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        self.pool.install(work)
     }
 
     /// The render.

@@ -37,14 +37,20 @@ fn inject_deafness(step: &str) {
 #[cfg(not(debug_assertions))]
 const fn inject_deafness(_: &str) {}
 
-/// Ctrl-C, SIGTERM and the limits of the system end the render after its pass; a second one discards the pass. Before there are passes
-/// one is enough.
+/// Ctrl-C, SIGTERM and the limits of the system end the render after the batch of photons under way, and say so at once; a second one
+/// discards the pass. Before there are passes one is enough.
 pub(crate) fn interrupt_on_signals(console: &Console) -> Interrupt {
     let interrupt = Interrupt::while_loading();
     let handler = interrupt.clone();
     let json = console.is_json();
+    let say = console.teller();
     let on_end = move || {
         handler.request();
+        if handler.finishes_a_pass() {
+            say(
+                "interrupted: the render ends after the photons under way; interrupt again to discard their pass",
+            );
+        }
         let interrupt = handler.clone();
         // Without a thread the step is waited for.
         let _ =

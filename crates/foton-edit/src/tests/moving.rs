@@ -1,53 +1,24 @@
-//! Drags, and moves of shapes and lights.
+//! Steps of keys, and moves of shapes and lights.
 
 use super::*;
 
 #[test]
-fn a_drag_keeps_the_point_under_the_pointer_and_at_its_height() {
-    let description = scene();
-    let view = View::new(&description.sensors[0]);
-    let picked = DVec3::new(0.3, 0.7, 1.0);
-    let from = view.project(picked).unwrap();
-    for to in [DVec2::new(20.0, 150.0), DVec2::new(250.0, 190.0), DVec2::new(150.0, 120.0)] {
-        let drag = |mode| {
-            let plane = DragPlane::new(&description.sensors[0], UpAxis::Y, picked.to_array(), mode);
-            DVec3::from(plane.translation(from.to_array(), to.to_array()))
-        };
-        let by = drag(DragMode::Horizontal);
-        assert!(by.y.abs() < 1e-12, "{by}");
-        assert!(view.project(picked + by).unwrap().distance(to) < 1e-9);
-        let by = drag(DragMode::Vertical);
-        assert_eq!((by.x, by.z), (0.0, 0.0));
-        assert!((view.project(picked + by).unwrap().y - to.y).abs() < 12.0, "follows up and down");
+fn a_step_of_a_key_is_as_long_as_its_pixels_wherever_the_camera_is() {
+    let at = DVec3::new(0.0, 0.5, 0.0);
+    // From above, at a slant, along the floor, from below, and straight down.
+    let places = [8.0, 1.5, 0.51, 0.5, -3.0].map(|y| DVec3::new(0.0, y, 6.0));
+    for from in places.into_iter().chain([DVec3::new(0.0, 9.0, 1e-9)]) {
+        let sensor = sensor(looking(from, at, DVec3::Y));
+        let pixel = View::new(&sensor).pixel_at(from.distance(at));
+        let by = |pixels, mode| DVec3::from(nudge(&sensor, UpAxis::Y, at.to_array(), pixels, mode)) / pixel;
+        let horizontal = |x, y| by([x, y], DragMode::Horizontal);
+        assert!(horizontal(4.0, 0.0).distance(DVec3::X * 4.0) < 1e-3, "{from}: {}", horizontal(4.0, 0.0));
+        assert!(horizontal(0.0, 4.0).distance(DVec3::Z * 4.0) < 1e-3, "{from}: {}", horizontal(0.0, 4.0));
+        assert!(by([0.0, -4.0], DragMode::Vertical).distance(DVec3::Y * 4.0) < 1e-3, "{from}");
+        assert_eq!(by([f64::NAN, 1.0], DragMode::Horizontal), DVec3::ZERO);
     }
-}
-
-#[test]
-fn drags_are_bounded_wherever_the_pointer_and_the_camera_are() {
-    let picked = DVec3::new(0.0, 0.5, 0.0);
-    let height = [8.0, 0.51, 0.5, 0.0, -3.0];
-    let places = height.map(|y| DVec3::new(0.0, y, 6.0)).into_iter().chain([DVec3::new(0.0, 9.0, 0.0)]);
-    for from in places {
-        let up = if from.z == 0.0 { DVec3::Z } else { DVec3::Y };
-        let sensor = sensor(looking(from, picked, up));
-        for mode in [DragMode::Horizontal, DragMode::Vertical] {
-            let plane = DragPlane::new(&sensor, UpAxis::Y, picked.to_array(), mode);
-            let mut furthest: f64 = 0.0;
-            for to in
-                [[150.0, 100.0], [150.0, -1e9], [-1e9, 99.9], [1e300, 1e300], [f64::NAN, 0.0], [150.0, 40.0]]
-            {
-                let by = DVec3::from(plane.translation([150.0, 100.0], to));
-                assert!(by.is_finite(), "{from} {mode:?} {to:?}: {by}");
-                if to[0].abs() < 1e6 && to[1].abs() < 1e6 {
-                    assert!(by.length() < 62.0 * from.distance(picked), "{from} {mode:?} {to:?}: {by}");
-                    furthest = furthest.max(by.length());
-                }
-            }
-            assert!(furthest > 0.1, "{from} {mode:?}: nothing moves");
-        }
-    }
-    let blind = DragPlane::new(&sensor(DAffine3::IDENTITY), UpAxis::Z, [0.0; 3], DragMode::Horizontal);
-    assert_eq!(blind.translation([0.0, 0.0], [9.0, 9.0]), [0.0; 3]);
+    let blind = sensor(DAffine3::IDENTITY);
+    assert_eq!(nudge(&blind, UpAxis::Z, [0.0; 3], [9.0, 9.0], DragMode::Horizontal), [0.0; 3]);
 }
 
 #[test]

@@ -14,8 +14,9 @@ use super::hit_points::HitPoints;
 use super::laid_out::LaidOut;
 use super::light::Light;
 use super::report::{PassReport, Start};
+use super::schedule::begin_small;
 use super::slots::EarlierBatches;
-use super::under_way::UnderWay;
+use super::under_way::{Once, UnderWay};
 use crate::changes::Changes;
 use crate::error::ErrorSums;
 use crate::settings::{RenderSettings, SettingChange};
@@ -49,6 +50,8 @@ pub(crate) struct Ppm {
     pub(super) changes: Changes,
     /// Changes that wait for the end of the pass under way.
     pub(super) deferred: Vec<SettingChange>,
+    /// What holds for the next pass alone.
+    pub(super) once: Once,
     /// A pass that was suspended.
     pub(super) under_way: Option<Box<UnderWay>>,
     pub(super) start: Start,
@@ -102,7 +105,7 @@ impl Ppm {
 
     fn over(
         scene: Arc<Scene>,
-        settings: RenderSettings,
+        mut settings: RenderSettings,
         shapes: Vec<u32>,
         laid_out: LaidOut,
         cancel: &Cancel,
@@ -110,6 +113,7 @@ impl Ppm {
         let LaidOut { hit_points, sources, samples, emission, start, not_finite } = laid_out;
         cancel.check()?;
         let grid = Grid::new(&hit_points.packets, cancel)?;
+        begin_small(&mut settings.ppm, &hit_points.packets, &grid);
         cancel.check()?;
         let width = scene.sensors()[settings.sensor].width;
         let direct =
@@ -140,6 +144,7 @@ impl Ppm {
             last_photons: 0,
             changes: Changes::default(),
             deferred: Vec::new(),
+            once: Once::default(),
             under_way: None,
             start,
             strict: false,

@@ -3,12 +3,14 @@
 use std::sync::Arc;
 
 use foton_scene::Scene;
+use foton_transport::light_paths::Batch;
 use foton_transport::photon_map::{Chunk, Photon};
 use foton_transport::{Ledger, LightUse, Loss, NotFinite};
 
 use super::algorithm::Ppm;
 use super::direct::Direct;
 use super::report::Start;
+use super::under_way::{Once, UnderWay};
 use crate::error::ErrorSums;
 use crate::settings::{RenderSettings, SettingChange};
 
@@ -34,8 +36,51 @@ impl Ppm {
     }
 
     fn take(&mut self, change: SettingChange) {
+        // What holds for one pass is logged with that.
+        match change {
+            SettingChange::CutPass(batches) => self.once.batches = Some(batches),
+            SettingChange::PhotonsOnce(photons) => self.once.photons = Some(photons),
+            SettingChange::Alpha(_) | SettingChange::PhotonsPerPass(_) => {
+                self.log(change);
+                self.settings.change(change);
+            }
+        }
+    }
+
+    fn log(&mut self, change: SettingChange) {
         self.changes.add(self.passes, self.settings.in_force(&change), change);
-        self.settings.change(change);
+    }
+
+    /// Lets the pass under way end early, as a valid pass of fewer photons, where it has several batches: after the one under way; or, if
+    /// `drops`, without that one unless its photons have all been traced. [`Ppm::advance`] then finishes it.
+    pub(crate) fn cut_pass(&mut self, drops: bool) {
+        if let Some(pass) = &mut self.under_way {
+            pass.cut(drops);
+        }
+    }
+
+    /// Gives up the pass under way, which then has not happened; `false` where hit points have been refined already, or there is none.
+    pub(crate) fn discard_pass(&mut self) -> bool {
+        if self.has_refined() || self.under_way.is_none() {
+            return false;
+        }
+        self.under_way = None;
+        self.take_deferred_changes();
+        true
+    }
+
+    /// Logs what held for a pass alone.
+    pub(super) fn note_exceptions(&mut self, pass: &UnderWay) {
+        let Once { photons, batches } = pass.exceptions();
+        let changes = [photons.map(SettingChange::PhotonsOnce), batches.map(SettingChange::CutPass)];
+        changes.into_iter().flatten().for_each(|change| self.log(change));
+    }
+
+    /// Photons of the next pass's largest batch.
+    pub(crate) fn next_batch(&self) -> u64 {
+        let photons = self.once.photons.unwrap_or_else(|| self.settings.ppm.photons_after(self.passes));
+        let photons = u64::from(photons.get());
+        Batch::all(photons, self.max_in_batch).next().map_or(photons, |batch| batch.photons(photons))
     }
 
     /// Takes the changes on that were made while a pass was under way.

@@ -182,7 +182,8 @@ pub struct PpmSettings {
     pub alpha: Alpha,
     /// Photons emitted in a pass, once passes have grown. May change between passes.
     pub photons_per_pass: NonZeroU32,
-    /// Photons emitted in the first pass, for an early picture: passes double from there to `photons_per_pass`.
+    /// Photons emitted in the first pass, for an early picture: passes double from there to `photons_per_pass`. A render begins with fewer
+    /// where discs are so wide that each photon meets very many.
     pub first_pass: NonZeroU32,
     /// First radius of every hit point in world units; `None`: from the pixel's footprint.
     pub radius: Option<f64>,

@@ -30,6 +30,8 @@ impl Ppm {
             let (kind, bits) = match change {
                 SettingChange::Alpha(alpha) => (0, alpha.get().to_bits()),
                 SettingChange::PhotonsPerPass(photons) => (1, photons.get().into()),
+                SettingChange::CutPass(batches) => (2, batches.get().into()),
+                SettingChange::PhotonsOnce(photons) => (3, photons.get().into()),
             };
             [*pass, kind, bits].into_iter().for_each(|n| out.u64(n));
         }
@@ -155,6 +157,8 @@ fn change(input: &mut Reader<'_>) -> Result<(u64, SettingChange), StateError> {
     let change = match kind {
         0 => SettingChange::Alpha(Alpha::new(f64::from_bits(bits)).ok_or(StateError::Impossible)?),
         1 => SettingChange::PhotonsPerPass(nonzero(bits)?),
+        2 => SettingChange::CutPass(nonzero(bits)?),
+        3 => SettingChange::PhotonsOnce(nonzero(bits)?),
         _ => return Err(StateError::Impossible),
     };
     Ok((pass, change))

@@ -34,7 +34,9 @@ impl Ppm {
 
     /// Prepares for the batches of a pass.
     pub(super) fn begin_pass(&mut self) -> UnderWay {
-        let photons = u64::from(self.settings.ppm.photons_after(self.passes).get());
+        let once = std::mem::take(&mut self.once);
+        let scheduled = self.settings.ppm.photons_after(self.passes);
+        let photons = u64::from(once.photons.unwrap_or(scheduled).get());
         let slots = self.hit_points.statistics_slots.len();
         let adapts = !self.hit_points.radius_statistics_slots.is_empty();
         let batches: Vec<Batch> = Batch::all(photons, self.max_in_batch).collect();
@@ -50,7 +52,7 @@ impl Ppm {
             tally: Tally::default(),
             left_out: None,
         };
-        UnderWay::new(counts, self.settings.ppm.alpha, batches)
+        UnderWay::new(counts, self.settings.ppm.alpha, batches, once)
     }
 
     /// Whether photons can add light: not to emitters that are seen directly, nor to surfaces that only shadow rays light.
@@ -84,12 +86,17 @@ impl Ppm {
         cancel: &Cancel,
         should_suspend: ShouldSuspend<'_>,
     ) -> Result<(), Halt> {
+        if batch.is_closing() && pass.next < NextStep::Gather {
+            // Nothing more is emitted: the map stays as it was, and nothing is gathered from it.
+            pass.next = NextStep::Gather;
+            pass.tallies.clear();
+        }
         if pass.next > NextStep::Trace {
             return Ok(());
         }
         watch(Stage::Trace);
         let mut chunks = std::mem::take(&mut self.chunks);
-        let photon_pass = self.photon_pass(pass.counts.photons, batch);
+        let photon_pass = self.photon_pass(pass.planned(), batch);
         if pass.next == NextStep::Begin {
             photon_pass.begin(&mut chunks);
             pass.next = NextStep::Trace;
@@ -113,7 +120,7 @@ impl Ppm {
         }
         watch(Stage::Sort);
         self.map.build(&self.chunks, self.grid.touched());
-        self.map_photons = pass.batch().map_or(0, |batch| batch.photons(pass.photons()));
+        self.map_photons = pass.batch().map_or(0, |batch| batch.photons(pass.planned()));
         pass.next = NextStep::Gather;
         pass.tallies.clear();
         cancel.check()
@@ -153,7 +160,7 @@ impl Ppm {
         for of_block in &pass.tallies {
             tally += (*of_block).ok_or(Suspended)?;
         }
-        pass.counts.add(&self.chunks, &tally);
+        pass.counts.add(if batch.is_closing() { &[] } else { &self.chunks }, &tally);
         Ok(())
     }
 
@@ -169,7 +176,7 @@ impl Ppm {
         let lighting =
             Lighting { scene: &self.scene, hit_points: &self.hit_points, seed: self.settings.seed, set: 0 };
         let by_block = ByBlock { done: &mut pass.lit, should_suspend };
-        lighting.light(direct, &direct.turns(pass.counts.photons), by_block);
+        lighting.light(direct, &direct.turns(pass.counts.rays), by_block);
         if pass.lit.iter().any(Option::is_none) {
             return Err(Suspended);
         }
@@ -184,10 +191,11 @@ impl Ppm {
     /// Adds a pass to the image, its error to the error, and what it counted to the render's own.
     pub(super) fn accumulate(&mut self, pass: UnderWay, watch: &mut dyn FnMut(Stage)) -> PassReport {
         watch(Stage::Radiance);
+        self.note_exceptions(&pass);
         let mut counts = pass.counts;
         counts.leave_out(self.light.add_pass(&self.hit_points, counts.photons));
         if let Some(direct) = &mut self.direct {
-            direct.add(&direct.turns(counts.photons), pass.lit.into_iter().flatten());
+            direct.add(pass.lit.into_iter().flatten());
         }
         let Counts { ledger, lights, losses, photons, rays, stored, tally, left_out } = counts;
         (self.ledger, self.lights, self.losses) = (ledger, lights, losses);

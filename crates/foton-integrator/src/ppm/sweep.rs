@@ -153,7 +153,9 @@ impl<const LAYERS: usize, const MOMENTS: bool> WithSimd for OfBlock<'_, LAYERS, 
         for (i, packet) in packets.iter_mut().enumerate() {
             let index = first + i;
             runs.clear();
-            grid.for_each_run(&packet.bounds(), |first, end| runs.push((first, end)));
+            if !rule.batch.is_closing() {
+                grid.for_each_run(&packet.bounds(), |first, end| runs.push((first, end)));
+            }
             *found = Found::NONE;
             let term = ClassTerm::new(rule.question, packet);
             if let Some(glossy) = index.checked_sub(first_glossy) {

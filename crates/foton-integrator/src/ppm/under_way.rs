@@ -1,5 +1,7 @@
 //! A pass under way: how far it is and what it has counted, so that it can be left anywhere and gone on with.
 
+use std::num::NonZeroU32;
+
 use foton_transport::light_paths::Batch;
 
 use super::counts::Counts;
@@ -20,9 +22,21 @@ pub(crate) enum NextStep {
     Gather,
 }
 
+/// What holds for one pass alone. Not part of a saved state, which has no pass under way or planned.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Once {
+    /// Its photons.
+    pub(super) photons: Option<NonZeroU32>,
+    /// The batches after which it ends.
+    pub(super) batches: Option<NonZeroU32>,
+}
+
 /// A pass under way.
 pub(crate) struct UnderWay {
     pub(super) counts: Counts,
+    /// Photons that the pass was to have, of which batches are parts; those that it has are fewer where it is cut short.
+    planned: u64,
+    photons_once: Option<NonZeroU32>,
     /// That of the whole pass: a change takes effect with the next one.
     pub(super) alpha: Alpha,
     batches: Vec<Batch>,
@@ -39,8 +53,10 @@ pub(crate) struct UnderWay {
 
 impl UnderWay {
     /// At its very beginning.
-    pub(super) fn new(counts: Counts, alpha: Alpha, batches: Vec<Batch>) -> Self {
-        Self {
+    pub(super) fn new(counts: Counts, alpha: Alpha, batches: Vec<Batch>, once: Once) -> Self {
+        let mut pass = Self {
+            planned: counts.photons,
+            photons_once: once.photons,
             counts,
             alpha,
             batches,
@@ -49,12 +65,45 @@ impl UnderWay {
             tallies: Vec::new(),
             lit: Vec::new(),
             is_lit: false,
+        };
+        if let Some(batches) = once.batches {
+            pass.cut_after(batches.get() as usize);
+        }
+        pass
+    }
+
+    /// Photons of the pass, in all batches that it was to have.
+    pub(super) const fn planned(&self) -> u64 {
+        self.planned
+    }
+
+    /// Lets the pass end after so many of its batches, as a pass of the photons in them; not where they are none, or all. Each batch is
+    /// dealt from the whole pass, so that those which are left out leave no emitter out.
+    pub(super) fn cut_after(&mut self, batches: usize) {
+        if batches == 0 || batches >= self.batches.len() {
+            return;
+        }
+        self.counts.photons = self.batches[..batches].iter().map(|batch| batch.photons(self.planned)).sum();
+        let closing = self.batches[batches - 1].closing();
+        self.batches.truncate(batches);
+        self.batches.push(closing);
+    }
+
+    /// Lets the pass end after the batch under way, or before it where `drops` says so and its photons have not all been traced.
+    pub(super) fn cut(&mut self, drops: bool) {
+        if drops && self.next < NextStep::Sort && self.done > 0 {
+            self.cut_after(self.done);
+            self.next = NextStep::Begin;
+        } else {
+            self.cut_after(self.done + 1);
         }
     }
 
-    /// Photons of the pass.
-    pub(super) const fn photons(&self) -> u64 {
-        self.counts.photons
+    /// What held for this pass alone.
+    pub(super) fn exceptions(&self) -> Once {
+        let is_cut = self.batches.last().is_some_and(|batch| batch.is_closing());
+        let batches = u32::try_from(self.batches.len() - 1).ok().and_then(NonZeroU32::new);
+        Once { photons: self.photons_once, batches: batches.filter(|_| is_cut) }
     }
 
     /// The batch that is to be worked on; `None` once all are done.

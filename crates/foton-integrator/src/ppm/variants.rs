@@ -1,7 +1,8 @@
 //! Renders that differ only in how they refine, over the same photons: each pass is traced once and gathered by all of them.
 //!
 //! Photon paths do not depend on hit points: neither α nor radii, nor whether direct light comes by shadow rays, change them.
-//! Each variant has the bits of a run of its own; only the use of emitters is that of the widest. Not here: what the differences are worth (`foton-measure`).
+//! Each variant has the bits of a run of its own; only the use of emitters is that of the widest, and where discs of one are so wide
+//! that it begins with smaller passes, all do. Not here: what the differences are worth (`foton-measure`).
 
 use std::sync::Arc;
 
@@ -64,7 +65,11 @@ impl Variants {
             run.ppm_mut().settings.seed = photons;
             Ok(run)
         };
-        let runs: Vec<Render> = settings.iter().enumerate().map(start).collect::<Result<_, _>>()?;
+        let mut runs: Vec<Render> = settings.iter().enumerate().map(start).collect::<Result<_, _>>()?;
+        // All begin as small as those with the widest discs.
+        let first_pass = |run: &Render| run.settings().ppm.first_pass;
+        let Some(least) = runs.iter().map(first_pass).min() else { return Ok(None) };
+        runs.iter_mut().for_each(|run| run.ppm_mut().settings.ppm.first_pass = least);
         let widest = |run: &&Render| run.ppm().hit_points.statistics().map(|s| s.radius2()).sum::<f64>();
         let widest = runs.iter().max_by(|a, b| widest(a).total_cmp(&widest(b)));
         let Some(everywhere) =
@@ -85,7 +90,7 @@ impl Variants {
         cancel: &Cancel,
     ) -> Result<Vec<PassReport>, Cancelled> {
         let mut passes: Vec<UnderWay> = self.runs.iter_mut().map(|run| run.ppm_mut().begin_pass()).collect();
-        let photons = passes[0].photons();
+        let photons = passes[0].planned();
         while let Some(batch) = passes[0].batch() {
             watch(Step::Trace);
             let pass = self.runs[0].ppm().photon_pass(photons, batch);

@@ -34,6 +34,11 @@ pub(super) fn toggle_photons(state: &mut State) {
     state.ask(Command::ShowPhotons(state.show_photons));
 }
 
+pub(super) fn toggle_paths(state: &mut State) {
+    state.show_paths = !state.show_paths;
+    state.ask(Command::ShowPaths(state.show_paths));
+}
+
 /// Keeps this picture to compare with, or ends the comparison.
 pub(super) fn toggle_pin(state: &mut State) {
     if state.pinned.take().is_some() {

@@ -41,7 +41,7 @@ pub(super) fn show(ui: &mut egui::Ui, state: &mut State) {
     overlay::draw(&painter, state, &frame, film);
     gizmo::draw(&painter, state, &frame, film);
     region::draw(&painter, state, film);
-    if state.show_photons {
+    if state.show_photons || state.show_paths {
         dot_legend::draw(&painter, rect);
     }
     let reduction = present::reduction(frame.size, state.largest_texture);

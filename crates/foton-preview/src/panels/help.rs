@@ -2,7 +2,7 @@
 
 use crate::state::State;
 
-const KEYS: [(&str, &str); 33] = [
+const KEYS: [(&str, &str); 34] = [
     ("Drag", "orbit the camera"),
     ("Shift+drag, right drag", "pan the camera"),
     ("Wheel", "camera nearer, farther"),
@@ -23,6 +23,7 @@ const KEYS: [(&str, &str); 33] = [
     ("Ctrl+R", "restart"),
     ("P", "snapshot: EXR and PNG"),
     ("O", "photons as dots"),
+    ("V", "paths of the photons that lit the pixel under the pointer"),
     ("K", "pin this pass, compare"),
     ("B", "keep this pass in the history"),
     ("T", "the history: compare, return, films"),

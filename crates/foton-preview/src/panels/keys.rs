@@ -23,12 +23,13 @@ const ANYWHERE: [(Key, Act); 4] = [
 ];
 
 /// Keys that are letters or signs.
-const LETTERS: [(Key, Act); 14] = [
+const LETTERS: [(Key, Act); 15] = [
     (Key::Period, |s| s.ask(Command::Step)),
     (Key::F, |s| s.placement = Placement::FIT),
     (Key::H, |s| s.ask(Command::ResetCamera)),
     (Key::P, actions::snapshot),
     (Key::O, actions::toggle_photons),
+    (Key::V, actions::toggle_paths),
     (Key::K, actions::toggle_pin),
     (Key::L, |s| s.looking.show_histogram = !s.looking.show_histogram),
     (Key::C, |s| s.looking.marks_clipping = !s.looking.marks_clipping),

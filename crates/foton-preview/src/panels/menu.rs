@@ -11,7 +11,8 @@ pub(super) fn show(ui: &mut Ui, state: &mut State) {
         let button = ui.menu_button("File", |ui| file(ui, state)).response;
         state.place("file menu", &button);
         ui.menu_button("Edit", |ui| edit(ui, state));
-        ui.menu_button("View", |ui| view(ui, state));
+        let button = ui.menu_button("View", |ui| view(ui, state)).response;
+        state.place("view menu", &button);
         ui.menu_button("Help", |ui| help(ui, state));
         if state.changed_on_disk
             && ui.button("Reload").on_hover_text("The scene's file has changed on the disk").clicked()
@@ -106,6 +107,9 @@ fn view(ui: &mut Ui, state: &mut State) {
     ui.separator();
     if entry(ui, true, "Photons as dots", "O").clicked() {
         actions::toggle_photons(state);
+    }
+    if entry(ui, true, "Photon paths to the pixel", "V").clicked() {
+        actions::toggle_paths(state);
     }
     views::over_the_picture(ui, state);
     ui.separator();

@@ -1,6 +1,7 @@
 //! Short messages in a corner of the window. Notices go by themselves, errors are closed.
 
-use crate::state::{MESSAGE_SECONDS, State, Tone};
+use crate::message::{MESSAGE_SECONDS, Tone};
+use crate::state::State;
 
 pub(super) fn show(ctx: &egui::Context, state: &mut State) {
     let now = ctx.input(|i| i.time);
@@ -21,7 +22,12 @@ pub(super) fn show(ctx: &egui::Context, state: &mut State) {
             for (i, message) in state.messages.iter().enumerate().rev().take(5) {
                 egui::Frame::popup(ui.style()).show(ui, |ui| {
                     ui.horizontal_wrapped(|ui| {
-                        let text = egui::RichText::new(&message.text);
+                        let times = if message.times > 1 {
+                            format!(" ({} times)", message.times)
+                        } else {
+                            String::new()
+                        };
+                        let text = egui::RichText::new(format!("{}{times}", message.text));
                         let colour = ui.visuals().error_fg_color;
                         ui.label(if message.tone == Tone::Error { text.color(colour) } else { text });
                         if message.tone == Tone::Error && ui.small_button("Dismiss").clicked() {

@@ -2,7 +2,7 @@
 
 use egui::{Color32, Pos2, Shape, Stroke};
 use foton_edit::Segment;
-use foton_session::engine::{Dot, Frame};
+use foton_session::engine::{Dot, DrawnPath, Frame};
 
 use super::dot_legend;
 use super::film_place::Film;
@@ -29,6 +29,9 @@ pub(super) fn draw(painter: &egui::Painter, state: &State, frame: &Frame, film: 
         let corners: Vec<Pos2> = probe.disc.iter().map(|&c| film.to_points(c)).collect();
         if corners.len() > 2 {
             painter.add(Shape::closed_line(corners, Stroke::new(1.2, DISC)));
+        }
+        if state.show_paths {
+            paths(painter, &probe.paths, film);
         }
         dots(painter, &probe.photons, film, 1.6);
     }
@@ -61,6 +64,18 @@ fn line(painter: &egui::Painter, segment: &Segment, film: Film, stroke: Stroke) 
     painter.line_segment(segment.map(|end| film.to_points(end)), stroke);
 }
 
+/// Paths of photons: thin, for there are many; the last edge, by which the light came, is the brightest.
+fn paths(painter: &egui::Painter, paths: &[DrawnPath], film: Film) {
+    for path in paths {
+        let colour = dot_legend::colour(path.class);
+        for (i, edge) in path.edges.iter().enumerate() {
+            let is_last = i + 1 == path.edges.len();
+            let colour = if is_last { colour } else { colour.gamma_multiply(0.55) };
+            line(painter, edge, film, Stroke::new(1.0, colour));
+        }
+    }
+}
+
 fn dots(painter: &egui::Painter, dots: &[Dot], film: Film, radius: f32) {
     let inside =
         dots.iter().map(|d| (film.to_points(d.film), d.class)).filter(|(at, _)| film.rect.contains(*at));
@@ -76,7 +91,31 @@ fn dots(painter: &egui::Painter, dots: &[Dot], film: Film, radius: f32) {
 
 #[cfg(test)]
 mod tests {
+    use egui::{Rect, Vec2};
+    use foton_session::PathClass;
+
     use super::*;
+
+    #[test]
+    fn paths_of_photons_have_the_colour_of_their_light_and_end_at_the_pixel() {
+        let edges = vec![[[2.0, 2.0], [40.0, 20.0]], [[40.0, 20.0], [40.0, 38.0]]];
+        let drawn = DrawnPath { edges, class: PathClass::Indirect };
+        let rect = Rect::from_min_size(Pos2::ZERO, Vec2::new(120.0, 80.0));
+        let film = Film { rect, image: rect, size: Vec2::new(60.0, 40.0) };
+        let ctx = egui::Context::default();
+        let mut output = ctx.run_ui(egui::RawInput::default(), |ui| {
+            paths(&ui.painter_at(rect), std::slice::from_ref(&drawn), film);
+        });
+        output.textures_delta.clear();
+        let lines = output.shapes.iter().filter_map(|shape| match &shape.shape {
+            Shape::LineSegment { points, stroke } => Some((*points, stroke.color)),
+            _ => None,
+        });
+        let [(_, dim), (last, bright)] = lines.collect::<Vec<_>>()[..] else { panic!("two edges") };
+        assert_eq!(bright, dot_legend::colour(PathClass::Indirect));
+        assert_eq!(last[1], Pos2::new(80.0, 76.0));
+        assert_ne!(dim, bright);
+    }
 
     #[test]
     fn the_wipe_says_which_side_is_pinned() {

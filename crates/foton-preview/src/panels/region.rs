@@ -20,6 +20,7 @@ pub(super) fn entry(ui: &mut egui::Ui, state: &mut State) {
     let entry = ui.add_enabled(frame.is_some(), egui::Button::new(label)).on_hover_text(
         "A part of the image, dragged out over the picture, is rendered alone, as `foton render --region` does. Restarts the render",
     );
+    state.place("region entry", &entry);
     if entry.clicked() && is_chosen {
         configure(state, None);
     } else if entry.clicked() {

@@ -189,9 +189,10 @@ fn samples(ui: &mut Ui, draft: &mut Configuration) {
 fn radii(ui: &mut Ui, draft: &mut Configuration, median: f64) {
     const FIRST: &str =
         "Off: from each pixel's footprint. Large: smooth and biased at first; small: sharp and noisy";
-    let start = median.max(1e-9);
+    // Known once there are hit points.
+    let start = (median > 0.0).then(|| median.max(1e-9));
     let number = Number::new("First radius", 1e-9..=1e9).unit("units").wide();
-    let number = number.speed(0.01 * draft.radius.unwrap_or(start));
+    let number = number.speed(0.01 * draft.radius.or(start).unwrap_or(1.0));
     draft.radius = optional(ui, LABEL, "First radius", FIRST, draft.radius, start, number);
     const SMALLEST: &str = "In spacings of the eye samples: light narrower than that falls between them. 0: radii shrink for ever";
     row(ui, "Smallest radius", SMALLEST, |ui, _| {

@@ -17,7 +17,8 @@ use super::frame_log::FrameLog;
 use super::live::Live;
 use super::pace::Pace;
 use super::recent::Recent;
-use crate::state::{Leaving, State, Tone};
+use crate::message::Tone;
+use crate::state::{Leaving, State};
 
 /// How often to check whether the scene's file has changed.
 const WATCH: Duration = Duration::from_secs(1);

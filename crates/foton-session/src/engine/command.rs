@@ -284,6 +284,8 @@ pub enum Command {
     SetView(ViewMode),
     /// Whether frames carry the photons of the last pass.
     ShowPhotons(bool),
+    /// Whether probes are to carry paths of photons.
+    ShowPaths(bool),
     /// The pixel that a person points at.
     Probe(Option<[u32; 2]>),
     /// Writes the render as it stands: an EXR and a PNG into a folder, such as `ring-001-p000016.exr`. The number counts runs.

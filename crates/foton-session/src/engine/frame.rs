@@ -69,6 +69,15 @@ pub struct Dot {
     pub class: PathClass,
 }
 
+/// The path of a photon that lights a pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnPath {
+    /// Its edges as far as they are before the camera, in pixels of the image, from the emitter on.
+    pub edges: Vec<Segment>,
+    /// The kind of light that it brought.
+    pub class: PathClass,
+}
+
 /// How far building a scene is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BuildProgress {
@@ -108,6 +117,8 @@ pub struct Probe {
     pub disc: Vec<[f32; 2]>,
     /// Photons of the last pass within that disc.
     pub photons: Vec<Dot>,
+    /// Paths of photons that its hit points gathered, if asked for.
+    pub paths: Arc<Vec<DrawnPath>>,
 }
 
 /// A sensor of the scene.

@@ -37,8 +37,8 @@ use cancels::Cancels;
 pub use command::{Command, Configuration, ErrorPart, Event, Gesture, Region, SceneEdit, Source, ViewMode};
 pub use foton_scene::BuildStep;
 pub use frame::{
-    Activity, BuildProgress, Dot, Frame, Picture, Probe, RenderStats, SceneFacts, Selection, SensorFacts,
-    SurfaceNames,
+    Activity, BuildProgress, Dot, DrawnPath, Frame, Picture, Probe, RenderStats, SceneFacts, Selection,
+    SensorFacts, SurfaceNames,
 };
 pub use history::{HistoryEntry, Thumbnail, shrunk};
 pub use loader::{Loaded, Loader, Reopened, SavedScene};

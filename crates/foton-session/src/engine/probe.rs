@@ -1,21 +1,26 @@
 //! What is drawn over the picture: the photons of the last pass, and the disc of the pixel that a person points at.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
-use foton_integrator::{Disc, Render, StoredPhoton};
+use foton_edit::Segment;
+use foton_integrator::{Disc, PhotonPath, Render, StoredPhoton};
 use foton_math::Ray;
 use foton_math::glam::{DVec3, Vec2};
 use foton_scene::Scene;
 use foton_scene::description::Crop;
 use rayon::prelude::*;
 
-use super::frame::{Dot, Probe, SurfaceNames};
+use super::frame::{Dot, DrawnPath, Probe, SurfaceNames};
 
 /// Photons drawn at most.
 const DOTS: usize = 20_000;
 
 /// Photons drawn in a disc at most.
 const DISC_DOTS: usize = 2_000;
+
+/// Paths drawn at most.
+const PATHS: usize = 64;
 
 /// Corners of a disc's outline.
 const CORNERS: u32 = 48;
@@ -74,7 +79,45 @@ pub(super) fn probe(render: &Render, pixel: [u32; 2]) -> Option<Probe> {
         surface: surface(scene, sensor.ray_of_whole(film)),
         disc: first.map_or_else(Vec::new, |d| outline(scene, render.settings().sensor, d)),
         photons: photons.iter().filter_map(|p| dot(render, p, false)).collect(),
+        paths: Arc::default(),
     })
+}
+
+/// Paths of photons that lit a pixel of the whole image, as the camera sees them.
+pub(super) fn paths(render: &Render, pixel: [u32; 2]) -> Vec<DrawnPath> {
+    let scene = render.scene();
+    let sensor = &scene.sensors()[render.settings().sensor];
+    let film = Vec2::new(pixel[0] as f32 + 0.5, pixel[1] as f32 + 0.5);
+    let Some([x, y]) = pixel_in(&sensor.window(), film) else { return Vec::new() };
+    let project = |world: DVec3| {
+        sensor.project_on_whole(scene.normalisation().point(world)).map(|(film, _)| film.to_array())
+    };
+    let draw = |path: PhotonPath| {
+        let edges = path.points.windows(2).filter_map(|ends| edge(ends[0], ends[1], &project));
+        DrawnPath { edges: edges.collect(), class: path.class }
+    };
+    render.paths_to(y as usize * sensor.width as usize + x as usize, PATHS).into_iter().map(draw).collect()
+}
+
+/// An edge on the film as far as it is before the camera.
+fn edge(a: DVec3, b: DVec3, project: &dyn Fn(DVec3) -> Option<[f32; 2]>) -> Option<Segment> {
+    let (a, b) = match (project(a), project(b)) {
+        (Some(a), Some(b)) => return Some([a, b]),
+        (Some(_), None) => (a, b),
+        (None, Some(_)) => (b, a),
+        (None, None) => return None,
+    };
+    // Halves what is seen and what is not until the edge of that is a pixel or so away.
+    let (mut seen, mut unseen) = (0.0, 1.0);
+    for _ in 0..24 {
+        let middle = 0.5 * (seen + unseen);
+        if project(a.lerp(b, middle)).is_some() {
+            seen = middle;
+        } else {
+            unseen = middle;
+        }
+    }
+    Some([project(a)?, project(a.lerp(b, seen))?])
 }
 
 fn surface(scene: &Scene, ray: Ray) -> Option<SurfaceNames> {

@@ -322,6 +322,25 @@ fn the_probe_says_what_the_picture_shows() {
     assert_eq!(probe.radiance, image(&frame).pixels[index]);
     assert_eq!(probe.surface, Some(SurfaceNames { shape: "floor".into(), material: "grey".into() }));
     assert!(probe.hit_points == 1 && probe.disc.len() > 8 && probe.radius.is_some_and(|r| r > 0.0));
+    assert!(probe.paths.is_empty(), "not asked for");
+    rig.send(Command::ShowPaths(true));
+    // Few pixels have gathered a photon of the last pass.
+    let mut columns = 40..SIZE[0];
+    let (with, pixel) = std::iter::from_fn(|| {
+        let pixel = [columns.next()?, floor[1]];
+        rig.send(Command::Probe(Some(pixel)));
+        Some((rig.until("its probe", |f| f.probe.as_ref().is_some_and(|p| p.pixel == pixel)), pixel))
+    })
+    .find(|(frame, _)| frame.probe.as_ref().is_some_and(|probe| !probe.paths.is_empty()))
+    .expect("a pixel with paths");
+    assert_eq!((image(&with), with.render), (image(&frame), frame.render), "the picture is the same");
+    for path in with.probe.as_ref().expect("asked for").paths.iter() {
+        let [_, end] = *path.edges.last().expect("an edge");
+        let off = [0, 1].map(|axis| (end[axis] - pixel[axis] as f32 - 0.5).abs());
+        assert!(off.iter().all(|d| *d < 12.0), "{path:?} ends at the disc");
+    }
+    rig.send(Command::ShowPaths(false));
+    rig.until("no paths", |f| f.probe.as_ref().is_some_and(|p| p.paths.is_empty()));
     rig.send(Command::Probe(Some([9999, 0])));
     rig.until("nothing outside", |f| f.probe.is_none());
 }

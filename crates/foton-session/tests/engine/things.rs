@@ -77,6 +77,11 @@ fn names_and_materials_are_changed_for_what_is_selected() {
     assert_eq!((renamed.render, renamed.scene.is_unsaved), (chosen.render, true), "the render goes on");
     edit(&rig, SceneEdit::Rename { target: Target::Shape(1), name: "bulb".into() });
     assert!(rig.failure().contains("has a \"bulb\" already"));
+    for (step, name) in [(SceneEdit::Undo, "ball"), (SceneEdit::Redo, "pearl")] {
+        edit(&rig, step);
+        let named = rig.until("the name", |f| names(f).contains(&name) && f.activity == Activity::Done);
+        assert_eq!((named.render, selected(&named)), (chosen.render, Some(name)), "the render goes on");
+    }
     let make = Make::Kind(Side::Front, 0);
     edit(&rig, SceneEdit::Remake { make, name: "chalk".into(), all: false });
     let remade = rig.until("the material", |f| {

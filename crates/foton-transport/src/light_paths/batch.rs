@@ -13,13 +13,26 @@ pub const MAX_PHOTONS: u64 = 1 << 20;
 pub struct Batch {
     number: u64,
     of: u64,
+    is_closing: bool,
 }
 
 impl Batch {
     /// The batches of a pass of `photons`, at most `max` in each. At least one, since a pass without photons is one too.
     pub fn all(photons: u64, max: u64) -> impl Iterator<Item = Self> {
         let of = photons.div_ceil(max).max(1);
-        (0..of).map(move |number| Self { number, of })
+        (0..of).map(move |number| Self { number, of, is_closing: false })
+    }
+
+    /// What a pass ends with that ends after this batch although others were to follow: a last batch without photons.
+    #[must_use]
+    pub const fn closing(self) -> Self {
+        Self { number: self.of.saturating_sub(1), of: self.of, is_closing: true }
+    }
+
+    /// Whether it has no photons, since the pass was cut short.
+    #[inline]
+    pub const fn is_closing(self) -> bool {
+        self.is_closing
     }
 
     /// Whether sums begin here.
@@ -37,7 +50,7 @@ impl Batch {
     /// How many of a pass's photons are in it.
     #[inline]
     pub const fn photons(self, pass: u64) -> u64 {
-        pass.saturating_sub(self.number).div_ceil(self.of)
+        if self.is_closing { 0 } else { pass.saturating_sub(self.number).div_ceil(self.of) }
     }
 
     /// The indices in the pass of a range of its photons.
@@ -61,6 +74,14 @@ mod tests {
             assert!(batches[0].is_first() && batches[batches.len() - 1].is_last());
             assert_eq!(batches.iter().filter(|b| b.is_first() || b.is_last()).count(), batches.len().min(2));
         }
+    }
+
+    #[test]
+    fn a_pass_that_is_cut_short_closes_with_a_batch_without_photons() {
+        let batches: Vec<Batch> = Batch::all(23, 5).collect();
+        let closing = batches[1].closing();
+        assert!(closing.is_last() && !closing.is_first() && closing.is_closing());
+        assert!(closing.photons(23) == 0 && !batches[4].is_closing());
     }
 
     #[test]

@@ -102,7 +102,7 @@ impl PhotonPass<'_> {
 
     /// Emits a photon, unless there is no emitter or its power is not finite.
     #[inline(always)]
-    fn start(&self, index: u64, chunk: &mut Chunk, paths: &mut Vec<Path>) {
+    pub(super) fn start(&self, index: u64, chunk: &mut Chunk, paths: &mut Vec<Path>) {
         let stream = Stream::new(self.seed, Purpose::Photon, self.pass, index);
         let mut numbers = stream.clone();
         // Stratified over the pass: each emitter gets its share of photons up to one.
@@ -142,7 +142,14 @@ impl PhotonPass<'_> {
 
     /// What becomes of a photon where its ray ends. If it goes on, it is added to `next`: written once, where it is read.
     #[inline(always)]
-    fn go_on(&self, path: &Path, hit: Option<&Hit>, draw: Draw, chunk: &mut Chunk, next: &mut Vec<Path>) {
+    pub(super) fn go_on(
+        &self,
+        path: &Path,
+        hit: Option<&Hit>,
+        draw: Draw,
+        chunk: &mut Chunk,
+        next: &mut Vec<Path>,
+    ) {
         let before = next.len();
         let stored = match hit {
             Some(hit) => self.scatter(path, &self.scene.surface(&path.ray, hit), draw, chunk, next),

@@ -13,7 +13,7 @@ use foton_input::printable;
 use foton_scene::BuildStep;
 use foton_session::findings::{self, Finding, SettingNames};
 use foton_session::{Progress, Session, StopRule};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::{Value, json};
 
 use crate::figure::{add_error, classes_text, error_text, upper_end_text};
@@ -25,6 +25,12 @@ use json::{ledger_json, lights_json, located, not_finite};
 /// A text for a terminal, in which lines are our own and nothing else does more than show itself.
 fn harmless(text: &str) -> String {
     text.lines().map(printable).collect::<Vec<_>>().join("\n")
+}
+
+fn write_above(bar: &ProgressBar, text: &str) {
+    bar.suspend(|| {
+        let _ = writeln!(io::stderr().lock(), "{}", harmless(text));
+    });
 }
 
 /// The program's voice.
@@ -40,7 +46,9 @@ pub(crate) struct Console {
 impl Console {
     pub(crate) fn new(json: bool) -> Self {
         let (said_floor, lost) = (AtomicBool::new(false), OnceLock::new());
-        Self { json, bar: ProgressBar::hidden(), said_floor, lost }
+        // Hidden until it begins; others have it by then.
+        let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
+        Self { json, bar, said_floor, lost }
     }
 
     /// Whether it says things in JSON.
@@ -79,9 +87,13 @@ impl Console {
 
     /// A line on stderr, above the bar.
     pub(crate) fn line(&self, text: &str) {
-        self.bar.suspend(|| {
-            let _ = writeln!(io::stderr().lock(), "{}", harmless(text));
-        });
+        write_above(&self.bar, text);
+    }
+
+    /// What writes such a line from another thread.
+    pub(crate) fn teller(&self) -> impl Fn(&str) + Send + 'static + use<> {
+        let bar = self.bar.clone();
+        move |text| write_above(&bar, text)
     }
 
     /// Something to know that does not stop the render.
@@ -156,8 +168,8 @@ impl Console {
     }
 
     /// Starts the bar; it shows only on a terminal.
-    pub(crate) fn begin(&mut self) {
-        self.bar = ProgressBar::new(1000);
+    pub(crate) fn begin(&self) {
+        self.bar.set_draw_target(ProgressDrawTarget::stderr());
         let style = ProgressStyle::with_template("{bar:32} {elapsed}  {msg}");
         self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         self.bar.set_message("reading the scene");

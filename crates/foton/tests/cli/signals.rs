@@ -33,6 +33,21 @@ fn an_interrupt_ends_a_long_render_after_its_pass_and_writes_the_image() {
     assert_eq!(folder.images(), ["x.exr"]);
 }
 
+#[test]
+fn an_interrupt_is_answered_in_a_line_before_the_render_ends() {
+    let folder = Folder::new("answer");
+    let mut command = folder.command("render scene.xml -o x.exr --passes 1000000 --photons 2000 --json");
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("starts");
+    let mut stdout = BufReader::new(child.stdout.take().expect("piped"));
+    stdout.read_line(&mut String::new()).expect("a line");
+    interrupt(&child);
+    stdout.read_to_end(&mut Vec::new()).expect("lines");
+    let mut said = String::new();
+    child.stderr.take().expect("piped").read_to_string(&mut said).expect("lines");
+    assert_eq!(child.wait().expect("ends").code(), Some(0), "{said}");
+    assert!(said.contains("interrupted: the render ends after the photons under way"), "{said}");
+}
+
 /// The system's own shutdown sends this one.
 #[test]
 fn a_terminated_render_leaves_its_image_and_a_checkpoint_that_goes_on_with_the_same_bits() {

@@ -14,8 +14,8 @@ use super::order::Order;
 use crate::ppm::hit_points::HitPoints;
 use crate::settings::RenderSettings;
 
-/// What a photon costs, in shadow rays: its own rays, and what is gathered of it. Measured in the default scene.
-const RAYS_PER_PHOTON: f64 = 7.0;
+/// What photons cost, in shadow rays for each ray of theirs: tracing them, and what is gathered of them. Measured in the default scene.
+const RAYS_PER_RAY: f64 = 2.5;
 
 /// What a pass costs a hit point whatever its photons, in shadow rays.
 const RAYS_PER_HIT_POINT: f64 = 0.1;
@@ -94,13 +94,13 @@ impl Direct {
         }
     }
 
-    /// What a pass of so many photons lights: all pixels first, then as many places as have their turn.
-    pub(crate) fn turns(&self, photons: u64) -> Range<u64> {
+    /// What a pass lights whose photons took so many rays: all pixels first, then as many places as have their turn.
+    pub(crate) fn turns(&self, rays: u64) -> Range<u64> {
         let all = self.order.places();
         let places = if self.lit < all {
             all - self.lit
         } else if self.rays_per_place > 0.0 {
-            let rest = RAYS_PER_PHOTON * photons as f64 + RAYS_PER_HIT_POINT * self.hit_points;
+            let rest = RAYS_PER_RAY * rays as f64 + RAYS_PER_HIT_POINT * self.hit_points;
             ((self.share * rest / self.rays_per_place) as u64).clamp(1, MAX_VISITS * all)
         } else {
             0
@@ -109,21 +109,18 @@ impl Direct {
     }
 
     /// Adds what a pass has lit, block by block.
-    pub(crate) fn add(&mut self, turns: &Range<u64>, blocks: impl Iterator<Item = Lit>) {
-        let mut place = turns.start;
+    pub(crate) fn add(&mut self, blocks: impl Iterator<Item = Lit>) {
         for block in blocks {
             for (i, light) in block.light.into_iter().enumerate() {
-                if let Some(pixel) = self.order.pixel(place) {
+                if let Some(pixel) = self.order.pixel(self.lit) {
                     self.pixels[pixel].add(light);
                     if let Some(fixed) = block.fixed.get(i) {
                         self.fixed[pixel] = *fixed;
                     }
                 }
-                place += 1;
+                self.lit += 1;
             }
         }
-        debug_assert_eq!(place, turns.end);
-        self.lit = turns.end;
     }
 
     /// Radiance of a pixel.

@@ -1,8 +1,10 @@
 //! Tests of whole passes.
 
 mod batches;
+mod cutting;
 mod eye_samples;
 mod instruction_sets;
+mod paths;
 pub(super) mod scene;
 mod suspending;
 

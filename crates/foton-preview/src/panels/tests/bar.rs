@@ -134,6 +134,19 @@ fn notices_go_and_errors_stay_until_they_are_closed() {
 }
 
 #[test]
+fn the_same_message_again_is_counted_and_not_piled_up() {
+    let fail = |state: &mut State| state.hear(Event::Failed("no scene can be made of it".into()));
+    let mut harness = window(|state| (0..7).for_each(|_| fail(state)));
+    assert_eq!(harness.state().messages.len(), 1);
+    assert!(harness.query_by_label("no scene can be made of it (7 times)").is_some());
+    click(&mut harness, Role::Button, "Dismiss");
+    assert!(harness.state().messages.is_empty());
+    fail(harness.state_mut());
+    settle(&mut harness);
+    assert!(harness.query_by_label("no scene can be made of it").is_some(), "once is said without a count");
+}
+
+#[test]
 fn the_engine_is_told_how_the_screen_shows_radiance_unless_pngs_are_plain() {
     let mut harness = window(|state| state.preferences.snapshot_folder = "/pictures".into());
     harness.state_mut().exposure_stops = 1.5;

@@ -92,6 +92,16 @@ fn what_restarts_the_render_waits_to_be_applied_and_says_what_changes() {
 }
 
 #[test]
+fn a_first_radius_that_nobody_knows_yet_is_not_shown() {
+    let mut harness = window(|state| state.frame.as_mut().expect("there").stats.radii = Radii::default());
+    assert!(harness.query_by_role_and_label(Role::SpinButton, "First radius").is_none());
+    assert!(harness.query_by_label_contains("e-9").is_none());
+    harness.state_mut().show(frame());
+    settle(&mut harness);
+    assert!(harness.query_by_role_and_label(Role::SpinButton, "First radius").is_some());
+}
+
+#[test]
 fn a_draft_keeps_what_was_changed_when_other_settings_change_meanwhile() {
     let mut harness = window(|_| ());
     type_number(&mut harness, "Seed", "5");

@@ -20,6 +20,7 @@ fn keys_do_what_the_overlay_says() {
         (plain, Key::H, Command::ResetCamera),
         (plain, Key::P, Command::Snapshot("/pictures".into())),
         (plain, Key::O, Command::ShowPhotons(true)),
+        (plain, Key::V, Command::ShowPaths(true)),
         (plain, Key::Num2, Command::SetView(ViewMode::Luminance)),
         (plain, Key::Num3, Command::SetView(ViewMode::Radius)),
         (plain, Key::Num4, Command::SetView(ViewMode::PhotonCount)),

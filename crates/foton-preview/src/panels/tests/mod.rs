@@ -32,7 +32,7 @@ use foton_session::engine::{
     SceneFacts, Selection, SensorFacts, Source, ViewMode,
 };
 use foton_session::{
-    Alpha, DirectLight, Ledger, RadiusFloor, RadiusRule, RenderSettings, SettingChange, StopRule,
+    Alpha, DirectLight, Ledger, Radii, RadiusFloor, RadiusRule, RenderSettings, SettingChange, StopRule,
 };
 
 use foton_session::snapshot::Look;
@@ -73,6 +73,7 @@ fn frame() -> Frame {
             elapsed: Duration::from_secs(9),
             photons_per_s: 1.5e6,
             hit_points: 2400,
+            radii: Radii { smallest: 0.01, median: 0.02, largest: 0.1 },
             ledger: Ledger { emitted: 8.0, absorbed: 6.0, escaped: 1.9, truncated: 0.1, ..Ledger::default() },
             ..RenderStats::default()
         },

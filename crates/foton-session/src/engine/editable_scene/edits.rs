@@ -7,6 +7,7 @@ use foton_math::glam::DVec3;
 use foton_scene::description::SceneDescription;
 
 use super::chosen::Chosen;
+use super::sensors::standing;
 use super::{EditableScene, Effect};
 use crate::engine::command::SceneEdit;
 
@@ -84,10 +85,18 @@ impl EditableScene {
         let (before, edit) = (Arc::clone(&self.description), Edit::Rename { target, name });
         let next = edit.apply(&before).map_err(|cause| cause.to_string())?;
         self.sensors.clone_from(&next.sensors);
-        self.built = Arc::clone(self.history.record(edit.name(&before), next));
+        self.history.record_naming(edit.name(&before), next);
+        Ok(self.renamed())
+    }
+
+    /// Takes names that the history has now.
+    pub(super) fn renamed(&mut self) -> Effect {
+        let before = Arc::clone(&self.description);
+        self.sensors = standing(&self.history.current().sensors, &self.sensors);
+        self.built = Arc::clone(self.history.current());
         self.refresh();
         self.chosen = self.chosen.take().and_then(|chosen| chosen.found_in(&before, &self.description));
-        Ok(Effect::None)
+        Effect::None
     }
 
     fn remake(&mut self, make: Make, name: String, all: bool) -> Result<Effect, String> {

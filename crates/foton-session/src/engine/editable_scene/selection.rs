@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use foton_edit::{
-    DragMode, DragPlane, Edit, FieldId, Gizmo, Handle, Pull, Segment, Target, UpAxis, Value, inspect,
-    markers, pick, pick_any,
+    DragMode, Edit, FieldId, Gizmo, Handle, Pull, Segment, Target, UpAxis, Value, inspect, markers, nudge,
+    pick, pick_any,
 };
-use foton_math::glam::{DVec2, DVec3};
+use foton_math::glam::DVec3;
 use foton_scene::description::SceneDescription;
 
 use super::chosen::{Chosen, Drag};
@@ -117,17 +117,12 @@ impl EditableScene {
         self.rebuild()
     }
 
-    /// Moves what is chosen by steps of a few pixels, in the plane that `mode` says.
+    /// Moves what is chosen by steps of a few pixels, which way `mode` says.
     pub(super) fn nudge(&mut self, sensor: usize, steps: [f64; 2], mode: DragMode) -> Result<Effect, String> {
         let Some(chosen) = &self.chosen else { return Ok(Effect::None) };
-        let picked = chosen.picked(&self.description);
+        let picked = chosen.picked(&self.description).to_array();
         let s = &self.sensors[sensor];
-        let centre = DVec2::new(f64::from(s.width), f64::from(s.height)) * 0.5;
-        let film = self.scene.sensors()[sensor]
-            .project_on_whole(self.scene.normalisation().point(picked))
-            .map_or(centre, |(film, _)| film.as_dvec2());
-        let plane = DragPlane::new(s, UpAxis::guess(s), picked.to_array(), mode);
-        let by = plane.translation(film.to_array(), (film + DVec2::from(steps) * NUDGE).to_array());
+        let by = nudge(s, UpAxis::guess(s), picked, steps.map(|n| n * NUDGE), mode);
         let edit = Edit::Move { target: chosen.target, by };
         self.edit(&edit)
     }
@@ -172,18 +167,20 @@ impl EditableScene {
 
     /// Takes the last step back.
     pub(super) fn undo(&mut self) -> Result<Effect, String> {
+        let keeps_picture = !self.is_stale && self.history.undoes_naming();
         if self.history.undo().is_none() {
             return Ok(Effect::None);
         }
-        self.rebuild()
+        if keeps_picture { Ok(self.renamed()) } else { self.rebuild() }
     }
 
     /// Makes the step again that was taken back last.
     pub(super) fn redo(&mut self) -> Result<Effect, String> {
+        let keeps_picture = !self.is_stale && self.history.redoes_naming();
         if self.history.redo().is_none() {
             return Ok(Effect::None);
         }
-        self.rebuild()
+        if keeps_picture { Ok(self.renamed()) } else { self.rebuild() }
     }
 
     /// What is selected, as the window shows it. Frames ask for it often, and sizes of large meshes take a while: it is made again only

@@ -86,7 +86,7 @@ impl Worker {
                 resuming: None,
                 resuming_as: None,
             },
-            view: View { mode: ViewMode::Radiance, photons: false, probed: None },
+            view: View { mode: ViewMode::Radiance, photons: false, paths: None, probed: None },
             published: Published::default(),
         }
     }

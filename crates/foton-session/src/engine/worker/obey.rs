@@ -5,7 +5,7 @@ use std::sync::Arc;
 use foton_scene::description::SceneDescription;
 
 use super::Worker;
-use super::state::Flow;
+use super::state::{Flow, ProbedPaths};
 use crate::engine::command::{Command, Configuration, Event, SceneEdit};
 use crate::engine::editable_scene::{EditableScene, Effect};
 use crate::engine::kept::Subject;
@@ -63,15 +63,26 @@ impl Worker {
                 Ok(Effect::None)
             }),
             Command::Edit(edit) => self.edit(edit),
-            Command::SetView(mode) => self.view.mode = mode,
-            Command::ShowPhotons(on) => self.view.photons = on,
-            Command::Probe(pixel) => self.view.probed = pixel,
+            Command::SetView(_) | Command::ShowPhotons(_) | Command::ShowPaths(_) | Command::Probe(_) => {
+                self.look(&command);
+            }
             Command::ResumeCheckpoint(path) => {
                 self.restart();
                 self.files.resuming = Some(path);
             }
             Command::Quit => {}
             _ => self.write_or_keep(command),
+        }
+    }
+
+    /// What frames are to carry.
+    fn look(&mut self, command: &Command) {
+        match *command {
+            Command::SetView(mode) => self.view.mode = mode,
+            Command::ShowPhotons(on) => self.view.photons = on,
+            Command::ShowPaths(on) => self.view.paths = on.then(ProbedPaths::default),
+            Command::Probe(pixel) => self.view.probed = pixel,
+            _ => {}
         }
     }
 

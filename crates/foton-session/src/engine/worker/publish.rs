@@ -99,12 +99,23 @@ impl Worker {
     }
 
     /// Photons, and what is known of the pixel that a person points at, as far as they are asked for.
-    fn pointed_out(&self) -> (Arc<Vec<Dot>>, Option<Probe>) {
-        let Some(render) = self.whole().map(LevelRender::render).filter(|r| r.passes() > 0) else {
+    fn pointed_out(&mut self) -> (Arc<Vec<Dot>>, Option<Probe>) {
+        let whole = self.current.render.as_ref().filter(|render| render.is_whole());
+        let Some(level) = whole.filter(|level| level.render().passes() > 0) else {
             return Default::default();
         };
+        let render = level.render();
         let dots = if self.view.photons { probe::dots(render) } else { Vec::new() };
-        (Arc::new(dots), self.view.probed.and_then(|pixel| probe::probe(render, pixel)))
+        let mut probe = self.view.probed.and_then(|pixel| probe::probe(render, pixel));
+        if let (Some(probe), Some(paths)) = (&mut probe, &mut self.view.paths) {
+            let of = Some((self.current.number, probe.pixel, render.passes().ilog2()));
+            if paths.of != of {
+                (paths.of, paths.drawn) =
+                    (of, Arc::new(level.session().install(|| probe::paths(render, probe.pixel))));
+            }
+            probe.paths = Arc::clone(&paths.drawn);
+        }
+        (Arc::new(dots), probe)
     }
 
     /// Offers a frame if there is something new and it is time for one.

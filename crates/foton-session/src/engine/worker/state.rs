@@ -10,7 +10,7 @@ use rayon::ThreadPool;
 
 use crate::checkpoint::Keeper;
 use crate::engine::command::{Region, ViewMode};
-use crate::engine::frame::{Picture, RenderStats};
+use crate::engine::frame::{DrawnPath, Picture, RenderStats};
 use crate::engine::kept::{Kept, Subject};
 use crate::engine::level::Level;
 use crate::engine::render::LevelRender;
@@ -79,11 +79,22 @@ pub(in crate::engine) struct Files {
     pub(in crate::engine) resuming_as: Option<SceneIdentity>,
 }
 
+/// Paths of photons to a pixel. Tracing them takes a moment: they are renewed for another pixel, and when the render has twice as many
+/// passes.
+#[derive(Default)]
+pub(super) struct ProbedPaths {
+    /// The render, the pixel, and the logarithm of the passes.
+    pub(super) of: Option<(u64, [u32; 2], u32)>,
+    pub(super) drawn: Arc<Vec<DrawnPath>>,
+}
+
 /// What frames are to carry.
 pub(super) struct View {
     pub(super) mode: ViewMode,
     /// Whether they carry the photons of the last pass.
     pub(super) photons: bool,
+    /// Paths of photons to the pixel that is probed, if frames carry them.
+    pub(super) paths: Option<ProbedPaths>,
     pub(super) probed: Option<[u32; 2]>,
 }
 
