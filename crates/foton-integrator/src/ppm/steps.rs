@@ -55,8 +55,8 @@ impl Ppm {
         UnderWay::new(counts, self.settings.ppm.alpha, batches, once)
     }
 
-    /// Whether photons can add light: not to emitters that are seen directly, nor to surfaces that only shadow rays light.
-    fn needs_photons(&self) -> bool {
+    /// Whether photons can add light to surfaces: not where only shadow rays light them.
+    fn photons_add(&self) -> bool {
         self.settings.max_depth_in(&self.scene) > if self.direct.is_some() { 2 } else { 1 }
     }
 
@@ -72,7 +72,8 @@ impl Ppm {
             max_depth: self.settings.max_depth_in(&self.scene),
             seed: self.settings.seed,
             pass: self.passes,
-            photons: if self.needs_photons() { photons } else { 0 },
+            // A path of one edge is an emitter seen directly: no photon can add to it.
+            photons: if self.settings.max_depth_in(&self.scene) > 1 { photons } else { 0 },
             batch,
         }
     }
@@ -204,7 +205,7 @@ impl Ppm {
         }
         self.mark_cells(&tally);
         self.photons_emitted += photons;
-        let power = if self.needs_photons() { self.mean_power() } else { 0.0 };
+        let power = if self.photons_add() { self.mean_power() } else { 0.0 };
         if let Some(error) = &mut self.error {
             let facts =
                 PassFacts { photons, power, question: Question::after(self.passes), before: self.passes };

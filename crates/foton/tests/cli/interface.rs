@@ -122,7 +122,7 @@ fn help_has_every_option_and_default() {
         ("--integrator", "ppm"),
         ("--radius-rule", "adaptive"),
         ("--radius-floor", "1"),
-        ("--direct", "photons"),
+        ("--direct", "auto"),
         ("--seed", "0"),
         ("--spp", "4"),
         ("--checkpoint-every", "30s"),

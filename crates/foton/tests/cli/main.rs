@@ -163,7 +163,7 @@ fn number(event: &Value, field: &str) -> f64 {
 #[test]
 fn json_has_a_line_for_each_pass_and_one_for_the_end() {
     let folder = Folder::new("json");
-    let output = folder.done("render scene.xml -o x.exr --passes 3 --photons 2000 --json");
+    let output = folder.done("render scene.xml -o x.exr --direct photons --passes 3 --photons 2000 --json");
     let events = events(&output.stdout);
     assert_eq!(events.len(), 4, "{events:?}");
     for (pass, event) in (1u64..).zip(&events[..3]) {

@@ -17,12 +17,15 @@ fn info_and_render_name_a_light_that_takes_photons_in_vain() {
     let folder = Folder::new("starved");
     folder.write("cellar.xml", &with_a_cellar());
     // Twice the power; each emitter has a small share beside that by power.
-    for arguments in ["info cellar.xml", "render cellar.xml --passes 2 --photons 20000 -o cellar.png"] {
+    for arguments in
+        ["info cellar.xml", "render cellar.xml --direct photons --passes 2 --photons 20000 -o cellar.png"]
+    {
         let said = text(&folder.done(arguments).stderr);
         assert!(said.contains("\"cellar lamp\" takes 65 % of the photons"), "{arguments}: {said}");
         assert_eq!(said.matches("of the photons, and").count(), 1, "the other lamp is seen: {said}");
     }
-    let output = folder.done("render cellar.xml --passes 2 --photons 20000 -o cellar.png --json");
+    let output =
+        folder.done("render cellar.xml --direct photons --passes 2 --photons 20000 -o cellar.png --json");
     let events = events(&output.stdout);
     let lights = events.last().expect("an end")["lights"].as_array().expect("a list").clone();
     let rate = |name: &str| {

@@ -101,7 +101,10 @@ impl Direct {
             all - self.lit
         } else if self.rays_per_place > 0.0 {
             let rest = RAYS_PER_RAY * rays as f64 + RAYS_PER_HIT_POINT * self.hit_points;
-            ((self.share * rest / self.rays_per_place) as u64).clamp(1, MAX_VISITS * all)
+            let places = (self.share * rest / self.rays_per_place) as u64;
+            // Without photons to trace a pass is for rays alone. Each square has a pixel lit, so that its noise gets known.
+            let least = if rays == 0 { all } else { self.order.squares() };
+            places.clamp(least, MAX_VISITS * all)
         } else {
             0
         };
