@@ -29,8 +29,8 @@ const STATES: [(&str, &[&str]); 19] = [
     ("13-open", &["key Escape", "key ctrl+o"]),
     ("14-panels-hidden", &["key Escape", "canvas", "key Tab"]),
     ("15-histogram", &["key Tab", "key l", "key c"]),
-    ("16-photon-paths", &["key l", "key c", "key v", "hover"]),
-    ("17-history", &["key v", "key b", "key period", "key b", "key t"]),
+    ("16-photon-paths", &["key l", "key c", "hover", "key v", "wait"]),
+    ("17-history", &["key v", "key t", "key b", "wait", "key b", "wait"]),
     ("18-region-drag", &["key t", "click view menu", "click region entry", "drag"]),
     ("19-region", &["mouseup 1"]),
 ];
@@ -115,6 +115,8 @@ impl Shots {
                 let button = if way == "down" { 5 } else { 4 };
                 self.display.hand(&format!("mousemove {x:.0} {y:.0} click --repeat 30 --delay 10 {button}"));
             }
+            // What is traced or written for it takes a moment.
+            ("wait", _) => std::thread::sleep(Duration::from_secs(6)),
             ("canvas", _) => {
                 let at = self.share_of("canvas", [0.02, 0.02]);
                 self.display.hand(&format!("mousemove {at}"));

@@ -45,7 +45,7 @@ impl Render {
         Self::start_telling(scene, settings, &|_| (), watch, cancel)
     }
 
-    /// As [`Render::start`]; `tell` is told by many threads what share of the pixels is done.
+    /// As [`Render::start`]; `tell` is told by many threads what share of the eye samples is followed.
     ///
     /// # Errors
     /// When cancelled.
@@ -345,8 +345,8 @@ impl Render {
         each!(&self.0, r => r.photons_near(position, radius, at_most))
     }
 
-    /// Paths of photons of the last pass that count for a pixel's hit points, `at_most` of them: of a large pass those among its first
-    /// 65,536, which are traced again for that. `pixel` counts along rows from the top left; one beyond the image has none.
+    /// Paths of photons of the last pass, or of the one under way, that count for a pixel's hit points, `at_most` of them; of passes in
+    /// several batches some. They are traced again for that. `pixel` counts along rows from the top left; one beyond the image has none.
     #[must_use]
     pub fn paths_to(&self, pixel: usize, at_most: usize) -> Vec<PhotonPath> {
         each!(&self.0, r => r.paths_to(pixel, at_most))

@@ -1,4 +1,4 @@
-//! The paths of the photons that light a pixel: those of the last pass are traced once more, as many as a person waits for.
+//! The paths of the photons that light a pixel: chunks in which some of them were stored are traced once more.
 //!
 //! It changes nothing of the render. World units.
 
@@ -11,8 +11,11 @@ use rayon::prelude::*;
 use super::algorithm::Ppm;
 use super::lanes::counting_lanes;
 
-/// Photons that are traced again at most: about a tenth of a processor second.
+/// Photons that are traced again at most where nothing is known of which: about a tenth of a processor second.
 const RETRACED: u64 = 1 << 16;
+
+/// Chunks that are traced again at most.
+const CHUNKS: usize = 32;
 
 /// The way of a photon from its emitter to a disc.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,26 +28,30 @@ pub struct PhotonPath {
     pub power: Rgb,
 }
 
+/// Photons to be traced again: a pass's size, one of its batches, and a range of that.
+struct Piece {
+    pass: u64,
+    photons: u64,
+    batch: Batch,
+    first: u64,
+}
+
 impl Ppm {
-    /// Paths of photons of the last pass that count for a pixel's hit points as their discs are now, `at_most` of them: of a large pass
-    /// those among its first 65,536. Where emission has learnt since, photons as it would emit them now. `pixel` counts along rows.
+    /// Paths of photons that count for a pixel's hit points as their discs are now, `at_most` of them: of the last pass, or of the one under
+    /// way as far as it is; of passes in several batches, those among the first 65,536. Where emission has learnt since, photons as it
+    /// would emit them now. `pixel` counts along rows.
     #[must_use]
     pub(crate) fn paths_to(&self, pixel: usize, at_most: usize) -> Vec<PhotonPath> {
-        let Some(pass) = self.passes.checked_sub(1).filter(|_| pixel + 1 < self.hit_points.pixel_start.len())
-        else {
+        if self.passes == 0 || pixel + 1 >= self.hit_points.pixel_start.len() {
             return Vec::new();
-        };
-        let Some(batch) = Batch::all(self.last_photons, self.max_in_batch).next() else { return Vec::new() };
-        let photon_pass = PhotonPass { pass, ..self.photon_pass(self.last_photons, batch) };
-        let photons = batch.photons(self.last_photons).min(RETRACED);
+        }
         let mut found: Vec<Way> = Vec::new();
         // Some chunks at a time, so that a bright pixel is answered at once; the same ones on any number of threads.
-        const AT_ONCE: u64 = 4 * CHUNK;
-        for first in (0..photons).step_by(AT_ONCE as usize) {
-            let firsts = (first..photons.min(first + AT_ONCE)).step_by(CHUNK as usize);
-            let firsts: Vec<u64> = firsts.collect();
-            let ways = firsts.into_par_iter().map(|first| {
-                photon_pass.ways(first..photons.min(first + CHUNK), &|photon| self.counts_for(pixel, photon))
+        for pieces in self.pieces(pixel).chunks(4) {
+            let ways = pieces.par_iter().map(|piece| {
+                let pass = PhotonPass { pass: piece.pass, ..self.photon_pass(piece.photons, piece.batch) };
+                let end = piece.batch.photons(piece.photons).min(piece.first + CHUNK);
+                pass.ways(piece.first..end, &|photon| self.counts_for(pixel, photon))
             });
             found.extend(ways.collect::<Vec<_>>().into_iter().flatten());
             if found.len() >= at_most {
@@ -53,6 +60,35 @@ impl Ppm {
         }
         found.truncate(at_most);
         found.iter().map(|way| self.path(way)).collect()
+    }
+
+    /// Where photons for a pixel are to be looked for: chunks in which some were stored; or the first ones, where chunks are not those of
+    /// the last pass.
+    fn pieces(&self, pixel: usize) -> Vec<Piece> {
+        let (pass, photons) = (self.passes - 1, self.last_photons);
+        let mut batches = Batch::all(photons, self.max_in_batch);
+        let Some(batch) = batches.next() else { return Vec::new() };
+        let has_one = batches.next().is_none();
+        let under_way = self.under_way.as_ref().and_then(|pass| Some((pass.planned(), pass.batch()?)));
+        let has_counting =
+            |i: usize| self.chunks[i].photons.iter().any(|photon| self.counts_for(pixel, photon));
+        let piece = |i: usize| {
+            let first = i as u64 * CHUNK;
+            match under_way {
+                Some((photons, batch)) if self.chunks[i].is_traced && !batch.is_closing() => {
+                    Some(Piece { pass: self.passes, photons, batch, first })
+                }
+                Some((_, batch)) if !batch.is_first() => None,
+                _ => (has_one && first < photons).then_some(Piece { pass, photons, batch, first }),
+            }
+        };
+        let known: Vec<usize> = (0..self.chunks.len()).into_par_iter().filter(|&i| has_counting(i)).collect();
+        let known: Vec<Piece> = known.into_iter().filter_map(piece).take(CHUNKS).collect();
+        if !known.is_empty() || has_one {
+            return known;
+        }
+        let firsts = (0..batch.photons(photons).min(RETRACED)).step_by(CHUNK as usize);
+        firsts.map(|first| Piece { pass, photons, batch, first }).collect()
     }
 
     /// Whether a photon counts for any hit point of a pixel.

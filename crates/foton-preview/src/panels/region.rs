@@ -48,7 +48,7 @@ pub(super) fn drag(ui: &egui::Ui, state: &mut State, response: &egui::Response, 
         state.looking.choosing_region = None;
         match between(from, choosing.to, film) {
             Some(region) => configure(state, Some(region)),
-            None => state.notice(format!("A region has at least {LEAST} x {LEAST} pixels")),
+            None => state.notice(format!("A region has at least {LEAST} × {LEAST} pixels")),
         }
     }
     true
@@ -80,7 +80,7 @@ pub(super) fn draw(painter: &egui::Painter, state: &State, film: Film) {
         painter.rect_filled(rect, 0.0, EDGE.gamma_multiply(0.12));
         painter.rect_stroke(rect, 0.0, stroke, StrokeKind::Inside);
         if let Some(Region { width, height, .. }) = between(from, to, film) {
-            label(painter, rect.left_bottom(), &format!("{width} x {height} pixels"));
+            label(painter, rect.left_bottom(), &format!("{width} × {height} pixels"));
         }
         return;
     }

@@ -1,6 +1,7 @@
 //! Paths of photons to a pixel are those of the photons that it gathered, and looking at them changes nothing.
 
 use std::num::NonZeroU32;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use foton_transport::Cancel;
 use foton_transport::photon_map::PathClass;
@@ -72,6 +73,11 @@ fn looking_at_paths_changes_no_bit() {
         let suspended = watched.advance(&mut |_| (), &Cancel::default(), &|| true);
         assert!(suspended.is_err());
         assert_eq!((0..6).map(|pixel| watched.paths_to(pixel * 37, 64).len()).sum::<usize>(), paths);
+        // And in the middle, where some of its chunks are of the next pass.
+        let asked = AtomicU64::new(0);
+        let few = || asked.fetch_add(1, Ordering::Relaxed) >= 4;
+        assert!(watched.advance(&mut |_| (), &Cancel::default(), &few).is_err());
+        assert!((0..6).map(|pixel| watched.paths_to(pixel * 37, 64).len()).sum::<usize>() > 0);
         advance(&mut watched);
         advance(&mut alone);
         assert!(watched.save() == alone.save());
