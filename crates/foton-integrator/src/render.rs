@@ -45,7 +45,7 @@ impl Render {
         Self::start_telling(scene, settings, &|_| (), watch, cancel)
     }
 
-    /// As [`Render::start`]; `tell` is told by many threads what share of the pixels is done.
+    /// As [`Render::start`]; `tell` is told by many threads what share of the eye samples is followed.
     ///
     /// # Errors
     /// When cancelled.

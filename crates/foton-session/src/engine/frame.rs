@@ -240,7 +240,7 @@ pub struct Frame {
     pub kept_bytes: f64,
     /// How much of the pass under way is done, from 0 to 1.
     pub pass_share: f64,
-    /// The share of the pixels that have their hit points, while those of the whole picture are collected.
+    /// The share of the eye samples that have been followed, while that is under way for all pixels.
     pub collecting: Option<f64>,
     /// The settings as they are now: α and photons of the next pass.
     pub settings: RenderSettings,

@@ -2,7 +2,7 @@
 
 use std::num::NonZeroU32;
 
-use foton_integrator::{PpmSettings, RadiusScale, RenderSettings};
+use foton_integrator::{PpmSettings, RadiusRule, RadiusScale, RenderSettings};
 
 /// How much of the whole picture is rendered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -17,8 +17,10 @@ pub(super) enum Level {
     Whole,
 }
 
-/// Factor on the first radius in pictures that are not the whole: smooth light after a pass or two is worth its bias.
+/// Factor on the first radius in pictures that are not the whole: smooth light after a pass or two is worth its bias. Pixels of a
+/// picture of fewer are larger, and radii go by them.
 const SMOOTH: f64 = 2.0;
+const SMOOTHER: f64 = 4.0;
 
 /// Each round of eye samples has this many times those before it, so that following the others is most of the time.
 const GROWTH: u32 = 4;
@@ -46,8 +48,7 @@ impl Level {
     const fn photons(self) -> NonZeroU32 {
         match self {
             Self::Small => NonZeroU32::new(1 << 13).unwrap(),
-            Self::Middle => NonZeroU32::new(1 << 16).unwrap(),
-            Self::Samples(_) => NonZeroU32::new(1 << 17).unwrap(),
+            Self::Middle | Self::Samples(_) => NonZeroU32::new(1 << 16).unwrap(),
             Self::Whole => NonZeroU32::MAX,
         }
     }
@@ -55,8 +56,9 @@ impl Level {
     /// Factor on first radii.
     pub(super) const fn widened(self) -> f64 {
         match self {
+            Self::Small | Self::Middle => SMOOTH,
+            Self::Samples(_) => SMOOTHER,
             Self::Whole => 1.0,
-            _ => SMOOTH,
         }
     }
 
@@ -77,13 +79,18 @@ impl Level {
         }
     }
 
-    /// The settings of its passes, where those of the whole are `settings`.
+    /// The settings of its passes, where those of the whole are `settings`. One or two do not tell how far radii are to adapt.
     pub(super) fn settings(self, settings: &RenderSettings) -> RenderSettings {
+        if self == Self::Whole {
+            return settings.clone();
+        }
+        let photons = self.photons();
         RenderSettings {
-            error: self == Self::Whole && settings.error,
+            error: false,
             ppm: PpmSettings {
-                photons_per_pass: settings.ppm.photons_per_pass.min(self.photons()),
-                first_pass: if self == Self::Whole { settings.ppm.first_pass } else { self.photons() },
+                photons_per_pass: settings.ppm.photons_per_pass.min(photons),
+                first_pass: photons,
+                radius_rule: RadiusRule::Local,
                 ..settings.ppm
             },
             ..settings.clone()

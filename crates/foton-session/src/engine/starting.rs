@@ -27,12 +27,13 @@ impl Drop for Starting {
 }
 
 impl Starting {
-    /// Begins `work`, which tells how far it is.
+    /// Begins `work`, of which a share is done; it tells how far it is.
     pub(super) fn begin(
+        share: f64,
         work: impl FnOnce(&(dyn Fn(f64) + Sync), &Cancel) -> Started + Send + 'static,
     ) -> Self {
         let (sender, result) = bounded(1);
-        let (share, cancel) = (Arc::new(AtomicU64::new(0)), Cancel::default());
+        let (share, cancel) = (Arc::new(AtomicU64::new(share.to_bits())), Cancel::default());
         let (told, asked, refusal) = (Arc::clone(&share), cancel.clone(), sender.clone());
         let run = move || {
             let tell = |share: f64| {
@@ -49,7 +50,7 @@ impl Starting {
         Self { result, share, cancel }
     }
 
-    /// The share of the pixels that have their hit points.
+    /// The share of the eye samples that have been followed.
     pub(super) fn share(&self) -> f64 {
         f64::from_bits(self.share.load(Ordering::Relaxed))
     }

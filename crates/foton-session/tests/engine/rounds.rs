@@ -24,7 +24,7 @@ fn all_pixels_are_seen_before_all_samples_are_followed_and_the_whole_has_the_bit
         f.picture.is_some() && f.pictured == f.render && [image(f).width, image(f).height] == SIZE
     });
     assert_eq!((early.activity, early.stats.passes), (Activity::Collecting, 0), "it is not the whole");
-    let share = rig.until("how far it is", |f| f.collecting.is_some_and(|share| share > 0.0));
+    let share = rig.until("how far it is", |f| f.collecting.is_some());
     assert!(
         share.collecting.is_some_and(|share| share >= 1.0 / 20.0),
         "of all samples: {:?}",
@@ -32,7 +32,7 @@ fn all_pixels_are_seen_before_all_samples_are_followed_and_the_whole_has_the_bit
     );
     let frame = rig.done(3);
     let straight = headless(3, many(), |_, _| ());
-    assert_eq!(*image(&frame), straight.render().image());
+    assert!(*image(&frame) == straight.render().image());
     assert_eq!(frame.stats.error, straight.render().error());
     assert_eq!(frame.stats.hit_points, straight.render().start_report().hit_points);
 }
@@ -47,5 +47,5 @@ fn what_is_changed_while_samples_are_followed_is_changed_from_the_first_pass_on(
     let frame = rig.done(2);
     let ppm = PpmSettings { alpha: alpha(0.3), ..many().ppm };
     let straight = headless(2, RenderSettings { ppm, ..many() }, |_, _| ());
-    assert_eq!(*image(&frame), straight.render().image());
+    assert!(*image(&frame) == straight.render().image());
 }

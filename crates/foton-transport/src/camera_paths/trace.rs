@@ -73,6 +73,8 @@ impl EyePass<'_> {
         cancel: &Cancel,
     ) -> EyePaths {
         let mut paths = EyePaths { samples, ..EyePaths::default() };
+        // Most samples find one hit point: growing from nothing would copy them again and again.
+        paths.hit_points.reserve(pixels.size_hint().0 * samples as usize);
         let mut branches = Vec::new();
         for pixel in pixels {
             let before = paths.hit_points.len();

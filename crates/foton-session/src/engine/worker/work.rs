@@ -154,7 +154,8 @@ impl Worker {
         let scene = Arc::clone(scene.scene());
         self.current.subject = self.subject();
         let followed = self.current.render.as_mut().and_then(LevelRender::take_followed);
-        self.current.starting = Some(Starting::begin(move |tell, cancel| {
+        let share = followed.as_ref().map_or(0.0, Followed::share);
+        self.current.starting = Some(Starting::begin(share, move |tell, cancel| {
             let level = within_memory(level, &scene, &settings, threads, limit)?;
             let followed = followed.unwrap_or_else(|| Followed::none(scene, settings));
             let render = LevelRender::collect(level, followed, &pool, tell, cancel);
