@@ -18,6 +18,8 @@ fn settings(photons: u32, seed: u64) -> RenderSettings {
             photons_per_pass,
             first_pass: NonZeroU32::new(photons / 8).expect("above 0"), // Theory is of radii that shrink for ever.
             radius_floor: RadiusFloor::NONE,
+            // Nor is it of photons that differ in power.
+            guided: false,
             ..PpmSettings::default()
         },
         ..RenderSettings::default()

@@ -55,7 +55,8 @@ pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
         .into_iter()
         .chain(surfaces(census, lobes))
         .chain(emitters(census, aims));
-    parts.chain(asked_for(settings)).collect()
+    let emits = census.emitters > 0;
+    parts.chain([guidance(emits, settings)]).chain(asked_for(settings)).collect()
 }
 
 fn eye_paths(census: &Census, lobes: LobeUse, hit_points_per_sample: NonZeroU32) -> [Feature; 5] {
@@ -158,6 +159,18 @@ fn emitters(census: &Census, aims_at_casters: bool) -> [Feature; 2] {
             "two pdfs per photon",
         ),
     ]
+}
+
+fn guidance(emits: bool, settings: &RenderSettings) -> Feature {
+    Feature::new(
+        "guided emission",
+        emits && settings.ppm.guided,
+        [
+            "photons start where those of earlier passes were worth their cost",
+            if emits { "--guide off" } else { "nothing emits" },
+        ],
+        "a search among cells for each photon, notes of up to 131,072 in training passes (1, 2, 4, 8 … 64, then every 64th)",
+    )
 }
 
 fn asked_for(settings: &RenderSettings) -> [Feature; 4] {
