@@ -78,6 +78,8 @@ fn settings(alpha: f64, photons: u32, seed: u64) -> RenderSettings {
             radius: Some(RADIUS),
             radius_floor: RadiusFloor::NONE,
             radius_rule: RadiusRule::Local,
+            // Densities of photons that change between passes would be no part of it either.
+            guided: false,
             ..PpmSettings::default()
         },
         ..RenderSettings::default()

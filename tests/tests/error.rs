@@ -20,6 +20,8 @@ fn settings(photons: u32, seed: u64) -> RenderSettings {
             // Theory is of photons, and of radii that shrink for ever.
             direct_light: DirectLight::Photons,
             radius_floor: RadiusFloor::NONE,
+            // Nor is it of photons that differ in power.
+            guided: false,
             ..PpmSettings::default()
         },
         ..RenderSettings::default()

@@ -39,6 +39,9 @@ pub struct RenderSettings {
     pub max_depth: Option<u32>,
     /// The seed of all random streams.
     pub seed: u64,
+    /// The seed of the photons' random streams and the shadow rays'; `None`: that of all. Another one gives other noise over the same eye
+    /// samples.
+    pub photon_seed: Option<u64>,
     /// Index of the sensor.
     pub sensor: usize,
     /// Whether direct, caustic and indirect light are summed separately beside all light, whose bits that does not change (costs 24
@@ -58,6 +61,7 @@ impl Default for RenderSettings {
             samples_per_pixel: NonZeroU32::new(4).unwrap_or(NonZeroU32::MIN),
             max_depth: None,
             seed: 0,
+            photon_seed: None,
             sensor: 0,
             layers: false,
             error: false,
@@ -72,6 +76,12 @@ impl RenderSettings {
     #[must_use]
     pub fn max_depth_in(&self, scene: &Scene) -> u32 {
         self.max_depth.or(scene.max_depth()).map_or(MAX_PATH_EDGES, |d| d.min(MAX_PATH_EDGES))
+    }
+
+    /// The seed of the photons' random streams.
+    #[must_use]
+    pub fn photon_seed(&self) -> u64 {
+        self.photon_seed.unwrap_or(self.seed)
     }
 
     /// What is in force of the kind that a change is of.

@@ -36,5 +36,5 @@ pub use filter::FilterSampler;
 pub use normalise::Normalisation;
 pub use scene::{Scene, Shape};
 pub use sensor::Sensor;
-pub use sources::Sources;
+pub use sources::{PRIMARY_NUMBERS, PrimaryNumbers, Sources};
 pub use surface::Surface;

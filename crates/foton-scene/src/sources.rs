@@ -43,6 +43,12 @@ const MARGIN: f32 = 1.1;
 /// uniform.
 const DEFENSIVE_SHARE: f64 = 0.1;
 
+/// How many numbers in [0, 1) decide where a photon starts from its emitter.
+pub const PRIMARY_NUMBERS: usize = 5;
+
+/// Those numbers: which part of a mesh or which ball that is aimed at, then the position's two and the direction's two.
+pub type PrimaryNumbers = [f32; PRIMARY_NUMBERS];
+
 /// Emitters as photons leave them.
 #[derive(Clone, Debug)]
 pub struct Sources {
@@ -80,22 +86,30 @@ impl Scene {
 }
 
 impl Sources {
-    /// Starts a photon from the emitter of that index, as [`Emitter::emit`].
+    /// Starts a photon from the emitter of that index by its primary numbers in [0, 1), as [`Emitter::emit`].
     #[must_use]
     #[inline]
-    pub fn emit(&self, index: usize, u_part: f32, u_position: Vec2, u_direction: Vec2) -> Emission {
+    pub fn emit(&self, index: usize, u: PrimaryNumbers) -> Emission {
         let emitter = &self.emitters[index];
-        emitter.emit_aimed(self.aim.as_ref().unwrap_or(&emitter.aim), u_part, u_position, u_direction)
+        let [part, x, y, across, along] = u;
+        let (position, direction) = (Vec2::new(x, y), Vec2::new(across, along));
+        emitter.emit_aimed(self.aim.as_ref().unwrap_or(&emitter.aim), part, position, direction)
     }
 
-    /// Chooses an emitter by `u` in [0, 1); returns its index and the chance of it. `None` when nothing emits.
+    /// Which primary numbers make a difference to the photons of that emitter.
     #[must_use]
-    pub fn choose(&self, u: f64) -> Option<(usize, f64)> {
-        if self.choice.is_empty() {
-            return None;
-        }
-        let i = self.choice.choose(u);
-        Some((i, self.choice.probability(i)))
+    pub fn uses(&self, index: usize) -> [bool; PRIMARY_NUMBERS] {
+        let emitter = &self.emitters[index];
+        let (parts, position, direction) = emitter.uses();
+        let is_aimed = !self.aim.as_ref().unwrap_or(&emitter.aim).is_empty();
+        let part = parts || emitter.is_at_infinity() && is_aimed;
+        [part, position, position, direction, direction]
+    }
+
+    /// The chance of each emitter that can be chosen, with its index.
+    pub fn choices(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let all = if self.choice.is_empty() { 0 } else { self.emitters.len() };
+        (0..all).map(|i| (i, self.choice.probability(i))).filter(|&(_, chance)| chance > 0.0)
     }
 
     /// Whether photons are aimed at what is seen.

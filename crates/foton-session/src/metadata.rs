@@ -34,9 +34,10 @@ pub(crate) fn of(render: &Render, layers: &[LayerKind], scene: &SceneIdentity) -
     };
     let rule = s.ppm.radius_rule.name();
     let direct = s.ppm.direct_light.name();
+    let guide = if s.ppm.guided { "auto" } else { "off" };
     let region = region(sensor);
     let settings = format!(
-        "integrator={} alpha={} photons={} first_pass={} radius={radius} radius_rule={rule} radius_floor={} direct={direct} max_depth={} spp={} \
+        "integrator={} alpha={} photons={} first_pass={} radius={radius} radius_rule={rule} radius_floor={} direct={direct} guide={guide} max_depth={} spp={} \
          size={}x{} sensor={} hit_points_per_sample={} layers={}{region}",
         s.method.name(),
         s.ppm.alpha,
@@ -70,6 +71,7 @@ pub(crate) fn of(render: &Render, layers: &[LayerKind], scene: &SceneIdentity) -
         ("foton:passes", render.passes().to_string()),
         ("foton:photons", render.photons_emitted().to_string()),
         ("foton:seed", s.seed.to_string()),
+        ("foton:photon-seed", s.photon_seed().to_string()),
         ("foton:settings", settings),
         ("foton:changes", changes.join("\n")),
     ]

@@ -7,6 +7,7 @@
 pub mod camera_paths;
 pub mod codec;
 pub mod direct_light;
+pub mod guide;
 mod ledger;
 pub mod light_paths;
 mod light_use;

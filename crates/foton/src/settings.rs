@@ -7,7 +7,7 @@ use foton_format::Suggested;
 use foton_integrator::{Alpha, LayerKind, PpmSettings, RenderSettings};
 use foton_session::Preset;
 
-use crate::args::{Radius, SettingsOptions};
+use crate::args::{Guide, Radius, SettingsOptions};
 
 /// Builds the settings of a render; what comes later counts.
 pub(crate) struct SettingsBuilder(RenderSettings);
@@ -39,6 +39,7 @@ impl SettingsBuilder {
         settings.samples_per_pixel = options.spp;
         settings.max_depth = options.max_depth;
         settings.seed = options.seed;
+        settings.photon_seed = options.photon_seed;
         let ppm = &mut settings.ppm;
         ppm.alpha = options.alpha.unwrap_or(ppm.alpha);
         ppm.photons_per_pass = options.photons.unwrap_or(ppm.photons_per_pass);
@@ -46,6 +47,7 @@ impl SettingsBuilder {
         ppm.radius_floor = options.radius_floor;
         ppm.radius_rule = options.radius_rule.into();
         ppm.direct_light = options.direct.into();
+        ppm.guided = options.guide == Guide::Auto;
         self
     }
 

@@ -10,6 +10,7 @@ use pulp::Arch;
 
 use super::direct::{Direct, by_shadow_rays};
 use super::eye_samples::EyeSamples;
+use super::guidance::Guidance;
 use super::hit_points::HitPoints;
 use super::laid_out::LaidOut;
 use super::light::Light;
@@ -25,6 +26,7 @@ use crate::settings::{RenderSettings, SettingChange};
 pub(crate) struct Ppm {
     pub(super) scene: Arc<Scene>,
     pub(super) sources: Sources,
+    pub(super) guidance: Guidance,
     pub(super) settings: RenderSettings,
     pub(super) hit_points: HitPoints,
     pub(super) shapes: Vec<u32>,
@@ -110,7 +112,7 @@ impl Ppm {
         laid_out: LaidOut,
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
-        let LaidOut { hit_points, sources, samples, emission, start, not_finite } = laid_out;
+        let LaidOut { hit_points, sources, guidance, samples, emission, start, not_finite } = laid_out;
         cancel.check()?;
         let grid = Grid::new(&hit_points.packets, cancel)?;
         begin_small(&mut settings.ppm, &hit_points.packets, &grid);
@@ -125,6 +127,7 @@ impl Ppm {
             losses: vec![Loss::default(); scene.materials().len()],
             scene,
             sources,
+            guidance,
             light: Light::new(emission, &hit_points, samples, settings.layers),
             direct,
             settings,

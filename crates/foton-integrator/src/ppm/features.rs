@@ -55,7 +55,9 @@ pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
         .into_iter()
         .chain(surfaces(census, lobes))
         .chain(emitters(census, aims));
-    parts.chain([shadow_rays(scene, settings)]).chain(asked_for(settings)).collect()
+    let emits = census.emitters > 0;
+    let shared = [guidance(emits, settings), shadow_rays(scene, settings)];
+    parts.chain(shared).chain(asked_for(settings)).collect()
 }
 
 fn eye_paths(census: &Census, lobes: LobeUse, hit_points_per_sample: NonZeroU32) -> [Feature; 5] {
@@ -171,6 +173,18 @@ fn shadow_rays(scene: &Scene, settings: &RenderSettings) -> Feature {
     let feature =
         Feature::new("shadow rays", by_shadow_rays(scene, settings), reasons, "about a quarter of a pass");
     feature.with_bytes(size_of::<ShadowOrigin>(), Direct::BYTES_PER_PIXEL)
+}
+
+fn guidance(emits: bool, settings: &RenderSettings) -> Feature {
+    Feature::new(
+        "guided emission",
+        emits && settings.ppm.guided,
+        [
+            "photons start where those of earlier passes were worth their cost",
+            if emits { "--guide off" } else { "nothing emits" },
+        ],
+        "a search among cells for each photon, notes of up to 131,072 in training passes (1, 2, 4, 8 … 64, then every 64th)",
+    )
 }
 
 fn asked_for(settings: &RenderSettings) -> [Feature; 3] {

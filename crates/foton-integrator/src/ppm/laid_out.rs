@@ -8,6 +8,7 @@ use foton_transport::{Cancel, Cancelled, NotFinite};
 
 use super::direct::by_shadow_rays;
 use super::eye_samples::EyeSamples;
+use super::guidance::Guidance;
 use super::hit_points::HitPoints;
 use super::lobes::lobe_use;
 use super::report::Start;
@@ -21,6 +22,7 @@ pub(super) const MAX_PROBED: usize = 4096;
 pub(super) struct LaidOut {
     pub(super) hit_points: HitPoints,
     pub(super) sources: Sources,
+    pub(super) guidance: Guidance,
     /// Samples a pixel.
     pub(super) samples: u32,
     /// [`foton_transport::camera_paths::EyePaths::mean_emission`].
@@ -51,8 +53,10 @@ impl LaidOut {
         let step = (found.len() / MAX_PROBED).max(1);
         let disc = |h: &HitPoint| (h.position, h.radius2.sqrt());
         let seen: Vec<(Vec3, f32)> = found.iter().step_by(step).map(disc).collect();
+        let sources = scene.sources(&seen);
         Ok(Self {
-            sources: scene.sources(&seen),
+            guidance: Guidance::new(&sources, paths, settings.ppm.guided),
+            sources,
             samples: eye.followed(),
             emission: paths.mean_emission(),
             start: Start {

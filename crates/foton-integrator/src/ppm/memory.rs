@@ -11,6 +11,7 @@ use foton_transport::photon_map::{LANES, MAX_CELLS, Packet, Photon, PhotonMap};
 use super::adaptive::RadiusStatistics;
 use super::direct::{Direct, by_shadow_rays};
 use super::eye_samples::eye_pass;
+use super::guidance::Guidance;
 use super::hit_points::{Irradiance, ShadowOrigin};
 use super::lobes::lobe_use;
 use super::radiance::Radiance;
@@ -131,6 +132,8 @@ impl MemoryEstimate {
         let pass = settings.ppm.photons_per_pass.get().into();
         let batches = Batch::all(pass, MAX_PHOTONS);
         let batch = batches.map(|b| b.photons(pass)).max().unwrap_or(0);
+        let guidance =
+            if settings.ppm.guided { Guidance::max_bytes(pass, scene.emitters().len()) } else { 0 };
         let slot = slot + if batch < pass { EarlierBatches::bytes_per_slot(adapts) as f64 } else { 0.0 };
         Self {
             hit_points,
@@ -140,7 +143,7 @@ impl MemoryEstimate {
                 + glossy * size_of::<Option<Gloss>>() as f64 / FILL,
             pixel_bytes: pixels as f64 * (per_pixel + 2 * size_of::<u32>() + size_of::<Rgb>()) as f64,
             photon_bytes: batch as f64 * STORED_PER_EMITTED * photon
-                + PhotonMap::counter_bytes(batch, MAX_CELLS, threads) as f64,
+                + (PhotonMap::counter_bytes(batch, MAX_CELLS, threads) + guidance) as f64,
             // Found hit points twice while chunks are joined, or once beside the points that are being grouped.
             layout_bytes: 2.0
                 * (hit_points * size_of::<HitPoint>() as f64 + glossy * size_of::<Gloss>() as f64),

@@ -8,6 +8,7 @@ mod direct;
 mod eye_samples;
 mod features;
 mod gather;
+mod guidance;
 mod hit_points;
 mod inspect;
 mod laid_out;

@@ -38,8 +38,7 @@ struct Piece {
 
 impl Ppm {
     /// Paths of photons that count for a pixel's hit points as their discs are now, `at_most` of them: of the last pass, or of the one under
-    /// way as far as it is; of passes in several batches, those among the first 65,536. Where emission has learnt since, photons as it
-    /// would emit them now. `pixel` counts along rows.
+    /// way as far as it is; of passes in several batches, those among the first 65,536. `pixel` counts along rows.
     #[must_use]
     pub(crate) fn paths_to(&self, pixel: usize, at_most: usize) -> Vec<PhotonPath> {
         if self.passes == 0 || pixel + 1 >= self.hit_points.pixel_start.len() {
@@ -49,7 +48,9 @@ impl Ppm {
         // Some chunks at a time, so that a bright pixel is answered at once; the same ones on any number of threads.
         for pieces in self.pieces(pixel).chunks(4) {
             let ways = pieces.par_iter().map(|piece| {
-                let pass = PhotonPass { pass: piece.pass, ..self.photon_pass(piece.photons, piece.batch) };
+                let cells = self.guidance.cells_of(piece.pass == self.passes);
+                let own = self.photon_pass(piece.photons, piece.batch);
+                let pass = PhotonPass { pass: piece.pass, cells, training: None, ..own };
                 let end = piece.batch.photons(piece.photons).min(piece.first + CHUNK);
                 pass.ways(piece.first..end, &|photon| self.counts_for(pixel, photon))
             });

@@ -175,6 +175,7 @@ impl Ppm {
             + self.direct.as_ref().map_or(0, Direct::bytes)
             + self.error.as_ref().map_or(0, ErrorSums::bytes)
             + self.grid.bytes()
+            + self.guidance.bytes()
             + self.map.bytes()
             + self.earlier.bytes()
             + self.chunks.iter().map(chunk).sum::<usize>()

@@ -195,6 +195,8 @@ pub struct PpmSettings {
     pub radius_rule: RadiusRule,
     /// How direct light is estimated.
     pub direct_light: DirectLight,
+    /// Whether photons start where those of earlier passes were worth their cost, in scenes where that can pay.
+    pub guided: bool,
     /// Hit points that one eye sample may make by splitting at glass.
     pub hit_points_per_sample: NonZeroU32,
 }
@@ -211,6 +213,7 @@ impl Default for PpmSettings {
             radius_floor: RadiusFloor::default(),
             radius_rule: RadiusRule::default(),
             direct_light: DirectLight::default(),
+            guided: true,
             hit_points_per_sample: number(8),
         }
     }

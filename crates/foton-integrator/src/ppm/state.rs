@@ -65,6 +65,7 @@ impl Ppm {
         if let Some(error) = &self.error {
             error.write(&mut out);
         }
+        self.guidance.write(&mut out);
         self.light.write_classes(&mut out);
         out.finish()
     }
@@ -95,6 +96,7 @@ impl Ppm {
         if let Some(error) = error {
             error.read(&mut input)?;
         }
+        self.guidance.read(&mut input, self.scene.emitters().len())?;
         self.light.read_classes(&mut input)?;
         input.finish()?;
         self.mark_all_cells();

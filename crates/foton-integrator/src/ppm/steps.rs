@@ -39,6 +39,7 @@ impl Ppm {
         let photons = u64::from(once.photons.unwrap_or(scheduled).get());
         let slots = self.hit_points.statistics_slots.len();
         let adapts = !self.hit_points.radius_statistics_slots.is_empty();
+        self.guidance.begin_pass();
         let batches: Vec<Batch> = Batch::all(photons, self.max_in_batch).collect();
         self.earlier =
             if batches.len() > 1 { EarlierBatches::of(slots, adapts) } else { EarlierBatches::default() };
@@ -64,13 +65,15 @@ impl Ppm {
         PhotonPass {
             scene: &self.scene,
             sources: &self.sources,
+            cells: self.guidance.cells(),
+            training: self.guidance.training(self.passes, photons),
             grid: &self.grid,
             stores_direct: self.direct.is_none(),
             policy: LOBE_POLICY,
             directions: self.hit_points.need_directions(),
             arch: self.arch,
             max_depth: self.settings.max_depth_in(&self.scene),
-            seed: self.settings.seed,
+            seed: self.settings.photon_seed(),
             pass: self.passes,
             // A path of one edge is an emitter seen directly: no photon can add to it.
             photons: if self.settings.max_depth_in(&self.scene) > 1 { photons } else { 0 },
@@ -105,6 +108,7 @@ impl Ppm {
         let shot = photon_pass.shoot(&mut chunks, cancel, should_suspend);
         self.chunks = chunks;
         shot?;
+        self.guidance.take(&mut self.chunks);
         pass.next = NextStep::Sort;
         self.halt_at(self.chunks.iter().find_map(|chunk| chunk.left_out))
     }
@@ -174,8 +178,8 @@ impl Ppm {
     ) -> Result<(), Suspended> {
         let Some(direct) = self.direct.as_ref().filter(|_| !pass.is_lit) else { return Ok(()) };
         watch(Stage::ShadowRays);
-        let lighting =
-            Lighting { scene: &self.scene, hit_points: &self.hit_points, seed: self.settings.seed, set: 0 };
+        let seed = self.settings.photon_seed();
+        let lighting = Lighting { scene: &self.scene, hit_points: &self.hit_points, seed, set: 0 };
         let by_block = ByBlock { done: &mut pass.lit, should_suspend };
         lighting.light(direct, &direct.turns(pass.counts.rays), by_block);
         if pass.lit.iter().any(Option::is_none) {
@@ -211,6 +215,7 @@ impl Ppm {
                 PassFacts { photons, power, question: Question::after(self.passes), before: self.passes };
             self.light.add_error(error, &self.hit_points, self.direct.as_ref(), facts);
         }
+        self.guidance.learn(self.passes, &self.sources);
         self.last_photons = photons;
         self.passes += 1;
         self.take_deferred_changes();
@@ -227,11 +232,11 @@ impl Ppm {
         }
     }
 
-    /// Mean power of a photon as it leaves its emitter. Photons that are aimed differ much: there it is that of some of those which
+    /// Mean power of a photon as it leaves its emitter. Photons that are aimed or guided differ much: there it is that of some of those which
     /// came near hit points in the last batch, if any did.
     fn mean_power(&self) -> f64 {
         let stored = self.map.photons();
-        if self.sources.is_aimed() && !stored.is_empty() {
+        if (self.sources.is_aimed() || self.guidance.is_on()) && !stored.is_empty() {
             let step = stored.len().div_ceil(MAX_PROBED);
             let (sum, count) = stored
                 .iter()

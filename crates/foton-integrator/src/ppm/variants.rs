@@ -1,8 +1,9 @@
 //! Renders that differ only in how they refine, over the same photons: each pass is traced once and gathered by all of them.
 //!
-//! Photon paths do not depend on hit points: neither α nor radii, nor whether direct light comes by shadow rays, change them.
-//! Each variant has the bits of a run of its own; only the use of emitters is that of the widest, and where discs of one are so wide
-//! that it begins with smaller passes, all do. Not here: what the differences are worth (`foton-measure`).
+//! Photon paths do not depend on hit points: neither α nor radii change them. Whether direct light comes by shadow rays changes where
+//! guided photons start, and those only. Each variant has the bits of a run of its own; only the use of emitters is that of the
+//! widest, and where discs of one are so wide that it begins with smaller passes, all do. Not here: what the differences are worth
+//! (`foton-measure`).
 
 use std::sync::Arc;
 
@@ -42,7 +43,8 @@ pub struct Variants {
 }
 
 impl Variants {
-    /// Collects the hit points of each of `settings`, which may differ in α, radii, direct light, layers and error alone.
+    /// Collects the hit points of each of `settings`, which may differ in α, radii, layers, error and, unless photons
+    /// are guided, direct light alone.
     /// Photons then have the seed `photons`: with that of the settings, each variant is what a run of its own would be; with
     /// others, runs are independent that see the same eye samples. `None` without settings, or if they differ otherwise.
     ///
@@ -62,7 +64,7 @@ impl Variants {
         let start = |(i, settings): (usize, &RenderSettings)| {
             let watch = &mut |stage| watch(Step::Of(i, stage));
             let mut run = Render::start(Arc::clone(scene), settings.clone(), watch, cancel)?;
-            run.ppm_mut().settings.seed = photons;
+            run.ppm_mut().settings.photon_seed = Some(photons);
             Ok(run)
         };
         let mut runs: Vec<Render> = settings.iter().enumerate().map(start).collect::<Result<_, _>>()?;
@@ -91,12 +93,15 @@ impl Variants {
     ) -> Result<Vec<PassReport>, Cancelled> {
         let mut passes: Vec<UnderWay> = self.runs.iter_mut().map(|run| run.ppm_mut().begin_pass()).collect();
         let photons = passes[0].planned();
+        let stores_direct = self.runs.iter().any(|run| run.ppm().direct.is_none());
         while let Some(batch) = passes[0].batch() {
             watch(Step::Trace);
             let pass = self.runs[0].ppm().photon_pass(photons, batch);
-            let photon_pass = PhotonPass { grid: &self.everywhere, stores_direct: true, ..pass };
+            let photon_pass = PhotonPass { grid: &self.everywhere, stores_direct, ..pass };
             photon_pass.begin(&mut self.chunks);
             photon_pass.shoot(&mut self.chunks, cancel, NEVER).map_err(|_| Cancelled)?;
+            // All have the cells of the first.
+            self.runs[0].ppm_mut().guidance.take(&mut self.chunks);
             for (i, (run, pass)) in self.runs.iter_mut().zip(&mut passes).enumerate() {
                 let run = run.ppm_mut();
                 watch(Step::Share);
@@ -135,7 +140,7 @@ fn shares_photons(a: &RenderSettings, b: &RenderSettings) -> bool {
             radius_scale: a.ppm.radius_scale,
             radius_floor: a.ppm.radius_floor,
             radius_rule: a.ppm.radius_rule,
-            direct_light: a.ppm.direct_light,
+            direct_light: if a.ppm.guided { b.ppm.direct_light } else { a.ppm.direct_light },
             ..b.ppm
         },
         ..b.clone()
@@ -173,7 +178,7 @@ mod tests {
     use std::num::NonZeroU32;
 
     use super::super::eye_samples::EyeSamples;
-    use super::super::settings::{Alpha, DirectLight};
+    use super::super::settings::{Alpha, DirectLight, RadiusScale};
     use super::super::tests::scene::scene;
 
     #[test]
@@ -185,17 +190,27 @@ mod tests {
             ppm: PpmSettings { photons_per_pass: photons, first_pass: photons, ..PpmSettings::default() },
             ..RenderSettings::default()
         };
-        let settings = [
+        let with = |ppm: PpmSettings| RenderSettings { ppm, ..base.clone() };
+        let steep = PpmSettings { alpha: Alpha::new(0.3).expect("in range"), ..base.ppm };
+        let wide = PpmSettings { radius_scale: RadiusScale::new(2.0).expect("above 0"), ..base.ppm };
+        assert_each_is_a_run_of_its_own(&[
             base.clone(),
-            RenderSettings {
-                error: true,
-                ppm: PpmSettings { alpha: Alpha::new(0.3).expect("in range"), ..base.ppm },
-                ..base.clone()
-            },
-            RenderSettings { ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..base.ppm }, ..base },
-        ];
+            RenderSettings { error: true, ..with(steep) },
+            with(wide),
+        ]);
+        let unguided = PpmSettings { guided: false, ..base.ppm };
+        let photons = PpmSettings { direct_light: DirectLight::Photons, ..unguided };
+        let shadow_rays = PpmSettings { direct_light: DirectLight::ShadowRays, ..unguided };
+        assert_each_is_a_run_of_its_own(&[with(photons), with(shadow_rays)]);
+        // Guided photons start where they are worth something, which those of direct light are not behind shadow rays.
+        let guided = [photons, shadow_rays].map(|ppm| with(PpmSettings { guided: true, ..ppm }));
+        let started = Variants::start(&scene(), &guided, 0, &mut |_| (), &Cancel::default());
+        assert!(started.expect("not cancelled").is_none());
+    }
+
+    fn assert_each_is_a_run_of_its_own(settings: &[RenderSettings]) {
         let (scene, cancel) = (scene(), Cancel::default());
-        let started = Variants::start(&scene, &settings, 0, &mut |_| (), &cancel).expect("not cancelled");
+        let started = Variants::start(&scene, settings, 0, &mut |_| (), &cancel).expect("not cancelled");
         let mut together = started.expect("they share their photons");
         together.runs.iter_mut().for_each(|run| run.ppm_mut().max_in_batch = 6_000);
         for _ in 0..3 {

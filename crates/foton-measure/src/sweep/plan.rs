@@ -178,7 +178,12 @@ pub(crate) fn jobs(centre: &Configuration) -> Vec<Job> {
     let job = |photons| Job { photons, configurations: plane(photons) };
     let mut jobs: Vec<Job> = photons.into_iter().map(job).collect();
     if let Some(first) = jobs.first_mut() {
-        first.configurations.extend(arms(centre));
+        let (same, others): (Vec<_>, Vec<_>) =
+            arms(centre).into_iter().partition(|arm| arm.direct_light == centre.direct_light);
+        first.configurations.extend(same);
+        // Guided photons depend on how direct light is estimated.
+        let apart = others.into_iter().map(|arm| Job { photons: arm.photons, configurations: vec![arm] });
+        jobs.splice(1..1, apart.collect::<Vec<_>>());
     }
     jobs
 }
@@ -188,9 +193,14 @@ fn arms(centre: &Configuration) -> Vec<Configuration> {
     let scales = SCALES.into_iter().filter_map(|s| RadiusScale::new(s * centre.radius_scale.get()));
     let mut arms: Vec<Configuration> =
         scales.map(|radius_scale| Configuration { radius_scale, ..*centre }).collect();
-    // What is chosen for a scene is one of the two.
-    let ways = [DirectLight::Photons, DirectLight::ShadowRays];
-    arms.extend(ways.map(|direct_light| Configuration { direct_light, ..*centre }));
+    // What is chosen for a scene is mostly shadow rays.
+    arms.push(Configuration {
+        direct_light: match centre.direct_light {
+            DirectLight::Photons => DirectLight::ShadowRays,
+            DirectLight::Auto | DirectLight::ShadowRays => DirectLight::Photons,
+        },
+        ..*centre
+    });
     arms.extend(RadiusRule::ALL.map(|radius_rule| Configuration { radius_rule, ..*centre }));
     arms.retain(|arm| arm != centre);
     arms
@@ -204,11 +214,15 @@ mod tests {
     fn the_centre_is_in_the_first_job_once_and_the_plane_is_whole() {
         let centre = Configuration::of(&RenderSettings::default());
         let jobs = jobs(&centre);
-        assert_eq!(jobs.len(), 9);
-        assert_eq!(jobs[0].configurations.len(), 7 + 4 + 4);
+        assert_eq!(jobs.len(), 1 + 9);
+        assert_eq!(jobs[0].configurations.len(), 7 + 4 + 2);
         assert_eq!(jobs[0].configurations.iter().filter(|c| **c == centre).count(), 1);
-        assert!(jobs[1..].iter().all(|job| job.configurations.len() == 7));
-        let mut photons: Vec<u32> = jobs.iter().map(|job| job.photons.get()).collect();
+        assert!(
+            jobs[1].configurations.len() == 1
+                && jobs[1].configurations[0].direct_light != centre.direct_light
+        );
+        assert!(jobs[2..].iter().all(|job| job.configurations.len() == 7));
+        let mut photons: Vec<u32> = jobs[1..].iter().map(|job| job.photons.get()).collect();
         assert_eq!(&photons[..3], [1 << 18, 1 << 17, 1 << 19]);
         photons.sort_unstable();
         assert_eq!(photons, (14..=22).map(|power| 1 << power).collect::<Vec<u32>>());
@@ -220,7 +234,7 @@ mod tests {
         let photons = NonZeroU32::new(100_000).expect("above 0");
         let centre = Configuration { alpha, photons, ..Configuration::of(&RenderSettings::default()) };
         let jobs = jobs(&centre);
-        assert_eq!((jobs.len(), jobs[0].photons), (10, photons));
+        assert_eq!((jobs.len(), jobs[0].photons), (1 + 10, photons));
         assert_eq!(jobs[0].configurations.iter().filter(|c| **c == centre).count(), 1);
         assert_eq!(centre.to_string(), "α 0.75, 100 k photons, radius × 1");
         let shadow = Configuration { direct_light: DirectLight::ShadowRays, ..centre };

@@ -137,6 +137,16 @@ impl Emitter {
         self.emit_aimed(&self.aim, u_part, u_position, u_direction)
     }
 
+    /// Whether its photons differ by `u_part`, by `u_position` and by `u_direction` of [`Emitter::emit`], aims apart.
+    pub(crate) const fn uses(&self) -> (bool, bool, bool) {
+        match &self.kind {
+            Kind::Area(area) => (area.primitives.len() > 1, true, true),
+            Kind::Point(_) | Kind::Spot(_) => (false, false, true),
+            Kind::Constant(_) | Kind::Environment(_) => (false, true, true),
+            Kind::Directional(_) => (false, true, false),
+        }
+    }
+
     /// The same, aimed at something else.
     pub(crate) fn emit_aimed(&self, aim: &Aim, u_part: f32, u_position: Vec2, u_direction: Vec2) -> Emission {
         match &self.kind {

@@ -19,6 +19,8 @@ pub struct HitPoint {
     pub weight: Rgb,
     /// Index of its [`Gloss`]; `None` for a Lambertian one.
     pub gloss: Option<u32>,
+    /// Area that the pixel covers here, whatever radii the settings ask for.
+    pub footprint: f32,
     /// First squared radius.
     pub radius2: f32,
     /// Squared half-thickness of the slab in which photons count, over the squared radius.

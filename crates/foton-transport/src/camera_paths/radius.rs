@@ -47,22 +47,19 @@ impl FirstRadius {
         }
     }
 
-    /// Squares of the first radius and of the smallest at `position`, which a pixel of `solid_angle` sees after `distance` in all,
-    /// at `cosine` to the surface's normal.
-    pub fn first_and_smallest2(
-        &self,
-        solid_angle: f32,
-        distance: f32,
-        cosine: f32,
-        position: Vec3,
-    ) -> (f32, f32) {
-        let area = distance * distance * solid_angle / cosine.max(MIN_COSINE);
+    /// Squares of the first radius and of the smallest at `position`, where a pixel covers `area`.
+    pub fn first_and_smallest2(&self, area: f32, position: Vec3) -> (f32, f32) {
         let radius = self.fixed.unwrap_or_else(|| (FOOTPRINTS * (area / PI).sqrt()).min(self.largest));
         let resolved = smallest_radius(position.abs().max_element());
         let first = (radius * self.scale).max(resolved);
         let smallest = (self.floor * area.sqrt()).clamp(resolved, first);
         (first * first, smallest * smallest)
     }
+}
+
+/// The area that a pixel of `solid_angle` covers on a surface which it sees after `distance` in all, at `cosine` to the normal.
+pub(super) fn footprint(solid_angle: f32, distance: f32, cosine: f32) -> f32 {
+    distance * distance * solid_angle / cosine.max(MIN_COSINE)
 }
 
 /// Eight units in the last place of the largest coordinate: below that positions are too coarse for a disc.
@@ -88,7 +85,7 @@ mod tests {
         let rule = FirstRadius { fixed: None, scale: 1.0, largest: 10.0, floor: 0.5 };
         let here = Vec3::splat(2000.0);
         let of = |rule: &FirstRadius, distance, cosine| {
-            let (first2, smallest2) = rule.first_and_smallest2(1e-4, distance, cosine, here);
+            let (first2, smallest2) = rule.first_and_smallest2(footprint(1e-4, distance, cosine), here);
             (first2.sqrt(), smallest2.sqrt())
         };
         let r = |distance, cosine| of(&rule, distance, cosine).0;
@@ -105,7 +102,7 @@ mod tests {
     fn the_smallest_radius_is_a_multiple_of_the_samples_spacing_and_never_above_the_first() {
         let rule = FirstRadius { fixed: None, scale: 1.0, largest: 10.0, floor: 0.5 };
         let smallest = |rule: &FirstRadius, at: f32| {
-            rule.first_and_smallest2(1e-4, 20.0, 1.0, Vec3::new(0.0, at, 0.0)).1.sqrt()
+            rule.first_and_smallest2(footprint(1e-4, 20.0, 1.0), Vec3::new(0.0, at, 0.0)).1.sqrt()
         };
         // √(20² · 10⁻⁴) is 0.2.
         assert!((smallest(&rule, 1.0) - 0.1).abs() < 1e-6);

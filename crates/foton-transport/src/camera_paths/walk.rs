@@ -9,7 +9,7 @@ use foton_scene::{LobeFlags, LobeSample, Scattering, Surface, Transport};
 use super::eye_pass::{EyePass, EyePaths};
 use super::highlights::{EmitterDraw, Glossy};
 use super::hit_point::{Gloss, HitPoint};
-use super::radius::slab2;
+use super::radius::{footprint, slab2};
 use crate::lobes::LobeSplit;
 use crate::not_finite::{self, LeftOut, Quantity};
 use crate::shading::{on_the_right_side, shading_normal_towards};
@@ -177,12 +177,8 @@ impl<'a, 'b> Walk<'a, 'b> {
         let behind = if part.behind { -1.0 } else { 1.0 };
         let side = behind * 1f32.copysign(wo.dot(surface.normal));
         let normal = surface.normal * side;
-        let (radius2, smallest2) = self.pass.radius.first_and_smallest2(
-            self.solid_angle,
-            distance,
-            wo.dot(normal).abs(),
-            surface.position,
-        );
+        let footprint = footprint(self.solid_angle, distance, wo.dot(normal).abs());
+        let (radius2, smallest2) = self.pass.radius.first_and_smallest2(footprint, surface.position);
         self.paths.hit_points.push(HitPoint {
             position: surface.position,
             normal,
@@ -190,6 +186,7 @@ impl<'a, 'b> Walk<'a, 'b> {
             origin: surface.ray_origin(normal),
             weight,
             gloss,
+            footprint,
             radius2,
             smallest2,
             patch: surface.patch_towards(side > 0.0),

@@ -5,6 +5,7 @@ use foton_scene::{Scene, Sources};
 use pulp::Arch;
 
 use super::batch::Batch;
+use crate::guide::{Cells, Training};
 use crate::lobes::LobePolicy;
 use crate::photon_map::{Grid, PathClass};
 
@@ -17,6 +18,10 @@ pub struct PhotonPass<'a> {
     pub scene: &'a Scene,
     /// Where they start.
     pub sources: &'a Sources,
+    /// How often from which emitter and with which primary numbers.
+    pub cells: &'a Cells,
+    /// What is noted of them; `None` in passes that cells are not learnt from.
+    pub training: Option<Training<'a>>,
     /// Where hit points may gather them.
     pub grid: &'a Grid,
     /// Whether photons that come straight from an emitter are stored: not where shadow rays bring that light.
@@ -29,7 +34,7 @@ pub struct PhotonPass<'a> {
     pub arch: Arch,
     /// Longest whole path in edges; a photon path is at least one shorter.
     pub max_depth: u32,
-    /// The seed of all random streams.
+    /// The seed of the photons' random streams.
     pub seed: u64,
     /// How many passes were before this one.
     pub pass: u64,
@@ -38,6 +43,9 @@ pub struct PhotonPass<'a> {
     /// Which of them are emitted now.
     pub batch: Batch,
 }
+
+/// The index of a sample that there is not.
+pub(super) const NOT_NOTED: u32 = u32::MAX;
 
 /// A photon on its way.
 pub(super) struct Path {
@@ -52,5 +60,7 @@ pub(super) struct Path {
     pub(super) edges: u32,
     /// Index of the emitter.
     pub(super) emitter: u32,
+    /// Index of its sample in the chunk; [`NOT_NOTED`] for none.
+    pub(super) sample: u32,
     pub(super) stream: Stream,
 }

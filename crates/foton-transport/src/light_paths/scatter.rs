@@ -148,6 +148,7 @@ impl PhotonPass<'_> {
             stored,
             edges: path.edges + 1,
             emitter: path.emitter,
+            sample: path.sample,
             stream: path.stream.clone(),
         });
     }
@@ -189,6 +190,11 @@ impl PhotonPass<'_> {
     fn store(&self, path: &Path, surface: &Surface, wo: Vec3, chunk: &mut Chunk) -> bool {
         if path.class == PathClass::Direct && !self.stores_direct {
             return path.stored;
+        }
+        // Before the grid is asked, whose cells depend on radii.
+        if let (Some(training), Some(sample)) = (&self.training, chunk.samples.get_mut(path.sample as usize))
+        {
+            sample.is_stored(path.power, training.worth.at(surface.position));
         }
         let Some(cell) = self.grid.number(surface.position) else { return path.stored };
         let outward = wo.dot(surface.normal);

@@ -8,7 +8,8 @@ use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
 use super::draws::{Draw, Draws};
-use super::pass::{Path, PhotonPass, WAVE};
+use super::pass::{NOT_NOTED, Path, PhotonPass, WAVE};
+use crate::guide::{Sample, Start};
 use crate::ledger::{Ledger, Loss, energy};
 use crate::light_use::LightUse;
 use crate::not_finite::{Halt, LeftOut, Quantity, Surface};
@@ -86,6 +87,7 @@ impl PhotonPass<'_> {
             let first = i as u64 * CHUNK;
             chunk.photons.clear();
             chunk.cells.clear();
+            chunk.samples.clear();
             chunk.ledger = Ledger::default();
             chunk.rays = 0;
             chunk.lights.clear();
@@ -105,11 +107,13 @@ impl PhotonPass<'_> {
     pub(super) fn start(&self, index: u64, chunk: &mut Chunk, paths: &mut Vec<Path>) {
         let stream = Stream::new(self.seed, Purpose::Photon, self.pass, index);
         let mut numbers = stream.clone();
-        // Stratified over the pass: each emitter gets its share of photons up to one.
+        // Stratified over the pass: each cell gets its share of photons up to one.
         let u = (index as f64 + f64::from(numbers.next_1d())) / self.photons as f64;
-        let Some((emitter, probability)) = self.sources.choose(u) else { return };
-        let start = self.sources.emit(emitter, numbers.next_1d(), numbers.next_2d(), numbers.next_2d());
-        let power = start.power / probability as f32;
+        let within = std::array::from_fn(|_| numbers.next_1d());
+        let Some(from) = self.cells.start(u, within) else { return };
+        let emitter = from.emitter;
+        let start = self.sources.emit(emitter, from.primary);
+        let power = start.power / from.density as f32;
         if !power.is_finite() {
             chunk.ledger.dropped += 1;
             chunk.lights[emitter].emitted += 1;
@@ -123,6 +127,7 @@ impl PhotonPass<'_> {
             return;
         }
         chunk.ledger.emitted += energy(power);
+        let sample = self.note_start(index, &from, chunk);
         if power.is_black() {
             // Aimed where its emitter does not shine.
             chunk.lights[emitter].count(false);
@@ -136,8 +141,19 @@ impl PhotonPass<'_> {
             stored: false,
             edges: 1,
             emitter: emitter as u32,
+            sample,
             stream,
         });
+    }
+
+    /// Begins to note a photon in a training pass; the index of its sample.
+    #[inline(always)]
+    fn note_start(&self, index: u64, from: &Start, chunk: &mut Chunk) -> u32 {
+        if self.training.is_none_or(|training| !index.is_multiple_of(training.stride)) {
+            return NOT_NOTED;
+        }
+        chunk.samples.push(Sample::new(from));
+        chunk.samples.len() as u32 - 1
     }
 
     /// What becomes of a photon where its ray ends. If it goes on, it is added to `next`: written once, where it is read.
@@ -151,6 +167,9 @@ impl PhotonPass<'_> {
         next: &mut Vec<Path>,
     ) {
         let before = next.len();
+        if let Some(sample) = chunk.samples.get_mut(path.sample as usize) {
+            sample.has_flown();
+        }
         let stored = match hit {
             Some(hit) => self.scatter(path, &self.scene.surface(&path.ray, hit), draw, chunk, next),
             None => {

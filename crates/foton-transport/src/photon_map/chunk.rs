@@ -1,6 +1,7 @@
 //! What one task emits.
 
 use super::photon::Photon;
+use crate::guide::Sample;
 use crate::ledger::{Ledger, Loss};
 use crate::light_use::LightUse;
 use crate::not_finite::LeftOut;
@@ -17,6 +18,8 @@ pub struct Chunk {
     pub photons: Vec<Photon>,
     /// Number of the cell of each photon.
     pub cells: Vec<u32>,
+    /// What training passes note of them.
+    pub samples: Vec<Sample>,
     /// What became of their power.
     pub ledger: Ledger,
     /// Rays traced.

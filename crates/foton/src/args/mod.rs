@@ -20,7 +20,7 @@ use options::SceneOptions;
 pub(crate) use options::SettingsOptions;
 use parse::{bytes, define, image, name, region, xml};
 pub(crate) use render::RenderArgs;
-pub(crate) use values::{ErrorWish, Every, Radius, Size};
+pub(crate) use values::{ErrorWish, Every, Guide, Radius, Size};
 
 /// Progressive photon mapping renderer with a live window.
 #[derive(Debug, Parser)]

@@ -6,7 +6,7 @@ use clap::Args as ClapArgs;
 use foton_integrator::{Alpha, RadiusFloor, RenderSettings};
 
 use super::parse::{alpha, define, radius, radius_floor, with_default};
-use super::values::{Direct, Radius, Rule, Size};
+use super::values::{Direct, Guide, Radius, Rule, Size};
 
 // The structs have no doc comments: clap would take them for descriptions of the commands.
 
@@ -47,6 +47,9 @@ pub(crate) struct SettingsOptions {
     /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = RenderSettings::default().seed)]
     pub(crate) seed: u64,
+    /// Seed of the photons alone: other noise over the same eye samples [default: as --seed]
+    #[arg(long, value_name = "N")]
+    pub(crate) photon_seed: Option<u64>,
     /// Threads [default: as many as the machine has]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
@@ -62,4 +65,7 @@ pub(crate) struct SettingsOptions {
     /// How light straight from emitters is estimated
     #[arg(long, value_name = "HOW", value_enum, default_value_t = Direct::Auto)]
     pub(crate) direct: Direct,
+    /// Whether photons start where those of earlier passes were worth their cost
+    #[arg(long, value_name = "WHEN", value_enum, default_value_t = Guide::Auto)]
+    pub(crate) guide: Guide,
 }

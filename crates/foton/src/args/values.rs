@@ -27,6 +27,15 @@ pub(crate) enum Direct {
     ShadowRays,
 }
 
+/// `--guide`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Guide {
+    /// Where the scene can gain by it
+    Auto,
+    /// Never: photons start as their emitters shine
+    Off,
+}
+
 /// `--radius`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Radius {

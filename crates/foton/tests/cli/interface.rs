@@ -11,6 +11,7 @@ const OPTIONS: &[(&str, &[&str])] = &[
     ("--radius", &["0.2", "x0.5"]),
     ("--radius-floor", &["0", "1.5"]),
     ("--direct", &["auto", "photons", "shadow-rays"]),
+    ("--guide", &["auto", "off"]),
     ("--photons", &["500"]),
     ("--alpha", &["0.5", "1"]),
     ("--error", &["off", "2%", "0.02"]),
@@ -44,7 +45,7 @@ const ERROR: &str = "error noise bias error_low error_high error_focus unknown_s
 const STAGES: &str = "eye_pass layout trace sort gather shadow_rays radiance";
 
 /// What a scene may switch on, as `foton info` names it.
-const FEATURES: [&str; 16] = [
+const FEATURES: [&str; 17] = [
     "followed paths",
     "splitting at glass",
     "narrow gloss",
@@ -57,6 +58,7 @@ const FEATURES: [&str; 16] = [
     "anisotropic frames",
     "environment",
     "aiming at casters",
+    "guided emission",
     "shadow rays",
     "light by path class",
     "radii that adapt",
@@ -123,6 +125,7 @@ fn help_has_every_option_and_default() {
         ("--radius-rule", "adaptive"),
         ("--radius-floor", "1"),
         ("--direct", "auto"),
+        ("--guide", "auto"),
         ("--seed", "0"),
         ("--spp", "4"),
         ("--checkpoint-every", "30s"),
@@ -224,7 +227,7 @@ fn images_and_checkpoints_name_what_they_hold() {
     let settings = metadata.get("foton:settings").expect("settings");
     assert_eq!(
         names(settings, ' ').join(" "),
-        "integrator alpha photons first_pass radius radius_rule radius_floor direct max_depth spp size sensor \
+        "integrator alpha photons first_pass radius radius_rule radius_floor direct guide max_depth spp size sensor \
          hit_points_per_sample layers"
     );
     // The text of a checkpoint begins after 44 bytes; its length is at the twelfth.
@@ -233,7 +236,7 @@ fn images_and_checkpoints_name_what_they_hold() {
     let stored = text(&bytes[44..44 + length]);
     assert_eq!(
         names(&stored, '\n').join(", "),
-        "scene, sensor, size, seed, spp, radius, radius-rule, radius-floor, direct, max-depth, kinds of light, error, \
+        "scene, sensor, size, seed, photon-seed, spp, radius, radius-rule, radius-floor, direct, guide, max-depth, kinds of light, error, \
          photons of the first pass, hit points a sample, hit points"
     );
 }

@@ -12,6 +12,7 @@ const fn hit_point(position: Vec3, radius: f32) -> HitPoint {
         origin: Vec3::ZERO,
         weight: Rgb::WHITE,
         gloss: None,
+        footprint: radius * radius,
         radius2: radius * radius,
         slab2: 1.0,
         smallest2: 0.0,

@@ -14,6 +14,7 @@ fn scattered(n: u64) -> Vec<HitPoint> {
                 origin: Vec3::ZERO,
                 weight: Rgb::WHITE,
                 gloss: None,
+                footprint: 0.25,
                 radius2: 4.0,
                 slab2: 1.0,
                 remaining_edges: 9,
