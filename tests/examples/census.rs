@@ -44,6 +44,7 @@ fn main() {
     let settings = || RenderSettings {
         ppm: PpmSettings {
             photons_per_pass: NonZeroU32::new(1 << 17).expect("above 0"),
+            direct_light: DirectLight::Photons,
             ..PpmSettings::default()
         },
         ..RenderSettings::default()

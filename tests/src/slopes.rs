@@ -73,7 +73,9 @@ fn settings(alpha: f64, photons: u32, seed: u64) -> RenderSettings {
             alpha: Alpha::new(alpha).expect("in (0, 1]"),
             photons_per_pass: photons,
             first_pass: photons,
-            radius: Some(RADIUS), // Theory is of radii that shrink by α alone.
+            // Theory is of photons, and of radii that shrink by α alone.
+            direct_light: DirectLight::Photons,
+            radius: Some(RADIUS),
             radius_floor: RadiusFloor::NONE,
             radius_rule: RadiusRule::Local,
             // Densities of photons that change between passes would be no part of it either.

@@ -17,6 +17,8 @@ fn settings(photons: u32, seed: u64) -> RenderSettings {
         ppm: PpmSettings {
             photons_per_pass: NonZeroU32::new(photons).expect("above 0"),
             first_pass: NonZeroU32::new(photons).expect("above 0"),
+            // What photons bring is what is known here; `direct.rs` is about shadow rays.
+            direct_light: DirectLight::Photons,
             ..PpmSettings::default()
         },
         ..RenderSettings::default()

@@ -5,7 +5,7 @@ use std::num::NonZeroU32;
 
 use foton_integrator::{Cancel, DirectLight, PpmSettings, Render, RenderSettings};
 use foton_math::Rgb;
-use foton_math::glam::DVec3;
+use foton_math::glam::{DAffine3, DQuat, DVec3};
 use foton_scene::description::{EmitterDescription, EmitterKind};
 use foton_tests::{Sketch, glass, grey};
 
@@ -112,7 +112,7 @@ fn photons_and_shadow_rays_bring_the_same_light_whichever_lights_there_are() {
 #[test]
 fn the_noise_of_direct_light_is_what_it_says() {
     for sketch in [lamps().max_depth(2), many().max_depth(2)] {
-        for (photons, passes) in [(1000, 2), (8000, 3), (8000, 12)] {
+        for (photons, passes) in [(4000, 2), (8000, 3), (8000, 12)] {
             let seeds = 24;
             let (mut said, mut sums, mut squares) = (0.0, vec![0.0; 24 * 24], vec![0.0; 24 * 24]);
             for seed in 0..seeds {
@@ -178,24 +178,47 @@ fn ten_thousand_lamps_light_a_floor() {
     assert!((found / expected - 1.0).abs() < 0.02, "{found} {expected}");
     // All lamps are alike: chosen by what they give, even single visits are not far off.
     let (light, variance): (Vec<f64>, Vec<f64>) = render.direct_light().expect("by rays").into_iter().unzip();
-    assert!(mean(&variance).sqrt() < 0.15 * mean(&light), "{} {}", mean(&variance).sqrt(), mean(&light));
+    assert!(mean(&variance).sqrt() < 0.3 * mean(&light), "{} {}", mean(&variance).sqrt(), mean(&light));
 }
 
-/// The first pass lights every pixel; those after it some, the more the more photons they have.
+/// The first pass lights every pixel; those after it some, the more the more their photons cost.
 #[test]
 fn rays_are_a_share_of_a_pass() {
-    let sketch = lamps().max_depth(2).sphere(DVec3::new(-0.6, 0.2, 0.3), 0.2, glass(1.5), None);
-    let rays = |photons| {
-        let base = RenderSettings { max_depth: Some(1), ..settings(photons, DirectLight::ShadowRays) };
+    let sketch = lamps().sphere(DVec3::new(-0.6, 0.2, 0.3), 0.2, glass(1.5), None);
+    let rays = |photons, direct_light| {
         let scene = sketch.build().expect("sound");
-        let none = RenderSettings { max_depth: Some(2), ..base };
-        let mut render = Render::start(scene, none, &mut |_| (), &Cancel::default()).expect("starts");
-        let mut next = || render.advance(&mut |_| (), &Cancel::default()).expect("not cancelled").rays;
-        [next(), next()]
+        let base = settings(photons, direct_light);
+        let mut render = Render::start(scene, base, &mut |_| (), &Cancel::default()).expect("starts");
+        [(); 2].map(|()| render.advance(&mut |_| (), &Cancel::default()).expect("not cancelled").rays)
     };
-    let [first, few] = rays(1);
-    let [_, more] = rays(1000);
-    assert!(first > 24 * 24 && few > 0 && few * 15 < first, "{first} {few}");
-    // A thousand photons cost about as much as 7,000 rays, of which a third are added; photons' own rays are counted, too.
-    assert!(more > 2_000 && more < 5_000, "{more}");
+    // Photons take the same rays either way.
+    let shadow = |photons| {
+        let [by_rays, by_photons] = [DirectLight::ShadowRays, DirectLight::Photons].map(|d| rays(photons, d));
+        ([0, 1].map(|pass| by_rays[pass] - by_photons[pass]), by_photons[1])
+    };
+    let ([first, few], _) = shadow(1);
+    let ([_, more], photons) = shadow(2000);
+    assert!(first > 400 && few > 0 && few * 10 < first, "{first} {few}");
+    assert!(more > 10 * few && more < photons, "{more} beside {photons}");
+}
+
+#[test]
+fn beams_and_what_hardly_sees_an_emitter_get_direct_light_by_photons() {
+    let by_rays = |sketch: &Sketch| sketch.render(settings(100, DirectLight::Auto), 0).has_shadow_rays();
+    assert!(by_rays(&lamps()) && by_rays(&deltas()) && by_rays(&many()));
+    // A spot, wide and as narrow as a beam.
+    let spot = |degrees: f64| {
+        let mut sketch = lamps();
+        let to_world = DAffine3::from_rotation_translation(DQuat::from_rotation_x(PI / 2.0), DVec3::Y);
+        let (cutoff_degrees, beam_degrees) = (degrees, degrees);
+        let kind = EmitterKind::Spot { to_world, intensity: Rgb::WHITE, cutoff_degrees, beam_degrees };
+        sketch.0.emitters.push(EmitterDescription { name: "spot".into(), kind });
+        sketch
+    };
+    assert!(by_rays(&spot(20.0)) && !by_rays(&spot(0.1)));
+    // A closed room under a sky.
+    let mut room = Sketch::default().camera(DVec3::ZERO, -DVec3::Z, 60.0, 24).room(grey(0.5), None);
+    let kind = EmitterKind::Constant { radiance: Rgb::WHITE };
+    room.0.emitters.push(EmitterDescription { name: "sky".into(), kind });
+    assert!(!by_rays(&room));
 }

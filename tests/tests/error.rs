@@ -16,7 +16,9 @@ fn settings(photons: u32, seed: u64) -> RenderSettings {
         seed,
         ppm: PpmSettings {
             photons_per_pass,
-            first_pass: NonZeroU32::new(photons / 8).expect("above 0"), // Theory is of radii that shrink for ever.
+            first_pass: NonZeroU32::new(photons / 8).expect("above 0"),
+            // Theory is of photons, and of radii that shrink for ever.
+            direct_light: DirectLight::Photons,
             radius_floor: RadiusFloor::NONE,
             // Nor is it of photons that differ in power.
             guided: false,

@@ -176,6 +176,12 @@ impl Render {
         each!(&self.0, r => r.settings())
     }
 
+    /// Whether direct light comes by shadow rays, as settings ask or the scene suggests.
+    #[must_use]
+    pub fn has_shadow_rays(&self) -> bool {
+        each!(&self.0, r => r.has_shadow_rays())
+    }
+
     /// The scene.
     #[must_use]
     pub fn scene(&self) -> &Arc<Scene> {

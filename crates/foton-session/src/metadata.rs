@@ -1,7 +1,7 @@
 //! What travels with an image: enough to make it again. Nothing of when or where, so that equal renders give equal files.
 
 use foton_film::Metadata;
-use foton_integrator::{DirectLight, LayerKind, RadiusScale, Render};
+use foton_integrator::{LayerKind, RadiusScale, Render};
 use foton_scene::Sensor;
 
 /// The scene as metadata names it.
@@ -33,10 +33,7 @@ pub(crate) fn of(render: &Render, layers: &[LayerKind], scene: &SceneIdentity) -
         format!("{radius}*{}", s.ppm.radius_scale)
     };
     let rule = s.ppm.radius_rule.name();
-    let direct = match s.ppm.direct_light {
-        DirectLight::Photons => "photons",
-        DirectLight::ShadowRays => "shadow-rays",
-    };
+    let direct = s.ppm.direct_light.name();
     let guide = if s.ppm.guided { "auto" } else { "off" };
     let region = region(sensor);
     let settings = format!(

@@ -3,7 +3,7 @@
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use foton_integrator::{Cancel, Feature, PpmSettings, Render, RenderSettings, features};
+use foton_integrator::{Cancel, DirectLight, Feature, PpmSettings, Render, RenderSettings, features};
 use foton_scene::Scene;
 use foton_scene::description::SceneDescription;
 use foton_session::Session;
@@ -63,7 +63,13 @@ fn probe(mut description: SceneDescription, settings: &RenderSettings) -> Option
     }
     let settings = RenderSettings {
         samples_per_pixel: NonZeroU32::MIN,
-        ppm: PpmSettings { first_pass: PROBE_PHOTONS, photons_per_pass: PROBE_PHOTONS, ..settings.ppm },
+        ppm: PpmSettings {
+            first_pass: PROBE_PHOTONS,
+            photons_per_pass: PROBE_PHOTONS,
+            // Whether they come near anything that is seen, however they got there.
+            direct_light: DirectLight::Photons,
+            ..settings.ppm
+        },
         ..settings.clone()
     };
     let cancel = Cancel::default();

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use foton_format::Options;
-use foton_integrator::{Cancel, PassReport, PpmSettings, Render, RenderSettings, Stage};
+use foton_integrator::{Cancel, DirectLight, PassReport, PpmSettings, Render, RenderSettings, Stage};
 use foton_scene::Scene;
 use foton_scene::description::{Filter, SceneDescription};
 
@@ -82,6 +82,7 @@ pub(crate) fn settings() -> RenderSettings {
             photons_per_pass: number(PHOTONS),
             first_pass: number(PHOTONS),
             radius: Some(RADIUS),
+            direct_light: DirectLight::Photons,
             ..PpmSettings::default()
         },
         ..RenderSettings::default()

@@ -140,7 +140,8 @@ fn what_a_shadow_ray_brings() {
         ..with_radius(0.2, 2000)
     };
     let under = DVec3::new(0.1, 0.1, 0.0);
-    let sketch = seen_from(under + DVec3::Z * 0.05, floor(grey(0.5)).point(under + DVec3::Z * 0.002, 7e31));
+    let lit = floor(grey(0.5)).point(under + DVec3::Z * 1e-5, 7e31);
+    let sketch = seen_from(under + DVec3::Z * 2e-4, lit);
     let place = first(&sketch, &settings, Quantity::DirectLight);
     assert_eq!((place.light.as_deref(), place.surface.clone()), (Some("point"), at("shape-1")));
     assert!((place.position - under).length() < 0.02, "{place}");

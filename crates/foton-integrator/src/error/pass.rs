@@ -184,7 +184,8 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
             sums.light += direct.mean;
             of_tile.direct.add(&direct);
         }
-        let mut is_unknown = all <= 0.0;
+        // Where photons can add nothing, what rays do not find is dark.
+        let mut is_unknown = all <= 0.0 && (direct.is_none() || self.facts.power > 0.0);
         if is_unknown || direct.is_some() {
             // Shadow rays say nothing about indirect light.
             let one_photon = self.one_photon(index, scales.samples) / weights.photons;

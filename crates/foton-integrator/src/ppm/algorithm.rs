@@ -8,7 +8,7 @@ use foton_transport::photon_map::{Chunk, Grid, PhotonMap};
 use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite, ShouldSuspend, Stage};
 use pulp::Arch;
 
-use super::direct::Direct;
+use super::direct::{Direct, by_shadow_rays};
 use super::eye_samples::EyeSamples;
 use super::guidance::Guidance;
 use super::hit_points::HitPoints;
@@ -16,7 +16,6 @@ use super::laid_out::LaidOut;
 use super::light::Light;
 use super::report::{PassReport, Start};
 use super::schedule::begin_small;
-use super::settings::DirectLight;
 use super::slots::EarlierBatches;
 use super::under_way::{Once, UnderWay};
 use crate::changes::Changes;
@@ -119,8 +118,8 @@ impl Ppm {
         begin_small(&mut settings.ppm, &hit_points.packets, &grid);
         cancel.check()?;
         let width = scene.sensors()[settings.sensor].width;
-        let direct = (settings.ppm.direct_light == DirectLight::ShadowRays)
-            .then(|| Direct::new(&scene, &hit_points, width));
+        let direct =
+            by_shadow_rays(&scene, &settings).then(|| Direct::new(&scene, &settings, &hit_points, samples));
         let error = settings.error.then(|| ErrorSums::new(&hit_points, width, samples));
         cancel.check()?;
         Ok(Self {

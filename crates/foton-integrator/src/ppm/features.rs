@@ -8,7 +8,7 @@ use foton_transport::LobeUse;
 use foton_transport::camera_paths::Gloss;
 
 use super::adaptive::RadiusStatistics;
-use super::direct::Direct;
+use super::direct::{Direct, by_shadow_rays};
 use super::hit_points::ShadowOrigin;
 use super::lobes::lobe_use;
 use super::radiance::Radiance;
@@ -56,7 +56,8 @@ pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
         .chain(surfaces(census, lobes))
         .chain(emitters(census, aims));
     let emits = census.emitters > 0;
-    parts.chain([guidance(emits, settings)]).chain(asked_for(settings)).collect()
+    let shared = [guidance(emits, settings), shadow_rays(scene, settings)];
+    parts.chain(shared).chain(asked_for(settings)).collect()
 }
 
 fn eye_paths(census: &Census, lobes: LobeUse, hit_points_per_sample: NonZeroU32) -> [Feature; 5] {
@@ -161,6 +162,19 @@ fn emitters(census: &Census, aims_at_casters: bool) -> [Feature; 2] {
     ]
 }
 
+fn shadow_rays(scene: &Scene, settings: &RenderSettings) -> Feature {
+    let reasons = match settings.ppm.direct_light {
+        DirectLight::Auto => [
+            "what is seen sees the emitters",
+            "photons bring direct light: some is a narrow beam, or what is seen hardly sees the emitters",
+        ],
+        _ => ["asked for by --direct", "--direct asks for photons"],
+    };
+    let feature =
+        Feature::new("shadow rays", by_shadow_rays(scene, settings), reasons, "about a quarter of a pass");
+    feature.with_bytes(size_of::<ShadowOrigin>(), Direct::BYTES_PER_PIXEL)
+}
+
 fn guidance(emits: bool, settings: &RenderSettings) -> Feature {
     Feature::new(
         "guided emission",
@@ -173,15 +187,8 @@ fn guidance(emits: bool, settings: &RenderSettings) -> Feature {
     )
 }
 
-fn asked_for(settings: &RenderSettings) -> [Feature; 4] {
+fn asked_for(settings: &RenderSettings) -> [Feature; 3] {
     [
-        Feature::new(
-            "shadow rays",
-            settings.ppm.direct_light == DirectLight::ShadowRays,
-            ["asked for by --direct", "direct light comes by photons"],
-            "about a quarter of a pass",
-        )
-        .with_bytes(size_of::<ShadowOrigin>(), Direct::BYTES_PER_PIXEL),
         Feature::new(
             "light by path class",
             settings.layers,

@@ -6,12 +6,13 @@ use foton_scene::Sources;
 use foton_transport::camera_paths::HitPoint;
 use foton_transport::{Cancel, Cancelled, NotFinite};
 
+use super::direct::by_shadow_rays;
 use super::eye_samples::EyeSamples;
 use super::guidance::Guidance;
 use super::hit_points::HitPoints;
 use super::lobes::lobe_use;
 use super::report::Start;
-use super::settings::{DirectLight, RadiusRule};
+use super::settings::RadiusRule;
 use crate::settings::RenderSettings;
 
 /// About this many hit points stand for all of them.
@@ -39,7 +40,7 @@ impl LaidOut {
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
         let EyeSamples { scene, paths, .. } = eye;
-        let shadow_rays = settings.ppm.direct_light == DirectLight::ShadowRays;
+        let shadow_rays = by_shadow_rays(scene, settings);
         let normals = lobe_use(scene).shading_normals;
         let (found, gloss) = (&paths.hit_points, &paths.gloss);
         let mut hit_points = HitPoints::new(found, gloss, paths.pixel_start(), normals, shadow_rays, cancel)?;

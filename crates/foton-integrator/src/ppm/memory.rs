@@ -9,13 +9,13 @@ use foton_transport::light_paths::{Batch, MAX_PHOTONS};
 use foton_transport::photon_map::{LANES, MAX_CELLS, Packet, Photon, PhotonMap};
 
 use super::adaptive::RadiusStatistics;
-use super::direct::Direct;
+use super::direct::{Direct, by_shadow_rays};
 use super::eye_samples::eye_pass;
 use super::guidance::Guidance;
 use super::hit_points::{Irradiance, ShadowOrigin};
 use super::lobes::lobe_use;
 use super::radiance::Radiance;
-use super::settings::{DirectLight, RadiusRule};
+use super::settings::RadiusRule;
 use super::slots::EarlierBatches;
 use super::statistics::Statistics;
 use crate::error::ErrorSums;
@@ -113,7 +113,7 @@ impl MemoryEstimate {
         let hit_points = found as f64 / sampled as f64 * samples;
         let glossy = glossy as f64 / sampled as f64 * samples;
         let layers = if settings.layers { 3.0 } else { 1.0 };
-        let shadow = settings.ppm.direct_light == DirectLight::ShadowRays;
+        let shadow = by_shadow_rays(scene, settings);
         let shaded = lobe_use(scene).shading_normals;
         let adapts = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;
         let slot = size_of::<Packet>() / LANES

@@ -116,6 +116,12 @@ impl Ppm {
         self.photons_emitted
     }
 
+    /// Whether direct light comes by shadow rays.
+    #[must_use]
+    pub(crate) const fn has_shadow_rays(&self) -> bool {
+        self.direct.is_some()
+    }
+
     /// All changes so far, each with the number of passes before it.
     #[must_use]
     pub(crate) fn changes(&self) -> &[(u64, SettingChange)] {

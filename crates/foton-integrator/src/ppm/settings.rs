@@ -39,11 +39,34 @@ impl fmt::Display for Alpha {
 /// How light that comes straight from an emitter is estimated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DirectLight {
-    /// By photons, like all other light.
+    /// By shadow rays, unless a pilot finds that most of them would be in vain.
     #[default]
+    Auto,
+    /// By photons, like all other light.
     Photons,
-    /// By a shadow ray from each hit point in each pass; shadow edges are then sharp from the first pass on.
+    /// By shadow rays from hit points, about a quarter of each pass; shadow edges are then sharp from the first pass on.
     ShadowRays,
+}
+
+impl DirectLight {
+    /// All ways.
+    pub const ALL: [Self; 3] = [Self::Auto, Self::Photons, Self::ShadowRays];
+
+    /// The name in files and on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Photons => "photons",
+            Self::ShadowRays => "shadow-rays",
+        }
+    }
+
+    /// The way of a name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|way| way.name() == name)
+    }
 }
 
 /// A factor on first radii, above zero.

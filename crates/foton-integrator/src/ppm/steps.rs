@@ -56,8 +56,8 @@ impl Ppm {
         UnderWay::new(counts, self.settings.ppm.alpha, batches, once)
     }
 
-    /// Whether photons can add light: not to emitters that are seen directly, nor to surfaces that only shadow rays light.
-    fn needs_photons(&self) -> bool {
+    /// Whether photons can add light to surfaces: not where only shadow rays light them.
+    fn photons_add(&self) -> bool {
         self.settings.max_depth_in(&self.scene) > if self.direct.is_some() { 2 } else { 1 }
     }
 
@@ -75,7 +75,8 @@ impl Ppm {
             max_depth: self.settings.max_depth_in(&self.scene),
             seed: self.settings.photon_seed(),
             pass: self.passes,
-            photons: if self.needs_photons() { photons } else { 0 },
+            // A path of one edge is an emitter seen directly: no photon can add to it.
+            photons: if self.settings.max_depth_in(&self.scene) > 1 { photons } else { 0 },
             batch,
         }
     }
@@ -177,15 +178,10 @@ impl Ppm {
     ) -> Result<(), Suspended> {
         let Some(direct) = self.direct.as_ref().filter(|_| !pass.is_lit) else { return Ok(()) };
         watch(Stage::ShadowRays);
-        let lighting = Lighting {
-            scene: &self.scene,
-            hit_points: &self.hit_points,
-            seed: self.settings.photon_seed(),
-            set: 0,
-            samples: self.settings.samples_per_pixel.get() as f32,
-        };
+        let seed = self.settings.photon_seed();
+        let lighting = Lighting { scene: &self.scene, hit_points: &self.hit_points, seed, set: 0 };
         let by_block = ByBlock { done: &mut pass.lit, should_suspend };
-        lighting.light(direct, &direct.turns(pass.counts.photons), by_block);
+        lighting.light(direct, &direct.turns(pass.counts.rays), by_block);
         if pass.lit.iter().any(Option::is_none) {
             return Err(Suspended);
         }
@@ -204,7 +200,7 @@ impl Ppm {
         let mut counts = pass.counts;
         counts.leave_out(self.light.add_pass(&self.hit_points, counts.photons));
         if let Some(direct) = &mut self.direct {
-            direct.add(&direct.turns(counts.photons), pass.lit.into_iter().flatten());
+            direct.add(pass.lit.into_iter().flatten());
         }
         let Counts { ledger, lights, losses, photons, rays, stored, tally, left_out } = counts;
         (self.ledger, self.lights, self.losses) = (ledger, lights, losses);
@@ -213,7 +209,7 @@ impl Ppm {
         }
         self.mark_cells(&tally);
         self.photons_emitted += photons;
-        let power = if self.needs_photons() { self.mean_power() } else { 0.0 };
+        let power = if self.photons_add() { self.mean_power() } else { 0.0 };
         if let Some(error) = &mut self.error {
             let facts =
                 PassFacts { photons, power, question: Question::after(self.passes), before: self.passes };

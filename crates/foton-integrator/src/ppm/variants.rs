@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use super::algorithm::Ppm;
 use super::report::PassReport;
-use super::settings::{DirectLight, PpmSettings};
+use super::settings::PpmSettings;
 use super::under_way::UnderWay;
 use crate::render::Render;
 use crate::settings::RenderSettings;
@@ -150,7 +150,7 @@ fn shares_photons(a: &RenderSettings, b: &RenderSettings) -> bool {
 
 /// Gives a render those photons that its discs can reach.
 fn hand_out(all: &[Chunk], run: &mut Ppm) {
-    let skip_direct = run.settings().ppm.direct_light == DirectLight::ShadowRays;
+    let skip_direct = run.direct.is_some();
     let (own, grid) = (&mut run.chunks, &run.grid);
     own.resize_with(all.len(), Chunk::default);
     own.par_iter_mut().zip(all).for_each(|(own, all)| {

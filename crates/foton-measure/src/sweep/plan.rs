@@ -80,8 +80,8 @@ impl Configuration {
         if self.radius_rule != RadiusRule::default() {
             options += &format!(" --radius-rule {}", self.radius_rule.name());
         }
-        if self.direct_light == DirectLight::ShadowRays {
-            options += " --direct shadow-rays";
+        if self.direct_light != DirectLight::default() {
+            options += &format!(" --direct {}", self.direct_light.name());
         }
         options
     }
@@ -106,8 +106,10 @@ impl fmt::Display for Configuration {
             RadiusRule::Global => write!(f, " shrinking together")?,
             RadiusRule::Adaptive => {}
         }
-        if self.direct_light == DirectLight::ShadowRays {
-            write!(f, ", shadow rays")?;
+        match self.direct_light {
+            DirectLight::Auto => {}
+            DirectLight::Photons => write!(f, ", direct light by photons")?,
+            DirectLight::ShadowRays => write!(f, ", shadow rays")?,
         }
         Ok(())
     }
@@ -191,10 +193,11 @@ fn arms(centre: &Configuration) -> Vec<Configuration> {
     let scales = SCALES.into_iter().filter_map(|s| RadiusScale::new(s * centre.radius_scale.get()));
     let mut arms: Vec<Configuration> =
         scales.map(|radius_scale| Configuration { radius_scale, ..*centre }).collect();
+    // What is chosen for a scene is mostly shadow rays.
     arms.push(Configuration {
         direct_light: match centre.direct_light {
             DirectLight::Photons => DirectLight::ShadowRays,
-            DirectLight::ShadowRays => DirectLight::Photons,
+            DirectLight::Auto | DirectLight::ShadowRays => DirectLight::Photons,
         },
         ..*centre
     });

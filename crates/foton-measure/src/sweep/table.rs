@@ -163,10 +163,7 @@ pub(crate) fn summary(points: &[Point]) -> String {
 
 fn configuration(c: &Configuration) -> String {
     let rule = c.radius_rule.name();
-    let direct = match c.direct_light {
-        DirectLight::Photons => "photons",
-        DirectLight::ShadowRays => "shadow-rays",
-    };
+    let direct = c.direct_light.name();
     format!("{},{},{},{},{rule},{direct}", c.alpha, c.photons, c.radius_scale, c.radius_floor)
 }
 
@@ -203,11 +200,7 @@ fn read_point(fields: &HashMap<&str, &str>) -> Option<Point> {
             radius_scale: RadiusScale::new(number("radius_scale")?)?,
             radius_floor: RadiusFloor::new(number("radius_floor")?)?,
             radius_rule: RadiusRule::from_name(fields.get("radius_rule")?)?,
-            direct_light: match *fields.get("direct")? {
-                "photons" => DirectLight::Photons,
-                "shadow-rays" => DirectLight::ShadowRays,
-                _ => return None,
-            },
+            direct_light: DirectLight::from_name(fields.get("direct")?)?,
         },
         pass: whole("pass")?,
         photons: whole("photons")?,

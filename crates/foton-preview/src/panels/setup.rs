@@ -69,6 +69,7 @@ fn rebased(draft: Configuration, base: &Configuration, now: &Configuration) -> C
 
 const fn direct_light_name(method: DirectLight) -> &'static str {
     match method {
+        DirectLight::Auto => "Auto",
         DirectLight::Photons => "Photons",
         DirectLight::ShadowRays => "Shadow rays",
     }
@@ -93,7 +94,10 @@ fn changes(now: &Configuration, draft: &Configuration, sensors: &[&str]) -> Vec<
     let automatic = |value: Option<String>| value.unwrap_or_else(|| "automatic".to_owned());
     say(
         draft.direct_light != now.direct_light,
-        format!("direct light by {}", direct_light_name(draft.direct_light).to_lowercase()),
+        match draft.direct_light {
+            DirectLight::Auto => "direct light as the scene suggests".to_owned(),
+            method => format!("direct light by {}", direct_light_name(method).to_lowercase()),
+        },
     );
     say(
         draft.radius_rule != now.radius_rule,
@@ -134,13 +138,14 @@ fn methods(ui: &mut Ui, draft: &mut Configuration) {
                 let name = direct_light_name(method);
                 ui.selectable_value(&mut draft.direct_light, method, name).on_hover_text(help);
             };
+            choice(DirectLight::Auto, "By shadow rays, unless most of them would be in vain");
             choice(
                 DirectLight::Photons,
-                "Direct light by photons, like all other light: no extra time, soft shadow edges at first",
+                "Direct light by photons, like all other light: soft shadow edges at first",
             );
             choice(
                 DirectLight::ShadowRays,
-                "A shadow ray from each hit point in each pass: sharp shadows at once, slower passes",
+                "Shadow rays from hit points, about a quarter of each pass: sharp shadows at once",
             );
         });
         list.response.labelled_by(label).on_hover_text(DIRECT);

@@ -2,7 +2,7 @@
 //! something is told what.
 
 use foton_input::shown;
-use foton_integrator::{DirectLight, Render};
+use foton_integrator::Render;
 use foton_scene::Sensor;
 
 use crate::metadata::SceneIdentity;
@@ -28,7 +28,6 @@ pub(super) fn of(render: &Render, scene: &SceneIdentity) -> String {
         Some(radius) => format!("{radius}*{}", s.ppm.radius_scale),
         None => format!("x{}", s.ppm.radius_scale),
     };
-    let direct = if s.ppm.direct_light == DirectLight::ShadowRays { "shadow-rays" } else { "photons" };
     let lines = [
         (SCENE, format!("{:016x}", scene.hash)),
         ("sensor", sensor.name.replace('\n', " ")),
@@ -39,7 +38,7 @@ pub(super) fn of(render: &Render, scene: &SceneIdentity) -> String {
         ("radius", radius),
         ("radius-rule", s.ppm.radius_rule.name().to_owned()),
         ("radius-floor", s.ppm.radius_floor.to_string()),
-        ("direct", direct.to_owned()),
+        ("direct", s.ppm.direct_light.name().to_owned()),
         ("guide", (if s.ppm.guided { "auto" } else { "off" }).to_owned()),
         ("max-depth", s.max_depth_in(render.scene()).to_string()),
         (CLASSES, (if s.layers { "kept apart" } else { "summed" }).to_owned()),

@@ -1,7 +1,7 @@
 //! Findings in a render under way: starved emitters, power that was lost, bias that stays.
 
 use foton_input::quoted;
-use foton_integrator::{DirectLight, Render, RenderSettings};
+use foton_integrator::{Render, RenderSettings};
 use foton_scene::Scene;
 
 use super::{Finding, FindingKind, SettingNames};
@@ -44,7 +44,7 @@ pub fn of_settings(scene: &Scene, settings: &RenderSettings, names: &SettingName
 #[must_use]
 pub fn of_emitters(render: &Render) -> Vec<Finding> {
     // With shadow rays the photons of an emitter need not reach anything that it lights directly.
-    if render.settings().ppm.direct_light == DirectLight::ShadowRays {
+    if render.has_shadow_rays() {
         return Vec::new();
     }
     let photons = render.photons_emitted();

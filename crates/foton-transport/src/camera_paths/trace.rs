@@ -14,6 +14,9 @@ use crate::not_finite::{self, LeftOut, Quantity};
 /// Pixels of one task.
 const CHUNK: usize = 1024;
 
+/// Room for so many hit points of a task at first.
+const MAX_RESERVED: usize = 1 << 14;
+
 impl EyePass<'_> {
     /// Follows the first `samples` of all pixels, of which `earlier` has some, if any. `tell` is told by many threads what share of the
     /// pixels is done. In how many steps samples are followed changes no bit of what is found.
@@ -74,7 +77,8 @@ impl EyePass<'_> {
     ) -> EyePaths {
         let mut paths = EyePaths { samples, ..EyePaths::default() };
         // Most samples find one hit point: growing from nothing would copy them again and again.
-        paths.hit_points.reserve(pixels.size_hint().0 * samples as usize);
+        let samples_of_all = pixels.size_hint().0.saturating_mul(samples as usize);
+        paths.hit_points.reserve(samples_of_all.min(MAX_RESERVED));
         let mut branches = Vec::new();
         for pixel in pixels {
             let before = paths.hit_points.len();
@@ -113,6 +117,8 @@ impl EyePass<'_> {
             paths.counts.push((paths.hit_points.len() - before) as u32);
             paths.emission.push(emission);
         }
+        // All parts are held at one time.
+        paths.hit_points.shrink_to_fit();
         paths
     }
 }

@@ -1,5 +1,6 @@
-//! Which emitters shadow rays go to: to those of a single point or direction once and for all, to each of few others, and of many
-//! to some that are chosen by what they can give.
+//! Which emitters shadow rays go to: to those of a single point or direction once and for all, to each that is infinitely far away,
+//! and of the others to one that is chosen by what it can give. A ray to each of three lamps was measured, too: it takes three times
+//! as long until all is lit, and then direct light has a thirtieth of the error of the rest.
 
 use foton_math::glam::Vec2;
 use foton_math::sobol;
@@ -11,14 +12,8 @@ use super::tree::LightTree;
 /// Up to this many emitters of a single point are sampled once and for all; more are chosen among.
 const MAX_FIXED: usize = 16;
 
-/// Up to this many other emitters each get a ray.
-const MAX_EACH: usize = 4;
-
-/// Rays to emitters of the tree, each to one quarter of what it can give.
-const PICKS: u32 = 4;
-
-/// Scrambles that samples need: for each emitter one, and one for those that are chosen.
-pub const SCRAMBLES: usize = MAX_EACH + 1;
+/// Scrambles that samples need: one for emitters that are chosen, and some for those that each get a ray.
+pub const SCRAMBLES: usize = 4;
 
 /// Digits of a Sobol' sequence that are flipped.
 pub type Scramble = [u32; sobol::DIMENSIONS];
@@ -38,16 +33,12 @@ impl Lights {
         let emitters = scene.emitters();
         let shines = |i: &u32| scene.emitter_share(*i as usize) > 0.0;
         let all = (0..emitters.len() as u32).filter(shines);
-        let (delta, mut each): (Vec<u32>, Vec<u32>) = all.partition(|&i| emitters[i as usize].is_delta());
+        let (delta, mut others): (Vec<u32>, Vec<u32>) = all.partition(|&i| emitters[i as usize].is_delta());
         let is_far = |i: u32| emitters[i as usize].extent().is_none();
         let (fixed, chosen): (Vec<u32>, Vec<u32>) =
             delta.iter().partition(|&&i| delta.len() <= MAX_FIXED || is_far(i));
-        each.extend(chosen);
-        let (each, near): (Vec<u32>, Vec<u32>) = if each.len() <= MAX_EACH {
-            (each, Vec::new())
-        } else {
-            each.into_iter().partition(|&i| is_far(i))
-        };
+        others.extend(chosen);
+        let (each, near): (Vec<u32>, Vec<u32>) = others.into_iter().partition(|&i| is_far(i));
         let tree = LightTree::new(
             near.into_iter().filter_map(|i| Some((i, emitters[i as usize].extent()?))).collect(),
         );
@@ -57,7 +48,7 @@ impl Lights {
     /// Rays that [`Lights::sample`] takes at most.
     #[must_use]
     pub fn rays(&self) -> u32 {
-        self.each.len() as u32 + if self.tree.is_empty() { 0 } else { PICKS }
+        self.each.len() as u32 + u32::from(!self.tree.is_empty())
     }
 
     /// Rays that [`Lights::fixed`] takes at most.
@@ -82,21 +73,18 @@ impl Lights {
         mut add: impl FnMut(Arrival),
     ) {
         for (i, &emitter) in self.each.iter().enumerate() {
-            let [x, y, _, part] = sobol::point(index, scrambles[i % MAX_EACH]).map(sobol::unit);
+            let [x, y, _, part] = sobol::point(index, scrambles[1 + i % (SCRAMBLES - 1)]).map(sobol::unit);
             arrival(scene, at, emitter, (part, Vec2::new(x, y)), rays).into_iter().for_each(&mut add);
         }
         if self.tree.is_empty() {
             return;
         }
-        for pick in 0..PICKS {
-            let point = sobol::point(index.wrapping_mul(PICKS).wrapping_add(pick), scrambles[MAX_EACH]);
-            let choice = f64::from(point[2]) / (1u64 << 32) as f64;
-            let Some((emitter, probability)) = self.tree.choose(at, choice) else { continue };
-            let [x, y, _, part] = point.map(sobol::unit);
-            if let Some(found) = arrival(scene, at, emitter, (part, Vec2::new(x, y)), rays) {
-                let irradiance = found.irradiance / (probability * f64::from(PICKS)) as f32;
-                add(Arrival { irradiance, ..found });
-            }
+        let point = sobol::point(index, scrambles[0]);
+        let choice = f64::from(point[2]) / (1u64 << 32) as f64;
+        let Some((emitter, probability)) = self.tree.choose(at, choice) else { return };
+        let [x, y, _, part] = point.map(sobol::unit);
+        if let Some(found) = arrival(scene, at, emitter, (part, Vec2::new(x, y)), rays) {
+            add(Arrival { irradiance: found.irradiance / probability as f32, ..found });
         }
     }
 }

@@ -63,7 +63,7 @@ pub(crate) struct SettingsOptions {
     #[arg(long, value_name = "N")]
     pub(crate) max_depth: Option<u32>,
     /// How light straight from emitters is estimated
-    #[arg(long, value_name = "HOW", value_enum, default_value_t = Direct::Photons)]
+    #[arg(long, value_name = "HOW", value_enum, default_value_t = Direct::Auto)]
     pub(crate) direct: Direct,
     /// Whether photons start where those of earlier passes were worth their cost
     #[arg(long, value_name = "WHEN", value_enum, default_value_t = Guide::Auto)]

@@ -19,9 +19,11 @@ pub(crate) enum ErrorWish {
 /// `--direct`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum Direct {
+    /// By shadow rays, unless most of them would be in vain
+    Auto,
     /// By photons, like all other light
     Photons,
-    /// By shadow rays: sharp shadows from the first pass on
+    /// By shadow rays: sharp shadows from the first pass on, no noise from points, spots and suns
     ShadowRays,
 }
 
@@ -143,6 +145,7 @@ pub(crate) enum Integrator {
 impl From<Direct> for DirectLight {
     fn from(direct: Direct) -> Self {
         match direct {
+            Direct::Auto => Self::Auto,
             Direct::Photons => Self::Photons,
             Direct::ShadowRays => Self::ShadowRays,
         }

@@ -163,7 +163,7 @@ fn number(event: &Value, field: &str) -> f64 {
 #[test]
 fn json_has_a_line_for_each_pass_and_one_for_the_end() {
     let folder = Folder::new("json");
-    let output = folder.done("render scene.xml -o x.exr --passes 3 --photons 2000 --json");
+    let output = folder.done("render scene.xml -o x.exr --direct photons --passes 3 --photons 2000 --json");
     let events = events(&output.stdout);
     assert_eq!(events.len(), 4, "{events:?}");
     for (pass, event) in (1u64..).zip(&events[..3]) {
@@ -180,9 +180,9 @@ fn json_has_a_line_for_each_pass_and_one_for_the_end() {
     assert_eq!((&done["event"], &done["passes"]), (&json!("done"), &json!(3)));
     assert_eq!((&done["photons"], &done["outputs"]), (&json!(6000), &json!(["x.exr"])));
     assert!(number(done, "seconds") >= number(&events[2], "seconds"));
-    // The lamp is a square metre: π times its radiance, by the mean of the channels.
+    // The lamp is a square metre: π times its radiance, by the mean of the channels. Of guided photons that is an estimate.
     let emitted = number(&done["ledger"], "emitted");
-    assert!((emitted / (8.0 * std::f64::consts::PI) - 1.0).abs() < 1e-4, "{emitted}");
+    assert!((emitted / (8.0 * std::f64::consts::PI) - 1.0).abs() < 1e-2, "{emitted}");
 }
 
 #[test]

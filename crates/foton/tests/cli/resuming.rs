@@ -68,7 +68,7 @@ fn what_cannot_change_on_the_way_is_refused_by_name() {
         ("--radius 0.2", "radius x1, not 0.2*1"),
         ("--radius x0.5", "radius x1, not x0.5"),
         ("--radius-rule local", "radius-rule adaptive, not local"),
-        ("--direct shadow-rays", "direct photons, not shadow-rays"),
+        ("--direct shadow-rays", "direct auto, not shadow-rays"),
         ("--max-depth 5", "max-depth 250, not 5"),
         ("--layers caustic", "kinds of light summed, not kept apart"),
         ("--error off", "error estimated, not off"),

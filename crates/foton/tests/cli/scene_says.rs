@@ -17,7 +17,7 @@ fn info_and_render_name_a_light_that_takes_photons_in_vain() {
     let folder = Folder::new("starved");
     folder.write("cellar.xml", &with_a_cellar());
     // Twice the power; each emitter has a small share beside that by power.
-    let render = "render cellar.xml --passes 2 --photons 20000 -o cellar.png";
+    let render = "render cellar.xml --direct photons --passes 2 --photons 20000 -o cellar.png";
     // Guidance, once it has learnt from the first pass, gives it less.
     for (arguments, share) in
         [("info cellar.xml".to_owned(), 65), (format!("{render} --guide off"), 65), (render.to_owned(), 43)]
@@ -29,7 +29,8 @@ fn info_and_render_name_a_light_that_takes_photons_in_vain() {
         );
         assert_eq!(said.matches("of the photons, and").count(), 1, "the other lamp is seen: {said}");
     }
-    let output = folder.done("render cellar.xml --passes 2 --photons 20000 -o cellar.png --json");
+    let output =
+        folder.done("render cellar.xml --direct photons --passes 2 --photons 20000 -o cellar.png --json");
     let events = events(&output.stdout);
     let lights = events.last().expect("an end")["lights"].as_array().expect("a list").clone();
     let rate = |name: &str| {

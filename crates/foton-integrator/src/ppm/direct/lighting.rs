@@ -24,7 +24,6 @@ pub(crate) struct Lighting<'a> {
     pub(crate) seed: u64,
     /// Tells sets of hit points of the same pixels apart.
     pub(crate) set: u64,
-    pub(crate) samples: f32,
 }
 
 impl Lighting<'_> {
@@ -71,7 +70,7 @@ impl Lighting<'_> {
         // Hit points take the points of the sequence in turns, and not always the same ones of each row.
         let row = self.hit_points.of_pixel(pixel).len().next_power_of_two() as u32;
         let swap = stream.from_dimension(u64::from(turn)).next_bits() & (row - 1);
-        self.sum(pixel, lit, |point, at, rays, add| {
+        self.sum(direct, pixel, lit, |point, at, rays, add| {
             let index = turn.wrapping_mul(row).wrapping_add(point ^ swap);
             direct.lights.sample(self.scene, at, (index, &scrambles), rays, add);
         })
@@ -79,12 +78,13 @@ impl Lighting<'_> {
 
     /// A pixel's light that is the same each time.
     fn fixed(&self, direct: &Direct, pixel: usize, lit: &mut Lit) -> Rgb {
-        self.sum(pixel, lit, |_, at, rays, add| direct.lights.fixed(self.scene, at, rays, add))
+        self.sum(direct, pixel, lit, |_, at, rays, add| direct.lights.fixed(self.scene, at, rays, add))
     }
 
     /// The mean over a pixel's samples of what arrives at its hit points, which are counted for `arrivals`.
     fn sum(
         &self,
+        direct: &Direct,
         pixel: usize,
         lit: &mut Lit,
         arrivals: impl Fn(u32, &Receiver, &mut u64, &mut dyn FnMut(Arrival)),
@@ -119,7 +119,7 @@ impl Lighting<'_> {
             };
             arrivals(point as u32, &at, rays, &mut add);
         }
-        let mean = sum / self.samples;
+        let mean = sum / direct.samples;
         if mean.is_finite() { mean } else { Rgb::BLACK }
     }
 }

@@ -35,6 +35,11 @@ impl Order {
         self.squares * SIDE * SIDE
     }
 
+    /// Squares of 8 × 8 pixels.
+    pub(crate) const fn squares(&self) -> u64 {
+        self.squares
+    }
+
     /// The pixel of a place; they repeat after all of them.
     pub(crate) fn pixel(&self, place: u64) -> Option<usize> {
         let place = place % self.places();

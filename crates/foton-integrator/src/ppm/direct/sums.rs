@@ -8,18 +8,23 @@ use foton_transport::Omissions;
 use foton_transport::codec::{Reader, StateError, Writer};
 use foton_transport::direct_light::Lights;
 
+use super::choice::noise;
 use super::noise::{Known, Noise};
 use super::order::Order;
 use crate::ppm::hit_points::HitPoints;
+use crate::settings::RenderSettings;
 
-/// What a photon costs, in shadow rays: its own rays, and what is gathered of it. Measured in the default scene.
-const RAYS_PER_PHOTON: f64 = 7.0;
+/// What photons cost, in shadow rays for each ray of theirs: tracing them, and what is gathered of them. Measured in the default scene.
+const RAYS_PER_RAY: f64 = 2.5;
 
 /// What a pass costs a hit point whatever its photons, in shadow rays.
 const RAYS_PER_HIT_POINT: f64 = 0.1;
 
-/// Rays over what the rest of a pass costs: then they are a quarter of the whole.
-const SHARE: f64 = 1.0 / 3.0;
+/// Rays over what the rest of a pass costs, at most: then they are a quarter of the whole.
+const LARGEST_SHARE: f64 = 1.0 / 3.0;
+
+/// The noise of a visit from which on they are. Below that the share falls with its root: then rays and photons lower the error alike.
+const NOISY: f64 = 0.1;
 
 /// A pass lights a pixel this often at most.
 const MAX_VISITS: u64 = 16;
@@ -37,6 +42,10 @@ pub(crate) struct Lit {
 /// Sums over the visits to all pixels.
 pub(crate) struct Direct {
     pub(super) lights: Lights,
+    /// Eye samples a pixel.
+    pub(super) samples: f32,
+    /// Rays over what the rest of a pass costs.
+    share: f64,
     pub(super) order: Order,
     /// Places that have been lit, in the order of turns.
     lit: u64,
@@ -61,14 +70,22 @@ struct Pixel {
 
 impl Direct {
     /// Nothing has been lit.
-    pub(crate) fn new(scene: &Scene, hit_points: &HitPoints, width: u32) -> Self {
-        let (width, lights) = (width as usize, Lights::new(scene));
+    pub(crate) fn new(
+        scene: &Scene,
+        settings: &RenderSettings,
+        hit_points: &HitPoints,
+        samples: u32,
+    ) -> Self {
+        let (width, lights) = (scene.sensors()[settings.sensor].width as usize, Lights::new(scene));
+        let noise = noise(scene, &lights, settings);
         let pixels = hit_points.pixel_start.len() - 1;
         let order = Order::new(width, pixels.div_ceil(width.max(1)));
         let hit_points = hit_points.len() as f64;
         Self {
             rays_per_place: hit_points * f64::from(lights.rays()) / order.places() as f64,
             lights,
+            samples: samples as f32,
+            share: LARGEST_SHARE * (noise / NOISY).sqrt().clamp(0.1, 1.0),
             order,
             lit: 0,
             fixed: vec![Rgb::BLACK; pixels],
@@ -77,14 +94,17 @@ impl Direct {
         }
     }
 
-    /// What a pass of so many photons lights: all pixels first, then as many places as have their turn.
-    pub(crate) fn turns(&self, photons: u64) -> Range<u64> {
+    /// What a pass lights whose photons took so many rays: all pixels first, then as many places as have their turn.
+    pub(crate) fn turns(&self, rays: u64) -> Range<u64> {
         let all = self.order.places();
         let places = if self.lit < all {
             all - self.lit
         } else if self.rays_per_place > 0.0 {
-            let rest = RAYS_PER_PHOTON * photons as f64 + RAYS_PER_HIT_POINT * self.hit_points;
-            ((SHARE * rest / self.rays_per_place) as u64).clamp(1, MAX_VISITS * all)
+            let rest = RAYS_PER_RAY * rays as f64 + RAYS_PER_HIT_POINT * self.hit_points;
+            let places = (self.share * rest / self.rays_per_place) as u64;
+            // Without photons to trace a pass is for rays alone. Each square has a pixel lit, so that its noise gets known.
+            let least = if rays == 0 { all } else { self.order.squares() };
+            places.clamp(least, MAX_VISITS * all)
         } else {
             0
         };
@@ -92,21 +112,18 @@ impl Direct {
     }
 
     /// Adds what a pass has lit, block by block.
-    pub(crate) fn add(&mut self, turns: &Range<u64>, blocks: impl Iterator<Item = Lit>) {
-        let mut place = turns.start;
+    pub(crate) fn add(&mut self, blocks: impl Iterator<Item = Lit>) {
         for block in blocks {
             for (i, light) in block.light.into_iter().enumerate() {
-                if let Some(pixel) = self.order.pixel(place) {
+                if let Some(pixel) = self.order.pixel(self.lit) {
                     self.pixels[pixel].add(light);
                     if let Some(fixed) = block.fixed.get(i) {
                         self.fixed[pixel] = *fixed;
                     }
                 }
-                place += 1;
+                self.lit += 1;
             }
         }
-        debug_assert_eq!(place, turns.end);
-        self.lit = turns.end;
     }
 
     /// Radiance of a pixel.

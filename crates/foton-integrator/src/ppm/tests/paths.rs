@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use foton_transport::Cancel;
 use foton_transport::photon_map::PathClass;
 
-use crate::ppm::settings::{Alpha, PpmSettings, RadiusRule};
+use crate::ppm::settings::{Alpha, DirectLight, PpmSettings, RadiusRule};
 use crate::ppm::tests::scene::scene;
 use crate::ppm::{EyeSamples, Ppm};
 use crate::settings::RenderSettings;
@@ -21,6 +21,8 @@ fn start() -> Ppm {
             // Radii stay as they are.
             alpha: Alpha::new(1.0).expect("in range"),
             radius_rule: RadiusRule::Local,
+            // So that there are paths of all classes.
+            direct_light: DirectLight::Photons,
             ..PpmSettings::default()
         },
         ..RenderSettings::default()

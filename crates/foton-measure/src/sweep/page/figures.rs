@@ -300,6 +300,7 @@ pub(crate) fn three_digits(v: f64) -> String {
 
 fn direct_name(c: &Configuration) -> &'static str {
     match c.direct_light {
+        DirectLight::Auto => "auto",
         DirectLight::Photons => "photons",
         DirectLight::ShadowRays => "shadow rays",
     }

@@ -191,7 +191,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "behind shadow rays what no photon has found is unknown",
         file: "crates/foton-integrator/src/error/pass.rs",
-        from: "is_unknown |= one_photon > mean;",
+        from: "is_unknown |= one_photon > all;",
         to: "is_unknown |= one_photon < 0.0;",
         target: ANALYTIC,
         test: "shadow_rays_do_not_make_indirect_light_known",
@@ -207,8 +207,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "cells grow where discs do",
         file: "crates/foton-transport/src/photon_map/grid.rs",
-        from: "(farthest > FAR * scale && scale > 0.0)",
-        to: "(farthest > 1e30 * FAR * scale && scale > 0.0)",
+        from: "(farthest > far * scale && scale > 0.0)",
+        to: "(farthest > 1e30 * far * scale && scale > 0.0)",
         target: TRANSPORT,
         test: "cells_grow_where_discs_do",
     },
@@ -222,7 +222,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "laying hit points out can be cancelled",
-        file: "crates/foton-transport/src/photon_map/packet.rs",
+        file: "crates/foton-transport/src/photon_map/groups.rs",
         from: "    cancel.check()?;\n    let bounds",
         to: "    let bounds",
         target: TRANSPORT,
@@ -231,9 +231,17 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "marking cells can be cancelled",
         file: "crates/foton-transport/src/photon_map/grid.rs",
-        from: "            cancel.check()?;\n            for disc",
-        to: "            for disc",
+        from: "            cancel.check()?;\n            let mut marked",
+        to: "            let mut marked",
         target: TRANSPORT,
         test: "a_grid_that_is_cancelled_is_none_wherever_that_comes",
+    },
+    Mutation {
+        what: "a pass that is cut short weighs as many photons as it has",
+        file: "crates/foton-integrator/src/ppm/under_way.rs",
+        from: "self.counts.photons = self.batches[..batches].iter().map(|batch| batch.photons(self.planned)).sum();",
+        to: "",
+        target: INTEGRATOR,
+        test: "a_pass_that_is_cut_is_as_bright_and_its_power_balances",
     },
 ];
