@@ -142,10 +142,18 @@ pub(crate) fn count(n: u64) -> String {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Job {
     pub(crate) photons: NonZeroU32,
+    /// How direct light is estimated, where that is not the centre's way.
+    pub(crate) other_direct_light: Option<DirectLight>,
     pub(crate) configurations: Vec<Configuration>,
 }
 
 impl Job {
+    /// A name that no other job of the sweep has.
+    pub(crate) fn name(&self) -> String {
+        let direct = self.other_direct_light.map_or_else(String::new, |way| format!("-{}", way.name()));
+        format!("{:08}{direct}", self.photons)
+    }
+
     /// Render settings of its runs; after those of its configurations, where the centre is among them, the centre's with layers.
     pub(crate) fn settings(&self, base: &RenderSettings) -> Vec<RenderSettings> {
         let centre = Configuration::of(base);
@@ -175,14 +183,18 @@ pub(crate) fn jobs(centre: &Configuration) -> Vec<Job> {
     let plane = |photons: NonZeroU32| {
         alphas.iter().map(move |&alpha| Configuration { alpha, photons, ..*centre }).collect::<Vec<_>>()
     };
-    let job = |photons| Job { photons, configurations: plane(photons) };
+    let job = |photons| Job { photons, other_direct_light: None, configurations: plane(photons) };
     let mut jobs: Vec<Job> = photons.into_iter().map(job).collect();
     if let Some(first) = jobs.first_mut() {
         let (same, others): (Vec<_>, Vec<_>) =
             arms(centre).into_iter().partition(|arm| arm.direct_light == centre.direct_light);
         first.configurations.extend(same);
         // Guided photons depend on how direct light is estimated.
-        let apart = others.into_iter().map(|arm| Job { photons: arm.photons, configurations: vec![arm] });
+        let apart = others.into_iter().map(|arm| Job {
+            photons: arm.photons,
+            other_direct_light: Some(arm.direct_light),
+            configurations: vec![arm],
+        });
         jobs.splice(1..1, apart.collect::<Vec<_>>());
     }
     jobs
@@ -222,6 +234,8 @@ mod tests {
                 && jobs[1].configurations[0].direct_light != centre.direct_light
         );
         assert!(jobs[2..].iter().all(|job| job.configurations.len() == 7));
+        let names: std::collections::BTreeSet<String> = jobs.iter().map(Job::name).collect();
+        assert_eq!(names.len(), jobs.len(), "each has files of its own");
         let mut photons: Vec<u32> = jobs[1..].iter().map(|job| job.photons.get()).collect();
         assert_eq!(&photons[..3], [1 << 18, 1 << 17, 1 << 19]);
         photons.sort_unstable();

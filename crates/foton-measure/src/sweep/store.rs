@@ -101,7 +101,7 @@ impl Store {
     }
 
     fn part(&self, job: &Job, table: &str) -> PathBuf {
-        self.path(&format!("parts/{:08}-{table}.csv", job.photons))
+        self.path(&format!("parts/{}-{table}.csv", job.name()))
     }
 
     /// What a job found, if it is finished.
