@@ -169,7 +169,6 @@ impl Monkey {
         }
     }
 
-    /// Closes the window, and looks for errors.
     /// Bytes of renders from before edits, as the last frame says.
     fn kept(&mut self) -> u64 {
         let lines = self.window.log.lines();
@@ -177,12 +176,19 @@ impl Monkey {
         last.unwrap_or_default() as u64
     }
 
-    /// Answers the question about unsaved edits, if it is asked.
-    fn discard_edits(&mut self) {
+    /// Asks the window to close until it does, and answers the question about unsaved edits if that is put: a list or a field that is open
+    /// may take the first key, and a busy window shows the question late.
+    fn close(&mut self) {
+        let mut asked = None::<Instant>;
         while self.window.is_running() {
             let lines = self.window.log.lines();
             if lines.iter().any(|line| line["event"] == "closing") {
                 return;
+            }
+            if asked.is_none_or(|asked| asked.elapsed() > Duration::from_secs(5)) {
+                self.display.hand("key Escape");
+                self.display.hand("key ctrl+q");
+                asked = Some(Instant::now());
             }
             let places = lines.iter().rev().find_map(|line| line.get("places"));
             if places.is_some_and(|places| places.get("discard").is_some()) {
@@ -190,16 +196,16 @@ impl Monkey {
                 let at = format!("mousemove {:.0} {:.0}", x + width / 2.0, y + height / 2.0);
                 self.display.hand(&at);
                 std::thread::sleep(Duration::from_millis(300));
-                return self.display.hand("click 1");
+                self.display.hand("click 1");
+                std::thread::sleep(Duration::from_millis(700));
             }
             std::thread::sleep(Duration::from_millis(50));
         }
     }
 
+    /// Closes the window, and looks for errors.
     fn finish(&mut self) {
-        self.display.hand("key Escape");
-        self.display.hand("key ctrl+q");
-        self.discard_edits();
+        self.close();
         let (took, is_well) = self.window.end();
         println!("the process ended {took:?} after it was asked to");
         assert!(is_well, "it ended badly");
