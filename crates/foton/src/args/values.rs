@@ -30,7 +30,7 @@ pub(crate) enum Direct {
 /// `--guide`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Guide {
-    /// Where the scene can gain by it
+    /// From the second pass on
     Auto,
     /// Never: photons start as their emitters shine
     Off,
