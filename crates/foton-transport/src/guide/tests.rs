@@ -7,6 +7,7 @@ use foton_scene::description::{
 };
 use foton_scene::{Scene, Sources};
 
+use super::cells::Cell;
 use super::growth::DEFENSIVE_SHARE;
 use super::*;
 use crate::camera_paths::HitPoint;
@@ -189,4 +190,16 @@ fn cells_survive_a_state_and_no_others_are_read() {
 fn training_passes_grow_rare() {
     let training: Vec<u64> = (0..200).filter(|&before| is_training_pass(before)).map(|b| b + 1).collect();
     assert_eq!(training, [1, 2, 4, 8, 16, 32, 64, 128, 192]);
+}
+
+#[test]
+fn nearly_all_photons_in_one_cell_bring_the_same_light() {
+    let (mut corner, mut rest) = (Cell::whole(0), Cell::whole(0));
+    (corner.size[3], rest.low[3], rest.size[3]) = (0.25, 0.25, 0.75);
+    let cells =
+        Cells::new(vec![corner, rest, Cell::whole(1), Cell::whole(2)], vec![0.997, 0.001, 0.001, 0.001]);
+    // The integral of one of the numbers over three emitters.
+    const PASSES: u64 = 40;
+    let sum: f64 = (0..PASSES).map(|pass| train(&cells, pass, |start| start.primary[3]).1).sum();
+    assert!((sum / PASSES as f64 / 1.5 - 1.0).abs() < 0.03, "{}", sum / PASSES as f64);
 }
