@@ -21,7 +21,7 @@ mod settings;
 mod test_scene;
 mod whitted;
 
-pub use error::{ClassError, ErrorEstimate, TileError};
+pub use error::{ClassError, ErrorEstimate, TileError, WHITE};
 pub use feature::Feature;
 pub use foton_transport::codec::StateError;
 pub use foton_transport::photon_map::PathClass;
