@@ -15,10 +15,34 @@ impl PixelSamples {
         Self { scramble: [stream.next_u32(), stream.next_u32()] }
     }
 
+    /// The same points in another order, in which each 2^k in a row are the same 2^k: beside the points of another sequence they pair
+    /// up by chance. Source: Burley (2020), with the permutation of Laine and Karras (2011). `[BUR20]` `[LK11]`
+    pub(super) fn shuffled(stream: &mut Stream) -> Shuffled {
+        Shuffled { samples: Self::new(stream), seed: stream.next_u32() }
+    }
+
     /// The `index`-th point.
     pub(super) fn point(&self, index: u32) -> Vec2 {
         let unit = |bits: u32| (bits >> 8) as f32 / (1 << 24) as f32;
         Vec2::new(unit(index.reverse_bits() ^ self.scramble[0]), unit(sobol(index) ^ self.scramble[1]))
+    }
+}
+
+/// Points in an order of their own.
+pub(super) struct Shuffled {
+    samples: PixelSamples,
+    seed: u32,
+}
+
+impl Shuffled {
+    /// The `index`-th point.
+    pub(super) fn point(&self, index: u32) -> Vec2 {
+        // Each binary digit is flipped or not by those above it.
+        let mut x = index.reverse_bits().wrapping_add(self.seed);
+        for factor in [0x6c50_b47c, 0xb82f_1e52, 0xc7af_e638, 0x8d22_f6e6] {
+            x ^= x.wrapping_mul(factor);
+        }
+        self.samples.point(x.reverse_bits())
     }
 }
 
@@ -40,6 +64,27 @@ fn sobol(mut index: u32) -> u32 {
 mod tests {
     use super::*;
     use foton_math::Purpose;
+
+    #[test]
+    fn shuffled_samples_are_as_even_and_pair_up_otherwise_in_each_pixel() {
+        // Quarters of the square by quarters of another, over pixels: all pairs are about as common.
+        let mut pairs = [[0u32; 4]; 4];
+        for pixel in 0..4000 {
+            let mut stream = Stream::new(1, Purpose::Test, 0, pixel);
+            let (places, lens) = (PixelSamples::new(&mut stream), PixelSamples::shuffled(&mut stream));
+            let quarter = |p: Vec2| (2.0 * p.x) as usize * 2 + (2.0 * p.y) as usize;
+            let mut seen = [false; 4];
+            for i in 0..4 {
+                seen[quarter(lens.point(i))] = true;
+            }
+            assert!(seen.iter().all(|&s| s), "four samples, four quarters");
+            // The third goes with the first by a rule that differs from pixel to pixel.
+            let flip = |a: Vec2, b: Vec2| quarter(a) ^ quarter(b);
+            pairs[flip(places.point(0), places.point(1))][flip(lens.point(0), lens.point(1))] += 1;
+        }
+        let flips: Vec<u32> = (1..4).map(|k| pairs.iter().map(|row| row[k]).sum()).collect();
+        assert!(flips.iter().all(|&n| n > 1100), "a third each: {flips:?}");
+    }
 
     #[test]
     fn sixteen_samples_fall_into_sixteen_strata_of_every_shape() {
