@@ -6,37 +6,41 @@ use rand::Rng;
 
 /// The (0, 2)-sequence of Sobol' in two dimensions, scrambled by XOR for each pixel: the first 2^k points have one point in
 /// each elementary interval, any other number is nearly as even. Source: Kollig and Keller (2002). `[KK02]`
-pub(super) struct PixelSamples {
+pub struct PixelSamples {
     scramble: [u32; 2],
 }
 
 impl PixelSamples {
-    pub(super) fn new(stream: &mut Stream) -> Self {
+    /// Those of a pixel.
+    pub fn new(stream: &mut Stream) -> Self {
         Self { scramble: [stream.next_u32(), stream.next_u32()] }
     }
 
     /// The same points in another order, in which each 2^k in a row are the same 2^k: beside the points of another sequence they pair
     /// up by chance. Source: Burley (2020), with the permutation of Laine and Karras (2011). `[BUR20]` `[LK11]`
-    pub(super) fn shuffled(stream: &mut Stream) -> Shuffled {
+    #[must_use]
+    pub fn shuffled(stream: &mut Stream) -> Shuffled {
         Shuffled { samples: Self::new(stream), seed: stream.next_u32() }
     }
 
     /// The `index`-th point.
-    pub(super) fn point(&self, index: u32) -> Vec2 {
+    #[must_use]
+    pub fn point(&self, index: u32) -> Vec2 {
         let unit = |bits: u32| (bits >> 8) as f32 / (1 << 24) as f32;
         Vec2::new(unit(index.reverse_bits() ^ self.scramble[0]), unit(sobol(index) ^ self.scramble[1]))
     }
 }
 
-/// Points in an order of their own.
-pub(super) struct Shuffled {
+/// Points of [`PixelSamples`] in an order of their own.
+pub struct Shuffled {
     samples: PixelSamples,
     seed: u32,
 }
 
 impl Shuffled {
     /// The `index`-th point.
-    pub(super) fn point(&self, index: u32) -> Vec2 {
+    #[must_use]
+    pub fn point(&self, index: u32) -> Vec2 {
         // Each binary digit is flipped or not by those above it.
         let mut x = index.reverse_bits().wrapping_add(self.seed);
         for factor in [0x6c50_b47c, 0xb82f_1e52, 0xc7af_e638, 0x8d22_f6e6] {
