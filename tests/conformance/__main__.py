@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 import box_spheres
+import depth_of_field
 import depths
 import diffuse_box
 import shared_scenes
@@ -42,6 +43,7 @@ def main():
         for scene in diffuse:
             diffuse_box.check(report, foton, mitsuba, scene, options.out, diffuse_box.FULL)
         box_spheres.check(report, foton, mitsuba, benchmark, options.out)
+        depth_of_field.check(report, foton, mitsuba, options.repository, options.out)
         depths.check(report, foton, mitsuba, [*diffuse, benchmark])
         shared_scenes.check(report, foton, mitsuba, shared_scenes.find_shared(options.repository), options.out)
     report.print_table()
