@@ -254,7 +254,7 @@ fn sensors() -> Vec<SensorDescription> {
         sensor(FovAxis::Larger, Filter::Box { radius: 0.5 }, Some(odd(1))),
         SensorDescription {
             crop: Some(Crop { x: 10, y: 20, width: 100, height: 80 }),
-            lens: Some(Lens { aperture_radius: odd(3), focus_distance: odd(4) }),
+            lens: Some(Lens { aperture_radius: odd(3), focus_distance: odd(4).abs() }),
             ..sensor(FovAxis::X, Filter::Box { radius: 0.5 }, None)
         },
         sensor(FovAxis::Diagonal, Filter::Tent { radius: 1.1 }, None),
