@@ -225,8 +225,8 @@ mod tests {
 
     #[test]
     fn all_rays_of_a_film_position_meet_in_focus_and_spread_over_the_circle_of_confusion() {
-        let lens = Some(Lens { aperture_radius: 0.25, focus_distance: 4.0 });
-        let description = SensorDescription { lens, ..description(FovAxis::X) };
+        let lens = Lens { aperture_radius: 0.25, focus_distance: 4.0 };
+        let description = SensorDescription { lens: Some(lens), ..description(FovAxis::X) };
         let s = Sensor::new(&description, &Normalisation::IDENTITY);
         for film in [Vec2::new(100.0, 50.0), Vec2::new(12.0, 90.0)] {
             let middle = s.ray(film);
@@ -253,10 +253,7 @@ mod tests {
             }
         }
         assert_eq!(s.lens(), Some([0.25, 4.0]));
-        let closed = SensorDescription {
-            lens: Some(Lens { aperture_radius: 0.0, ..lens.expect("one") }),
-            ..description
-        };
+        let closed = SensorDescription { lens: Some(Lens { aperture_radius: 0.0, ..lens }), ..description };
         let pinhole = Sensor::new(&closed, &Normalisation::IDENTITY);
         assert_eq!(pinhole.lens(), None);
         assert_eq!(pinhole.eye_ray(Vec2::ONE, Vec2::ZERO).origin, pinhole.ray(Vec2::ONE).origin);
