@@ -30,6 +30,12 @@ class Foton:
         self.run(*arguments)
         return read_image(image)
 
+    def trace_paths(self, prepared, seed, samples):
+        """Renders by path tracing with so many samples a pixel; as (height, width, 3) float64."""
+        image = self.folder / f"foton-{prepared.stem}-path-s{seed}.exr"
+        self.run("render", prepared, "-o", image, "--integrator", "path", "--passes", samples, "--seed", seed)
+        return read_image(image)
+
     def run(self, *arguments):
         """Runs the program; a failure ends everything with its message."""
         command = [str(part) for part in (self.program, *arguments)]

@@ -7,7 +7,6 @@ use foton_integrator::{Cancel, DirectLight, Feature, PpmSettings, Render, Render
 use foton_scene::description::SceneDescription;
 use foton_scene::{Scene, Sensor};
 use foton_session::Session;
-use foton_session::findings::{self, SettingNames};
 use serde_json::{Value, json};
 
 use crate::args::Info;
@@ -30,9 +29,7 @@ pub(crate) fn print(args: &Info, console: &Console) -> Result<(), Failure> {
     let bounds = Bounds { size: None, region: args.region, memory: args.memory };
     let (scene, identity) = build(opened, &name, sensor, bounds, console, &cancel)?;
     let settings = RenderSettings { sensor, ..RenderSettings::default() };
-    for finding in findings::of_settings(&scene, &settings, &SettingNames::OPTIONS) {
-        console.finding(&finding);
-    }
+    console.of_settings(&scene, &settings);
     if args.json {
         console.event(&as_json(&scene, &settings, &name, identity.hash));
     } else {
