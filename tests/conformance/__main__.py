@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 import box_spheres
+import depth_of_field
 import depths
 import diffuse_box
 import path_tracing
@@ -45,6 +46,7 @@ def main():
             diffuse_box.check(report, foton, mitsuba, scene, options.out, diffuse_box.FULL)
             path_tracing.check(report, foton, mitsuba, scene, path_tracing.FULL)
         box_spheres.check(report, foton, mitsuba, benchmark, options.out)
+        depth_of_field.check(report, foton, mitsuba, options.repository, options.out)
         depths.check(report, foton, mitsuba, [*diffuse, benchmark])
         shared_scenes.check(report, foton, mitsuba, shared_scenes.find_shared(options.repository), options.out)
     report.print_table()
