@@ -9,9 +9,9 @@ use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
     Bitmap, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, EmitterDescription, EmitterKind, Filter,
-    FovAxis, Geometry, Hidden, Lens, Material, Mesh, MicrofacetDistribution, Microfacets, Mirror, Null,
-    Plastic, SceneDescription, SensorDescription, ShapeDescription, Texture, TextureKind, ThinDielectric,
-    Wrap,
+    FovAxis, Geometry, Hidden, Keyframes, Lens, Material, Mesh, MicrofacetDistribution, Microfacets, Mirror,
+    Motion, Null, Plastic, SceneDescription, SensorDescription, ShapeDescription, Texture, TextureKind,
+    ThinDielectric, Wrap,
 };
 
 /// A folder of a test's own, removed when the test is over.
@@ -46,6 +46,13 @@ fn written_and_read(scene: &SceneDescription, folder: &Folder, name: &str) -> Sc
 /// Panics where two descriptions differ, but for names, zeros of either sign, and the order of materials and textures.
 fn assert_same(a: &SceneDescription, b: &SceneDescription) {
     assert_eq!(a.hidden, b.hidden);
+    assert_eq!(a.motion.shutters, b.motion.shutters);
+    for time in [-1.0, 0.0, 0.25, 1.0, 3.0] {
+        let at =
+            |scene: &SceneDescription| scene.at(time).shapes.iter().map(|s| s.to_world).collect::<Vec<_>>();
+        let apart = at(a).into_iter().zip(at(b)).filter(|(x, y)| !x.abs_diff_eq(*y, 1e-9)).count();
+        assert_eq!(apart, 0, "at {time}");
+    }
     assert_eq!(a.max_depth, b.max_depth);
     assert_eq!(a.sensors.len(), b.sensors.len());
     for (a, b) in a.sensors.iter().zip(&b.sensors) {
@@ -286,15 +293,29 @@ fn everything() -> SceneDescription {
         EmitterKind::Environment { to_world: DAffine3::from_rotation_y(odd(1)), bitmap, scale: 0.7 },
     ];
     let materials = materials();
+    let mut shapes = shapes(materials.len());
+    shapes[2].to_world = flight().all()[0].1;
     SceneDescription {
         sensors: sensors(),
-        shapes: shapes(materials.len()),
+        shapes,
         materials,
         textures: textures.map(|kind| Texture { name: "t".to_owned(), to_uv, kind }).to_vec(),
         emitters: kinds.map(|kind| EmitterDescription { name: "light".to_owned(), kind }).to_vec(),
         max_depth: Some(7),
         hidden: Hidden { shapes: [1, 3].into(), emitters: [2].into() },
+        motion: Motion {
+            shapes: [(2, flight())].into(),
+            sensors: [].into(),
+            shutters: [(0, [0.25, odd(3).abs() + 1.0])].into(),
+        },
     }
+}
+
+/// From one odd place to another.
+fn flight() -> Keyframes {
+    let at =
+        |i| DAffine3::from_rotation_y(odd(i)) * DAffine3::from_translation(DVec3::new(odd(i), 0.5, odd(1)));
+    Keyframes::new(vec![(-0.5, at(1)), (0.25, at(2)), (2.0, at(3))]).expect("sound")
 }
 
 #[test]

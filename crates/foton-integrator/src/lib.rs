@@ -17,6 +17,7 @@ mod render;
 mod report;
 mod sampled;
 mod settings;
+mod shutter;
 #[cfg(test)]
 mod test_scene;
 mod whitted;
