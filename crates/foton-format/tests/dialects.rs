@@ -90,7 +90,7 @@ fn what_is_no_motion_is_refused_at_its_place() {
         let error = read_str("s.xml", &xml, &files, &Options::default()).expect_err("no motion").to_string();
         assert!(error.contains(why) && error.contains("s.xml:2:"), "{inside}: {error}");
     }
-    let late = "<scene version='3.0.0'><sensor type='perspective'><float name='shutter_open' value='1'/></sensor></scene>";
+    let late = "<scene version='3.0.0'><sensor type='perspective'><float name='shutter_open' value='1'/><float name='shutter_close' value='0.5'/></sensor></scene>";
     let error = read_str("s.xml", late, &files, &Options::default()).expect_err("closed").to_string();
     assert!(error.contains("a shutter closes before it opens"), "{error}");
 }

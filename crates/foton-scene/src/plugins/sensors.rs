@@ -57,7 +57,8 @@ pub const SHUTTER_OPEN: Parameter = Parameter::number("shutter_open", 0.0, (f64:
 
 /// When a camera ends to see.
 pub const SHUTTER_CLOSE: Parameter = Parameter::number("shutter_close", 0.0, (f64::MIN, f64::MAX))
-    .help("When the shutter closes: what moves until then is blurred.");
+    .help("When the shutter closes: what moves until then is blurred.")
+    .default_text("`shutter_open`");
 
 /// A camera with a pinhole.
 pub const PERSPECTIVE: Plugin = Plugin {

@@ -76,7 +76,8 @@ impl Reader<'_> {
         motion.sensors.extend(keyframes.map(|keyframes| (sensor, keyframes)));
         let open = p.number(SHUTTER_OPEN.name, &mut self.report);
         let close = p.number(SHUTTER_CLOSE.name, &mut self.report);
-        let times = [&open, &close].map(|time| time.as_ref().map_or(0.0, |t| t.value));
+        let begin = open.as_ref().map_or(0.0, |t| t.value);
+        let times = [begin, close.as_ref().map_or(begin, |t| t.value)];
         if times[1] < times[0] {
             let place = close.or(open).map_or(p.place, |time| time.place);
             self.report.error(place, "a shutter closes before it opens");
