@@ -1,5 +1,5 @@
-//! Methods of light transport. So far one: progressive photon mapping, whose eye pass collects hit points once and whose photon
-//! passes refine them for ever after.
+//! Methods of light transport. Progressive photon mapping collects hit points in one eye pass, and photon passes refine them for ever
+//! after; stochastic progressive photon mapping has an eye pass before each photon pass.
 //!
 //! [`Render`] is a render by any of them. `ppm/algorithm.rs` has progressive photon mapping on one screen; each step has a file of its
 //! own. There are no files, windows or clocks here: a
@@ -11,6 +11,7 @@ mod layers;
 mod ppm;
 mod render;
 mod settings;
+mod sppm;
 
 pub use error::{ClassError, ErrorEstimate, TileError};
 pub use foton_transport::codec::StateError;

@@ -70,7 +70,7 @@ impl Render {
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
         match eye.settings().method {
-            Method::Ppm => Ok(Self(Running::Ppm(Box::new(Ppm::start(eye, tell, watch, cancel)?)))),
+            Method::Ppm | Method::Sppm => Ok(Self(Running::Ppm(Box::new(Ppm::start(eye, tell, watch, cancel)?)))),
         }
     }
 
@@ -87,7 +87,7 @@ impl Render {
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
         match eye.settings().method {
-            Method::Ppm => {
+            Method::Ppm | Method::Sppm => {
                 let ppm = Ppm::start_with_some((eye, samples), (settings, widened), tell, watch, cancel)?;
                 Ok(Self(Running::Ppm(Box::new(ppm))))
             }

@@ -16,6 +16,8 @@ pub enum Method {
     /// Progressive photon mapping: hit points once, then photon passes.
     #[default]
     Ppm,
+    /// Stochastic progressive photon mapping: new hit points for each photon pass.
+    Sppm,
 }
 
 impl Method {
@@ -24,6 +26,7 @@ impl Method {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Ppm => "ppm",
+            Self::Sppm => "sppm",
         }
     }
 }

@@ -54,6 +54,21 @@ pub fn point(index: u32, scramble: [u32; DIMENSIONS]) -> [u32; DIMENSIONS] {
     point
 }
 
+/// An index in another order: of each 2^k indices in a row, from a multiple of that on, it makes 2^k in a row, so that all strata stay. Points
+/// of one sequence that are drawn for two things in two orders cover all pairs; in one order the second would follow from the first.
+/// Digits of the index are flipped by a hash of those above them. `[LK11]` `[BUR20]`
+#[must_use]
+#[inline]
+pub const fn reordered(index: u32, order: u32) -> u32 {
+    // The reversal of the digits makes those above into those below, on which alone each digit of a sum and of a product depends.
+    let mut x = index.reverse_bits().wrapping_add(order);
+    x ^= x.wrapping_mul(0x6c50_b47c);
+    x ^= x.wrapping_mul(0xb82f_1e52);
+    x ^= x.wrapping_mul(0xc7af_e638);
+    x ^= x.wrapping_mul(0x8d22_f6e6);
+    x.reverse_bits()
+}
+
 /// A binary fraction as a number in [0, 1).
 #[must_use]
 #[inline]
@@ -94,6 +109,28 @@ mod tests {
             }
             assert!(found.iter().all(|f| *f), "{across} digits by {down}");
         }
+    }
+
+    #[test]
+    fn another_order_keeps_blocks_together_and_mixes_them() {
+        for order in [1, 77, 0x9e37_79b9, u32::MAX] {
+            for k in 0..8 {
+                for block in 0..4 {
+                    let all: Vec<u32> = (0..1 << k).map(|i| reordered((block << k) + i, order)).collect();
+                    let mut low: Vec<u32> = all.iter().map(|x| x & ((1 << k) - 1)).collect();
+                    low.sort_unstable();
+                    assert!(low.iter().copied().eq(0..1 << k), "each once");
+                    assert!(all.iter().all(|x| x >> k == all[0] >> k), "in one block");
+                }
+            }
+        }
+        // Pairs of points that two orders make fall into all boxes of the plane of their first coordinates.
+        let mut boxes = [0; 64];
+        for i in 0..4096 {
+            let x = |order| (reordered(i, order).reverse_bits() >> 29) as usize;
+            boxes[x(0x1234_5678) * 8 + x(0x0bad_cafe)] += 1;
+        }
+        assert!(boxes.iter().all(|n| (32..=128).contains(n)), "{boxes:?}");
     }
 
     #[test]
