@@ -70,7 +70,9 @@ impl Render {
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
         match eye.settings().method {
-            Method::Ppm | Method::Sppm => Ok(Self(Running::Ppm(Box::new(Ppm::start(eye, tell, watch, cancel)?)))),
+            Method::Ppm | Method::Sppm => {
+                Ok(Self(Running::Ppm(Box::new(Ppm::start(eye, tell, watch, cancel)?))))
+            }
         }
     }
 

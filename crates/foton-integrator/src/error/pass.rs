@@ -112,8 +112,7 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
             let specular = hit_points.gloss(hit_points.slot_of[h] as usize).is_some_and(|g| g.specular);
             let is_unknown =
                 self.renewal.map_or(statistics.is_unknown(), |renewal| renewal.pixels.is_unknown(pixel));
-            (is_unknown && !specular)
-                .then(|| f64::from(hit_points.weights[h].luminance()) / area)
+            (is_unknown && !specular).then(|| f64::from(hit_points.weights[h].luminance()) / area)
         });
         unknown.sum::<f64>() * self.facts.power / samples
     }

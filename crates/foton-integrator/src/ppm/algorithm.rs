@@ -133,7 +133,8 @@ impl Ppm {
             let none = vec![Rgb::BLACK; emission.len()];
             let (emission, first) = (std::mem::replace(&mut emission, none), laid_out.first_radius2);
             let moments = !hit_points.radius_statistics_slots.is_empty();
-            renewal = Some(Box::new(Renewal::new((&scene, shadow_rays), emission, (first, widened), moments)));
+            renewal =
+                Some(Box::new(Renewal::new((&scene, shadow_rays), emission, (first, widened), moments)));
         } else if shadow_rays {
             direct = Some(Direct::new(&scene, &settings, &hit_points, samples));
         }

@@ -48,10 +48,14 @@ impl Ppm {
     /// The spread of radii as it is now.
     #[must_use]
     pub(crate) fn radii(&self) -> Radii {
-        let mut radius2: Vec<f64> = (0..self.shapes.len())
-            .flat_map(|pixel| self.hit_points.of_pixel(pixel).map(move |h| (pixel, h)))
-            .map(|(pixel, h)| self.statistics(pixel, h).radius2())
-            .collect();
+        let mut radius2: Vec<f64> = match &self.renewal {
+            None => self.hit_points.statistics().map(Statistics::radius2).collect(),
+            // Of pixels: hit points come and go, also while a pass is under way.
+            Some(renewal) => {
+                let seen = (0..self.shapes.len()).filter(|&pixel| renewal.pixels.is_seen(pixel));
+                seen.map(|pixel| renewal.pixels.mean_radius(pixel).powi(2)).collect()
+            }
+        };
         if radius2.is_empty() {
             return Radii::default();
         }
@@ -123,6 +127,10 @@ impl Ppm {
     #[must_use]
     pub(crate) fn mean_radii(&self) -> Vec<f32> {
         let world = self.scene.normalisation().world_length(1.0);
+        if let Some(renewal) = &self.renewal {
+            let of = |pixel| (renewal.pixels.mean_radius(pixel) * world) as f32;
+            return (0..self.shapes.len()).map(of).collect();
+        }
         self.per_pixel(|statistics| {
             let n = statistics.len().max(1) as f64;
             (statistics.iter().map(|s| s.radius2().sqrt()).sum::<f64>() / n * world) as f32

@@ -47,7 +47,9 @@ impl Ppm {
 
     /// Radiance of emitters that a pixel sees directly or by specular bounces, where that is not in its light from the start.
     fn seen_emission(&self, pixel: usize) -> Rgb {
-        self.renewal.as_deref().map_or(Rgb::BLACK, |renewal| renewal.seen.emission(pixel, self.photons_emitted))
+        self.renewal
+            .as_deref()
+            .map_or(Rgb::BLACK, |renewal| renewal.seen.emission(pixel, self.photons_emitted))
     }
 
     /// Radiance of one pixel as it stands; black beyond the image.
@@ -86,11 +88,13 @@ impl Ppm {
     }
 
     pub(super) fn per_pixel<T>(&self, f: impl Fn(&[Statistics]) -> T) -> Vec<T> {
+        let mut statistics = self.hit_points.statistics().copied();
         let mut of_pixel = Vec::new();
-        (0..self.shapes.len())
-            .map(|pixel| {
+        let spans = self.hit_points.pixel_start.windows(2).map(|w| (w[1] - w[0]) as usize);
+        spans
+            .map(|n| {
                 of_pixel.clear();
-                of_pixel.extend(self.hit_points.of_pixel(pixel).map(|h| self.statistics(pixel, h)));
+                of_pixel.extend(statistics.by_ref().take(n));
                 f(&of_pixel)
             })
             .collect()

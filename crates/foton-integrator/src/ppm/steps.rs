@@ -57,7 +57,8 @@ impl Ppm {
     pub(crate) fn make_room_for_batches(&mut self, has_several: bool) {
         let slots = self.hit_points.statistics_slots.len();
         let adapts = !self.hit_points.radius_statistics_slots.is_empty();
-        self.earlier = if has_several { EarlierBatches::of(slots, adapts) } else { EarlierBatches::default() };
+        self.earlier =
+            if has_several { EarlierBatches::of(slots, adapts) } else { EarlierBatches::default() };
     }
 
     /// Whether photons can add light to surfaces: not where only shadow rays light them.
@@ -242,7 +243,8 @@ impl Ppm {
             rays,
             candidates: tally.candidates,
             accepted: tally.accepted,
-            no_photon_share: unknown_pixels.unwrap_or(tally.unknown as f64 / self.hit_points.len().max(1) as f64),
+            no_photon_share: unknown_pixels
+                .unwrap_or(tally.unknown as f64 / self.hit_points.len().max(1) as f64),
             floored: tally.floored,
         }
     }

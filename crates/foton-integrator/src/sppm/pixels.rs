@@ -29,6 +29,8 @@ pub(crate) struct Shrinkage {
 pub(crate) struct Pixels {
     /// With the factor on first r² in place of r²; [`Statistics::EMPTY_SLOT`] until a sample has found a hit point.
     statistics: Vec<Statistics>,
+    /// Mean first radius of the hit points of the last pass that had any.
+    first_radii: Vec<f32>,
     /// What radii that adapt go by, and the error's upper end; each hit point counts by its weight. Empty where neither is asked for.
     radius_statistics: Vec<RadiusStatistics>,
     /// The factor of pixels without a hit point.
@@ -41,19 +43,20 @@ impl Pixels {
         let radius_statistics = if radius_statistics { pixels } else { 0 };
         Self {
             statistics: vec![Statistics::EMPTY_SLOT; pixels],
+            first_radii: vec![0.0; pixels],
             radius_statistics: vec![RadiusStatistics::default(); radius_statistics],
             first: widened * widened,
         }
     }
 
-    /// Takes a pass into account that its hit points have gathered.
-    pub(super) fn refine(&mut self, hit_points: &HitPoints, how: Shrinkage) {
+    /// Takes a pass into account that its hit points, of such first r², have gathered.
+    pub(super) fn refine(&mut self, hit_points: &HitPoints, first_radius2: &[f32], how: Shrinkage) {
         let first = self.first;
         let mut blocks: Vec<&mut [_]> = self.radius_statistics.chunks_mut(BLOCK).collect();
         blocks.resize_with(self.statistics.len().div_ceil(BLOCK), Default::default);
-        let blocks = self.statistics.par_chunks_mut(BLOCK).zip(blocks).enumerate();
-        blocks.for_each(|(block, (pixels, radius_statistics))| {
-            for (i, statistics) in pixels.iter_mut().enumerate() {
+        let pixels = self.statistics.par_chunks_mut(BLOCK).zip(self.first_radii.par_chunks_mut(BLOCK));
+        pixels.zip(blocks).enumerate().for_each(|(block, ((pixels, radii), radius_statistics))| {
+            for (i, (statistics, first_radius)) in pixels.iter_mut().zip(radii).enumerate() {
                 let range = hit_points.of_pixel(block * BLOCK + i);
                 if range.is_empty() {
                     continue;
@@ -61,6 +64,8 @@ impl Pixels {
                 if statistics.radius2() < 0.0 {
                     *statistics = Statistics::new(first);
                 }
+                let count = range.len() as f32;
+                *first_radius = first_radius2[range.clone()].iter().map(|r2| r2.sqrt()).sum::<f32>() / count;
                 let mut radius_statistics = radius_statistics.get_mut(i);
                 let mut found = 0;
                 for h in range {
@@ -87,6 +92,11 @@ impl Pixels {
     pub(crate) fn factor(&self, pixel: usize) -> f64 {
         let factor = self.statistics[pixel].radius2();
         if factor < 0.0 { f64::from(self.first) } else { factor }
+    }
+
+    /// Mean radius of a pixel's hit points, as it is after the last pass that had any; 0 without.
+    pub(crate) fn mean_radius(&self, pixel: usize) -> f64 {
+        self.factor(pixel).sqrt() * f64::from(self.first_radii[pixel])
     }
 
     /// Photons that a pixel has found in all passes.
@@ -117,12 +127,16 @@ impl Pixels {
 
     pub(super) fn write(&self, out: &mut Writer) {
         self.statistics.iter().for_each(|s| s.write(out));
+        self.first_radii.iter().for_each(|&radius| out.f64(radius.into()));
         self.radius_statistics.iter().for_each(|s| s.write(out));
     }
 
     pub(super) fn read(&mut self, input: &mut Reader<'_>) -> Result<(), StateError> {
         for statistics in &mut self.statistics {
             *statistics = Statistics::read(input)?;
+        }
+        for radius in &mut self.first_radii {
+            *radius = input.finite()? as f32;
         }
         for radius_statistics in &mut self.radius_statistics {
             *radius_statistics = RadiusStatistics::read(input)?;
@@ -132,6 +146,8 @@ impl Pixels {
 
     /// Bytes held a pixel.
     pub(crate) const fn bytes_per_pixel(radius_statistics: bool) -> usize {
-        size_of::<Statistics>() + if radius_statistics { size_of::<RadiusStatistics>() } else { 0 }
+        size_of::<Statistics>()
+            + size_of::<f32>()
+            + if radius_statistics { size_of::<RadiusStatistics>() } else { 0 }
     }
 }

@@ -90,7 +90,7 @@ impl Renewal {
 
     /// Takes a pass of so many photons into account, which hit points have gathered and shadow rays have lit.
     pub(super) fn add(&mut self, hit_points: &HitPoints, how: Shrinkage, (photons, direct): (u64, Vec<Rgb>)) {
-        self.pixels.refine(hit_points, how);
+        self.pixels.refine(hit_points, &self.first_radius2, how);
         self.seen.add(photons, direct);
     }
 

@@ -46,8 +46,9 @@ impl EyePaths {
     /// Adds what was found in the pixels after these.
     pub fn append(&mut self, part: Self) {
         let before = self.gloss.len() as u32;
-        self.hit_points
-            .extend(part.hit_points.into_iter().map(|h| HitPoint { gloss: h.gloss.map(|g| g + before), ..h }));
+        self.hit_points.extend(
+            part.hit_points.into_iter().map(|h| HitPoint { gloss: h.gloss.map(|g| g + before), ..h }),
+        );
         self.gloss.extend(part.gloss);
         self.counts.extend(part.counts);
         self.emission.extend(part.emission);
