@@ -22,6 +22,8 @@ pub enum Purpose {
     Pilot = 4,
     /// Numbers for tests.
     Test = 5,
+    /// Choices along paths from the camera that meet emitters by themselves.
+    Path = 6,
 }
 
 /// The increment of SplitMix64: 2^64 divided by the golden ratio, odd.

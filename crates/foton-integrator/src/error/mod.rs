@@ -13,6 +13,7 @@
 
 mod classes;
 mod estimate;
+mod independent;
 mod moments;
 mod pass;
 mod state;
@@ -20,6 +21,7 @@ mod state;
 pub use classes::ClassError;
 pub(crate) use classes::Question;
 pub use estimate::{ErrorEstimate, TileError};
+pub(crate) use independent::{Independent, PassPixel};
 pub(crate) use pass::{Pass, PassFacts};
 
 use crate::ppm::{Direct, HitPoints, Noise, Radiance};
@@ -234,15 +236,16 @@ impl ErrorSums {
     /// Bytes held.
     pub(crate) const fn bytes(&self) -> usize {
         Self::BYTES_PER_HIT_POINT * self.moment_slots.len()
-            + Self::BYTES_PER_PIXEL * self.pixels.len()
-            + size_of::<f64>() * self.differences.len()
+            + Self::bytes_per_pixel(!self.differences.is_empty()) * self.pixels.len()
             + size_of::<Tile>() * self.tiles.len()
     }
 
     /// Bytes held per hit point.
     pub(crate) const BYTES_PER_HIT_POINT: usize = size_of::<SlotMoments>();
-    /// Bytes held per pixel, without the tiles' two.
-    pub(crate) const BYTES_PER_PIXEL: usize = size_of::<Pixel>();
+    /// Bytes held per pixel, without the tiles' two; `renewed` as in [`ErrorSums::new`].
+    pub(crate) const fn bytes_per_pixel(renewed: bool) -> usize {
+        size_of::<Pixel>() + if renewed { size_of::<f64>() } else { 0 }
+    }
 }
 
 impl Pixel {

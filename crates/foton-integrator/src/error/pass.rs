@@ -155,8 +155,7 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
         let mut addends = vec![OfTile::default(); tiles.len()];
         for (i, pixel) in pixels.iter_mut().enumerate() {
             let index = first + i;
-            let has_hit_points = || !self.hit_points.of_pixel(index).is_empty();
-            if !self.renewal.map_or_else(has_hit_points, |renewal| renewal.pixels.is_seen(index)) {
+            if self.renewal.is_none() && self.hit_points.of_pixel(index).is_empty() {
                 continue;
             }
             let addend = self.addend(index, moment_slots, scales.per_sample);
@@ -165,7 +164,13 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
                 *difference
             });
             let of_tile = &mut addends[i % width / TILE];
-            self.add_to_pixel(index, (pixel, difference), &addend, scales, &mut sums, of_tile);
+            of_tile.light += addend.light;
+            // A pixel that sees emitters alone may see something reflect in a later pass.
+            if self.renewal.is_none_or(|renewal| renewal.pixels.is_seen(index)) {
+                self.add_to_pixel(index, (pixel, difference), &addend, scales, &mut sums, of_tile);
+            } else {
+                pixel.add(&addend, scales.photons);
+            }
         }
         for (tile, of_tile) in tiles.iter_mut().zip(addends) {
             tile.light.add(of_tile.light, scales.photons);
@@ -228,7 +233,6 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
         }
         sums.unknown += f64::from(u8::from(is_unknown));
         of_tile.pixels += 1;
-        of_tile.light += addend.light;
         of_tile.bias += addend.bias;
         of_tile.focus2 += focus2;
         of_tile.unknown += u32::from(is_unknown);

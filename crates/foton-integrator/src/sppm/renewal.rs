@@ -112,8 +112,13 @@ impl Renewal {
     }
 
     /// Bytes held.
-    pub(crate) fn bytes(&self, radius_statistics: bool) -> usize {
-        let per_pixel = Pixels::bytes_per_pixel(radius_statistics) + Seen::BYTES_PER_PIXEL;
-        self.seen.emission.len() * per_pixel + self.first_radius2.len() * size_of::<f32>()
+    pub(crate) const fn bytes(&self, radius_statistics: bool) -> usize {
+        self.seen.emission.len() * Self::bytes_per_pixel(radius_statistics)
+            + self.first_radius2.len() * size_of::<f32>()
+    }
+
+    /// Bytes held a pixel.
+    pub(crate) const fn bytes_per_pixel(radius_statistics: bool) -> usize {
+        Pixels::bytes_per_pixel(radius_statistics) + Seen::BYTES_PER_PIXEL
     }
 }

@@ -9,7 +9,7 @@ use foton_transport::{Cancel, Halt, ShouldSuspend, Suspended};
 use rayon::prelude::*;
 
 use super::pixels::Pixels;
-use crate::ppm::by_block::ByBlock;
+use crate::by_block::ByBlock;
 use crate::ppm::eye_samples::eye_pass;
 use crate::settings::RenderSettings;
 

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use super::pixels::Shrinkage;
 use super::renewal::{LIT_BLOCK, Renewal};
+use crate::by_block::ByBlock;
 use crate::ppm::Ppm;
-use crate::ppm::by_block::ByBlock;
 use crate::ppm::direct::Lighting;
 use crate::ppm::laid_out::lay_out;
 use crate::ppm::settings::RadiusRule;

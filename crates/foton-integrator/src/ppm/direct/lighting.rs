@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use super::lit::Lit;
 use super::order::Order;
-use crate::ppm::by_block::ByBlock;
+use crate::by_block::ByBlock;
 use crate::ppm::hit_points::HitPoints;
 
 /// Places of one task.
@@ -121,7 +121,7 @@ impl Lighting<'_> {
             }
             let place = &hit_points.shadow_slots[slot];
             let at = Receiver { origin: place.origin, normal: place.shading_normal, edges: edges as u32 };
-            let mut add = |Arrival { irradiance, from, emitter }: Arrival| {
+            let mut add = |Arrival { irradiance, from, emitter, .. }: Arrival| {
                 let value = gloss.map_or(Rgb::WHITE, |g| g.eval(from));
                 let term = hit_points.weights[h] * value * irradiance;
                 // A point light that lies on the surface is infinitely bright there.
