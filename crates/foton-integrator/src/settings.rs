@@ -72,6 +72,12 @@ impl Method {
         !matches!(self, Self::Ppm)
     }
 
+    /// Whether it finds all light in any scene, sooner or later.
+    #[must_use]
+    pub const fn finds_all_light(self) -> bool {
+        self.has_photons()
+    }
+
     /// Whether photons bring light.
     #[must_use]
     pub const fn has_photons(self) -> bool {

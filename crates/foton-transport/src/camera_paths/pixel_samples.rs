@@ -18,6 +18,7 @@ pub(super) struct OfPixel {
     places: PixelSamples,
     facets: PixelSamples,
     emitters: PixelSamples,
+    lens: PixelSamples,
     /// The place in the sequences of the first sample.
     first: u32,
     /// What streams of single samples are keyed by.
@@ -34,12 +35,16 @@ impl OfPixel {
         let key = if sequence == 0 { 0 } else { u64::MAX };
         let mut stream = Stream::new(seed, purpose, key, u64::from(pixel));
         let [places, facets, emitters] = [(); 3].map(|()| PixelSamples::new(&mut stream));
-        let mut in_order = |samples| {
-            let order = pass.map(|_| stream.next_u32());
-            PixelSamples { order, ..samples }
-        };
-        let (facets, emitters) = (in_order(facets), in_order(emitters));
-        Self { places, facets, emitters, first: (turn as u32).wrapping_mul(samples), pass: pass.unwrap_or(0) }
+        let lens = PixelSamples::shuffled(&mut stream);
+        let mut in_order = |samples| PixelSamples { order: pass.map(|_| stream.next_u32()), ..samples };
+        Self {
+            places,
+            facets: in_order(facets),
+            emitters: in_order(emitters),
+            lens,
+            first: (turn as u32).wrapping_mul(samples),
+            pass: pass.unwrap_or(0),
+        }
     }
 
     /// The points of one of them.
@@ -47,6 +52,7 @@ impl OfPixel {
         let index = self.first.wrapping_add(sample);
         SamplePoints {
             place: self.places.point(index),
+            lens: self.lens.point(index),
             facet: self.facets.point(index),
             emitter: self.emitters.point(index),
         }
@@ -64,6 +70,14 @@ impl PixelSamples {
         Self { scramble: [stream.next_u32(), stream.next_u32()], order: None }
     }
 
+    /// The same points in another order, in which each 4^k in a row are the same 4^k: beside the points of another sequence they pair
+    /// up by chance.
+    #[must_use]
+    pub fn shuffled(stream: &mut Stream) -> Self {
+        let samples = Self::new(stream);
+        Self { order: Some(stream.next_u32()), ..samples }
+    }
+
     /// The `index`-th point.
     #[must_use]
     pub fn point(&self, index: u32) -> Vec2 {
@@ -77,6 +91,8 @@ impl PixelSamples {
 pub(super) struct SamplePoints {
     /// Where in the pixel.
     pub(super) place: Vec2,
+    /// Where on the lens; anywhere where there is none.
+    pub(super) lens: Vec2,
     /// For the first rough specular lobe.
     pub(super) facet: Vec2,
     /// For the point on an area emitter that is sampled from there.
@@ -100,6 +116,25 @@ fn sobol(mut index: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn shuffled_samples_are_as_even_and_pair_up_with_others_by_chance() {
+        let quarter = |p: Vec2| (2.0 * p.x) as usize * 2 + (2.0 * p.y) as usize;
+        let mut between = [0u32; 4];
+        for pixel in 0..4000 {
+            let mut stream = Stream::new(1, Purpose::Test, 0, pixel);
+            let (places, lens) = (PixelSamples::new(&mut stream), PixelSamples::shuffled(&mut stream));
+            for begin in [0, 4, 64] {
+                let mut seen = [false; 4];
+                (begin..begin + 4).for_each(|i| seen[quarter(lens.point(i))] = true);
+                assert!(seen.iter().all(|&s| s), "four samples, four quarters");
+            }
+            // The first two places lie in opposite quarters, their points of the lens in any two.
+            assert_eq!(quarter(places.point(0)) ^ quarter(places.point(1)), 3);
+            between[quarter(lens.point(0)) ^ quarter(lens.point(1))] += 1;
+        }
+        assert!(between[1..].iter().all(|&n| n > 1200), "a third each: {between:?}");
+    }
 
     #[test]
     fn sixteen_samples_fall_into_sixteen_strata_of_every_shape() {

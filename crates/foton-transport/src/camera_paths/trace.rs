@@ -82,8 +82,11 @@ impl EyePass<'_> {
                 let points = of_pixel.points(sample);
                 let stream = Stream::new(self.seed, self.purpose, of_pixel.stream_pass(), index);
                 let sum = emission
-                    + Walk::new(self, stream, &points, sample == 0, &mut paths, &mut branches)
-                        .follow(pixel, points.place);
+                    + Walk::new(self, stream, &points, sample == 0, &mut paths, &mut branches).follow(
+                        pixel,
+                        points.place,
+                        points.lens,
+                    );
                 if sum.is_finite() {
                     emission = sum;
                 } else {

@@ -1,5 +1,6 @@
 //! Options that contradict each other, or name one file twice: refused before anything is read.
 
+use foton_integrator::Method;
 use foton_session::snapshot::Format;
 
 use super::{Args, Command, Compare, Convert, ErrorWish, Info, Measure, RenderArgs};
@@ -62,7 +63,34 @@ impl Measure {
 impl RenderArgs {
     /// What cannot be done as it was asked for, and what would help.
     fn contradiction(&self) -> Option<String> {
-        self.layers_in_vain().or_else(|| self.look_in_vain()).or_else(|| clash(&self.roles()))
+        self.layers_in_vain()
+            .or_else(|| self.look_in_vain())
+            .or_else(|| self.method_in_vain())
+            .or_else(|| clash(&self.roles()))
+    }
+
+    fn method_in_vain(&self) -> Option<String> {
+        let Some(method) = self.integrator.method() else {
+            let alone = [
+                (self.checkpoint.is_some(), "--checkpoint"),
+                (self.resume.is_some(), "--resume"),
+                (self.every.is_some(), "--every"),
+                (!self.layers.is_empty(), "--layers"),
+            ];
+            let (_, option) = alone.into_iter().find(|(is_there, _)| *is_there)?;
+            return Some(format!(
+                "{option} is of a render by one method, and --integrator all makes several"
+            ));
+        };
+        if self.reference.is_some() {
+            return Some("--reference is what --integrator all compares its images with".to_owned());
+        }
+        let layer = self.layers.iter().find(|layer| layer.needs_photons() && !method.has_photons())?;
+        Some(format!(
+            "the layer {} tells of photons, which --integrator {} does not have",
+            layer.name(),
+            method.name()
+        ))
     }
 
     fn look_in_vain(&self) -> Option<String> {
@@ -100,12 +128,15 @@ impl RenderArgs {
 
     /// The files that are named; those that the scene names are known once it was read.
     pub(crate) fn roles(&self) -> Roles {
-        Roles::default()
+        let roles = Roles::default()
             .prints(self.json)
             .writes("-o", Some(&self.output.0))
             .keeps(self.checkpoint.as_deref())
             .writes_numbered(&self.output.0, self.every)
             .resumes(self.resume.as_deref())
-            .reads("the scene", Some(&self.scene))
+            .reads("--reference", self.reference.as_deref())
+            .reads("the scene", Some(&self.scene));
+        let methods: &[Method] = if self.integrator.method().is_none() { &Method::ALL } else { &[] };
+        methods.iter().fold(roles, |roles, method| roles.writes("-o with its", Some(&self.image_of(*method))))
     }
 }

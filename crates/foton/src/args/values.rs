@@ -149,15 +149,20 @@ pub(crate) enum Integrator {
     /// Whitted's ray tracing: shadow rays, perfect reflection and refraction, nothing else
     #[value(name = "whitted")]
     WhittedRayTracing,
+    /// Each of them in turn, for the same time: OUT becomes a contact sheet, and a table says how much they differ
+    #[value(name = "all")]
+    All,
 }
 
-impl From<Integrator> for Method {
-    fn from(integrator: Integrator) -> Self {
-        match integrator {
-            Integrator::ProgressivePhotonMapping => Self::Ppm,
-            Integrator::StochasticProgressivePhotonMapping => Self::Sppm,
-            Integrator::PathTracing => Self::Path,
-            Integrator::WhittedRayTracing => Self::Whitted,
+impl Integrator {
+    /// The method; `None` for all of them.
+    pub(crate) const fn method(self) -> Option<Method> {
+        match self {
+            Self::All => None,
+            Self::ProgressivePhotonMapping => Some(Method::Ppm),
+            Self::StochasticProgressivePhotonMapping => Some(Method::Sppm),
+            Self::PathTracing => Some(Method::Path),
+            Self::WhittedRayTracing => Some(Method::Whitted),
         }
     }
 }
