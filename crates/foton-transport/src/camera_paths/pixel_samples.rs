@@ -166,7 +166,7 @@ mod tests {
             let points = of_pass(pass);
             pairs[cell(points.place, 2.0) * 4 + cell(points.facet, 2.0)] += 1;
         }
-        assert!(pairs.iter().all(|n| (20..=44).contains(n)), "{pairs:?}");
+        assert!(pairs.iter().all(|n| (16..=56).contains(n)), "{pairs:?}");
     }
 
     #[test]
