@@ -114,7 +114,6 @@ fn methods_agree_in_what_they_converge_to() {
             let compared: Vec<usize> = all.filter(|&t| photons.is_smooth(t) && other.is_smooth(t)).collect();
             let sum = |pair: &Pair| compared.iter().map(|&t| pair.mean(t)).sum::<f64>();
             let ratio = sum(&other) / sum(&photons);
-            println!("{name} {}: {ratio:.4} over {} of {lit}", method.name(), compared.len());
             assert!(3 * compared.len() > lit, "{name} {}: {} of {lit}", method.name(), compared.len());
             assert!((ratio - 1.0).abs() < 0.01, "{name} {}: {ratio}", method.name());
         }

@@ -47,10 +47,7 @@ impl LaidOut {
         if widened != 1.0 {
             hit_points = hit_points.widened(widened);
         }
-        let step = (found.len() / MAX_PROBED).max(1);
-        let disc = |h: &HitPoint| (h.position, h.radius2.sqrt());
-        let seen: Vec<(Vec3, f32)> = found.iter().step_by(step).map(disc).collect();
-        let sources = scene.sources(&seen);
+        let sources = scene.sources(&discs(found));
         Ok(Self {
             guidance: Guidance::new(&sources, paths, settings.ppm.guided),
             sources,
@@ -85,4 +82,10 @@ pub(crate) fn lay_out(
     let hit_points = HitPoints::new(&paths.hit_points, &paths.gloss, start, normals, shadow_rays, cancel)?;
     let moments = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;
     Ok(if moments { hit_points.with_radius_statistics() } else { hit_points })
+}
+
+/// First discs that stand for all, by which photons are aimed.
+pub(super) fn discs(found: &[HitPoint]) -> Vec<(Vec3, f32)> {
+    let step = (found.len() / MAX_PROBED).max(1);
+    found.iter().step_by(step).map(|h| (h.position, h.radius2.sqrt())).collect()
 }
