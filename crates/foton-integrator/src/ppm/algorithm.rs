@@ -130,16 +130,14 @@ impl Ppm {
         cancel.check()?;
         let width = scene.sensors()[settings.sensor].width;
         let shadow_rays = by_shadow_rays(&scene, &settings);
-        let (mut renewal, mut direct) = (None, None);
-        if settings.method == Method::Sppm {
+        let renewal = (settings.method == Method::Sppm).then(|| {
             let none = vec![Rgb::BLACK; emission.len()];
             let (emission, first) = (std::mem::replace(&mut emission, none), laid_out.first_radius2);
             let moments = !hit_points.radius_statistics_slots.is_empty();
-            renewal =
-                Some(Box::new(Renewal::new((&scene, shadow_rays), emission, (first, widened), moments)));
-        } else if shadow_rays {
-            direct = Some(Direct::new(&scene, &settings, &hit_points, samples));
-        }
+            Box::new(Renewal::new((&scene, shadow_rays), emission, (first, widened), moments))
+        });
+        let turns = renewal.is_none() && shadow_rays;
+        let direct = turns.then(|| Direct::new(&scene, &settings, &hit_points, samples));
         let error = settings.error.then(|| ErrorSums::new(&hit_points, width, samples, renewal.is_some()));
         cancel.check()?;
         Ok(Self {
@@ -178,8 +176,8 @@ impl Ppm {
         })
     }
 
-    /// One pass: eye samples, where each pass has new ones; photons from the emitters, sorted into a map, gathered by every hit point, which is then refined, batch by batch; then
-    /// added to the image. Where a pass was suspended, this goes on with it; how often that happens changes no bit.
+    /// One pass: eye samples, where each pass has new ones; photons from the emitters, sorted into a map, gathered by every hit point,
+    /// which is then refined, batch by batch; then added to the image. Where a pass was suspended, this goes on with it; how often that happens changes no bit.
     ///
     /// # Errors
     /// When cancelled while photons are traced; the pass then has not happened. When suspended. After
