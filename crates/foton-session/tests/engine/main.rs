@@ -98,7 +98,7 @@ fn a_configuration_restarts_the_render() {
 fn another_method_restarts_the_render_and_the_first_has_its_bits_when_it_is_back() {
     let (rig, before) = Rig::at_pass(2);
     let ppm = Configuration::of(&before.settings, before.threads, None);
-    let path = Configuration { method: Method::Path, samples_per_pixel: NonZeroU32::MIN, ..ppm.clone() };
+    let path = Configuration { method: Method::Path, samples_per_pixel: NonZeroU32::MIN, ..ppm };
     rig.send(Command::Configure(path));
     let after = rig.until("another render", |f| f.render != before.render && f.activity == Activity::Done);
     assert_eq!(after.settings.method, Method::Path);

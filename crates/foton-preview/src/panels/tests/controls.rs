@@ -127,7 +127,7 @@ fn a_method_is_chosen_from_a_list_and_brings_its_own_number_of_samples() {
         );
     }
     click(&mut harness, Role::Button, "Apply and restart");
-    let path = Configuration { method: Method::Path, samples_per_pixel: NonZeroU32::MIN, ..now.clone() };
+    let path = Configuration { method: Method::Path, samples_per_pixel: NonZeroU32::MIN, ..now };
     assert_asked(&mut harness, &Command::Configure(path));
     // A number that someone has chosen stays.
     let samples_per_pixel = NonZeroU32::new(7).expect("above 0");
