@@ -78,6 +78,12 @@ impl Method {
         self.has_photons()
     }
 
+    /// Whether hit points gather photons in discs that shrink from pass to pass: then radii, α and photons a pass mean something.
+    #[must_use]
+    pub const fn has_discs(self) -> bool {
+        matches!(self, Self::Ppm)
+    }
+
     /// Whether photons bring light.
     #[must_use]
     pub const fn has_photons(self) -> bool {
