@@ -87,7 +87,6 @@ fn what_moves_is_the_mean_of_what_stands_still() {
         let apart = root_mean_square(blurred.iter().zip(&mean).map(|(a, b)| a - b)) / size;
         let frozen = blocks(&render(Scene::build(&moving.at(0.5)).expect("sound"), method, 1, 2048));
         let without = root_mean_square(frozen.iter().zip(&mean).map(|(a, b)| a - b)) / size;
-        println!("{}: {apart:.4}, without motion {without:.4}", method.name());
         assert!(apart < 0.05 && without > 4.0 * apart, "{}: {apart} {without}", method.name());
     }
 }

@@ -40,7 +40,7 @@ mod views;
 pub use clock::StageTimes;
 pub use engine::Engine;
 pub use foton_integrator::{
-    Alpha, ClassError, DirectLight, ErrorEstimate, Ledger, PathClass, Radii, RadiusFloor, RadiusRule,
+    Alpha, ClassError, DirectLight, ErrorEstimate, Ledger, Method, PathClass, Radii, RadiusFloor, RadiusRule,
     RadiusScale, RenderSettings, SettingChange, Stage,
 };
 pub use interrupt::Interrupt;
