@@ -74,18 +74,20 @@ fn root_mean_square(of: impl Iterator<Item = f64>) -> f64 {
 fn what_moves_is_the_mean_of_what_stands_still() {
     let moving = flight();
     for method in Method::ALL.into_iter().filter(|m| m.blurs_motion() && *m != Method::Whitted) {
-        let blurred = blocks(&render(Scene::build(&moving).expect("sound"), method, 1, 2048));
+        // Photons of a pass are worth more than samples.
+        let few = if method.has_photons() { 8 } else { 64 };
+        let blurred = blocks(&render(Scene::build(&moving).expect("sound"), method, 1, 32 * few));
         let times = 32u32;
         let mut mean = vec![0.0; blurred.len()];
         for i in 0..times {
             let share = (f64::from(i) + 0.5) / f64::from(times);
             let now = moving.at(SHUTTER[0] + share * (SHUTTER[1] - SHUTTER[0]));
-            let still = blocks(&render(Scene::build(&now).expect("sound"), method, 100 + u64::from(i), 64));
+            let still = blocks(&render(Scene::build(&now).expect("sound"), method, 100 + u64::from(i), few));
             mean.iter_mut().zip(still).for_each(|(sum, light)| *sum += light / f64::from(times));
         }
         let size = root_mean_square(mean.iter().copied());
         let apart = root_mean_square(blurred.iter().zip(&mean).map(|(a, b)| a - b)) / size;
-        let frozen = blocks(&render(Scene::build(&moving.at(0.5)).expect("sound"), method, 1, 2048));
+        let frozen = blocks(&render(Scene::build(&moving.at(0.5)).expect("sound"), method, 1, 32 * few));
         let without = root_mean_square(frozen.iter().zip(&mean).map(|(a, b)| a - b)) / size;
         assert!(apart < 0.05 && without > 4.0 * apart, "{}: {apart} {without}", method.name());
     }

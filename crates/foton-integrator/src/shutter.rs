@@ -1,10 +1,28 @@
 //! When each pass sees a scene that moves.
 
-use foton_math::{Purpose, Stream};
+use std::sync::Arc;
+
+use foton_math::{Cancel, Cancelled, Purpose, Stream};
+use foton_scene::Scene;
+
+use crate::settings::RenderSettings;
+
+/// The scene as the pass after `before` others sees it; itself where nothing moves.
+///
+/// # Errors
+/// When cancelled.
+pub(crate) fn at_pass(
+    scene: &Arc<Scene>,
+    settings: &RenderSettings,
+    before: u64,
+    cancel: &Cancel,
+) -> Result<Arc<Scene>, Cancelled> {
+    scene.after_share_of_shutter(settings.sensor, share_of_shutter(settings.seed, before), cancel)
+}
 
 /// The share of a shutter's time after which the pass after `before` others sees everything: of each 2^k passes one in each of 2^k
 /// equal parts of it.
-pub(crate) fn share_of_shutter(seed: u64, before: u64) -> f64 {
+fn share_of_shutter(seed: u64, before: u64) -> f64 {
     let shift = f64::from(Stream::new(seed, Purpose::Shutter, 0, 0).next_1d());
     let radical_inverse = before.reverse_bits() as f64 / 2f64.powi(64);
     (radical_inverse + shift).fract()

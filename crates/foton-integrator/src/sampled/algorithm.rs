@@ -11,7 +11,7 @@ use super::sums::PixelSums;
 use crate::by_block::ByBlock;
 use crate::report::{PassReport, Start};
 use crate::settings::RenderSettings;
-use crate::shutter::share_of_shutter;
+use crate::shutter::at_pass;
 use rayon::prelude::*;
 
 /// A render under way.
@@ -95,8 +95,7 @@ impl Sampled {
         if !scene.blurs(settings.sensor) || !self.estimator.follows_motion() {
             return Ok(());
         }
-        let share = share_of_shutter(settings.seed, self.passes);
-        let now = scene.after_share_of_shutter(settings.sensor, share, cancel)?;
+        let now = at_pass(scene, settings, self.passes, cancel)?;
         if let Some(estimator) = Estimator::new(&now, settings, watch, cancel)? {
             (self.now, self.estimator) = (now, estimator);
         }
