@@ -93,6 +93,12 @@ impl Sensor {
         self.ray_from(Vec3::ZERO, self.at_depth_1(film))
     }
 
+    /// Whether it has a lens that blurs anything.
+    #[must_use]
+    pub const fn has_lens(&self) -> bool {
+        self.lens.is_some()
+    }
+
     /// The ray that an eye sample follows: through a film position and, where there is a lens, through a point of it, which `lens`
     /// chooses uniformly from the unit square. All rays of a film position meet at the distance in focus.
     #[must_use]

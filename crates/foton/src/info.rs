@@ -3,7 +3,7 @@
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use foton_integrator::{Cancel, DirectLight, Feature, PpmSettings, Render, RenderSettings};
+use foton_integrator::{Cancel, DirectLight, Feature, Method, PpmSettings, Render, RenderSettings};
 use foton_scene::description::SceneDescription;
 use foton_scene::{Scene, Sensor};
 use foton_session::Session;
@@ -104,6 +104,7 @@ fn as_json(scene: &Scene, settings: &RenderSettings, name: &str, hash: u64) -> V
         },
         "sensors": scene.sensors().iter().map(|s| sensor(scene, s)).collect::<Vec<_>>(),
         "emitters": emitters,
+        "integrator": Method::chosen_for(scene, settings.sensor).0.name(),
         "features": parts,
         "memory": {
             "bytes": memory.peak_bytes(), "scene": memory.scene_bytes, "hit_points": memory.hit_point_bytes,
@@ -137,6 +138,8 @@ fn as_text(scene: &Scene, settings: &RenderSettings, name: &str, hash: u64) -> V
     for (name, kind, watts, share) in emitters(scene) {
         lines.push(format!("emitter {name} ({kind}): {watts:.4} W, {:.1} % of the photons", share * 100.0));
     }
+    let (method, why) = Method::chosen_for(scene, settings.sensor);
+    lines.push(format!("--integrator auto would take {}: {why}", method.name()));
     let on = |f: &Feature| if f.on { "on " } else { "off" };
     for f in Render::features(scene, settings) {
         let mut line = format!("{}  {}: {}", on(&f), f.name, f.why);

@@ -52,11 +52,11 @@ pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Fai
             .build()
     };
     let rule = stop_rule(args, suggested.passes, console);
-    let Some(method) = args.integrator.method() else {
+    if args.integrator.is_all() {
         let scene = (&scene, &identity);
         return all_methods::render(args, scene, settings, (&rule, &interrupt), console);
-    };
-    let settings = settings(method);
+    }
+    let settings = settings(args.integrator.method().unwrap_or_else(|| chosen(&scene, sensor, console)));
     if all_sensors {
         let images = all_sensors::outputs(args, &scene);
         let roles = images.iter().fold(args.roles(), |roles, path| roles.writes("-o with its", Some(path)));
@@ -73,9 +73,16 @@ pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Fai
     run(args, &mut session, &rule, &identity, &interrupt, console)
 }
 
+/// The method that suits the scene.
+fn chosen(scene: &Scene, sensor: usize, console: &Console) -> Method {
+    let (method, why) = Method::chosen_for(scene, sensor);
+    console.line(&format!("--integrator auto: {}, because {why}", method.name()));
+    method
+}
+
 /// Refuses outputs that cannot be written, before hours of rendering.
 fn check_outputs(args: &RenderArgs) -> Result<(), Failure> {
-    if args.integrator.method().is_none() {
+    if args.integrator.is_all() {
         Method::ALL.iter().try_for_each(|m| check_writable(&args.image_of(*m)))?;
     }
     let (path, _) = &args.output;

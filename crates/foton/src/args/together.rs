@@ -72,7 +72,7 @@ impl RenderArgs {
     }
 
     fn method_in_vain(&self) -> Option<String> {
-        let Some(method) = self.integrator.method() else {
+        if self.integrator.is_all() {
             let alone = [
                 (self.checkpoint.is_some(), "--checkpoint"),
                 (self.resume.is_some(), "--resume"),
@@ -83,10 +83,11 @@ impl RenderArgs {
             return Some(format!(
                 "{option} is of a render by one method, and --integrator all makes several"
             ));
-        };
+        }
         if self.reference.is_some() {
             return Some("--reference is what --integrator all compares its images with".to_owned());
         }
+        let method = self.integrator.method()?;
         let layer = self.layers.iter().find(|layer| layer.needs_photons() && !method.has_photons())?;
         Some(format!(
             "the layer {} tells of photons, which --integrator {} does not have",
@@ -101,7 +102,7 @@ impl RenderArgs {
             return None;
         }
         let alone = [
-            (self.integrator.method().is_none(), "--integrator all"),
+            (self.integrator.is_all(), "--integrator all"),
             (self.checkpoint.is_some(), "--checkpoint"),
             (self.resume.is_some(), "--resume"),
             (self.every.is_some(), "--every"),
@@ -157,7 +158,7 @@ impl RenderArgs {
             .resumes(self.resume.as_deref())
             .reads("--reference", self.reference.as_deref())
             .reads("the scene", Some(&self.scene));
-        let methods: &[Method] = if self.integrator.method().is_none() { &Method::ALL } else { &[] };
+        let methods: &[Method] = if self.integrator.is_all() { &Method::ALL } else { &[] };
         methods.iter().fold(roles, |roles, method| roles.writes("-o with its", Some(&self.image_of(*method))))
     }
 }

@@ -149,16 +149,24 @@ pub(crate) enum Integrator {
     /// Whitted's ray tracing: shadow rays, perfect reflection and refraction, nothing else
     #[value(name = "whitted")]
     WhittedRayTracing,
+    /// The one that suits the scene, by its camera and surfaces; foton says which and why
+    #[value(name = "auto")]
+    Auto,
     /// Each of them in turn, for the same time: OUT becomes a contact sheet, and a table says how much they differ
     #[value(name = "all")]
     All,
 }
 
 impl Integrator {
-    /// The method; `None` for all of them.
+    /// Whether several methods are asked for.
+    pub(crate) const fn is_all(self) -> bool {
+        matches!(self, Self::All)
+    }
+
+    /// The method; `None` for all of them, and where the scene decides.
     pub(crate) const fn method(self) -> Option<Method> {
         match self {
-            Self::All => None,
+            Self::All | Self::Auto => None,
             Self::ProgressivePhotonMapping => Some(Method::Ppm),
             Self::StochasticProgressivePhotonMapping => Some(Method::Sppm),
             Self::PathTracing => Some(Method::Path),

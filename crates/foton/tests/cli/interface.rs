@@ -5,7 +5,7 @@ use super::*;
 
 /// Options of `foton render` with values of each that must be accepted.
 const OPTIONS: &[(&str, &[&str])] = &[
-    ("--integrator", &["ppm", "path", "whitted"]),
+    ("--integrator", &["ppm", "sppm", "path", "whitted", "auto"]),
     ("--preset", &["preview", "balanced", "final"]),
     ("--radius-rule", &["local", "global", "adaptive"]),
     ("--radius", &["0.2", "x0.5"]),
@@ -173,7 +173,7 @@ fn what_info_says_of_a_scene_has_its_keys() {
     let folder = Folder::new("info-keys");
     let found = events(&folder.done("info scene.xml --json").stdout);
     let info = named(&found, "info");
-    has_keys(info, "event scene hash census sensors emitters features memory");
+    has_keys(info, "event scene hash census sensors emitters integrator features memory");
     has_keys(&info["census"], "shapes triangles spheres discs tubes degenerate_triangles emitters");
     has_keys(&info["sensors"][0], "name width height");
     has_keys(&info["emitters"][0], "name type watts share");

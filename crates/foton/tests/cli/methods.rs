@@ -1,14 +1,18 @@
 //! `--integrator`: each method alone, and all of them.
 
+use foton_integrator::Method;
+
 use super::*;
 
-/// Methods, by their names.
-const METHODS: [&str; 3] = ["ppm", "path", "whitted"];
+/// Names of all methods.
+fn methods() -> Vec<&'static str> {
+    Method::ALL.into_iter().map(Method::name).collect()
+}
 
 #[test]
 fn every_method_writes_images_checkpoints_and_layers_and_says_which_it_is() {
     let folder = Folder::new("each-method");
-    for method in METHODS {
+    for method in methods() {
         let render = format!(
             "render scene.xml --integrator {method} --photons 2000 --layers direct,indirect,emission,error_noise"
         );
@@ -16,7 +20,11 @@ fn every_method_writes_images_checkpoints_and_layers_and_says_which_it_is() {
         let (_, metadata) = folder.exr("whole.exr");
         let settings = metadata.get("foton:settings").expect("settings").to_owned();
         assert!(settings.starts_with(&format!("integrator={method} ")), "{settings}");
-        assert_eq!(settings.contains("alpha="), method == "ppm", "{settings}");
+        assert_eq!(
+            settings.contains("alpha="),
+            Method::from_name(method).is_some_and(Method::has_photons),
+            "{settings}"
+        );
         folder.done(&format!("{render} --passes 2 -o half.exr --checkpoint half.ck"));
         folder.done(&format!("{render} --passes 4 -o whole-again.exr --resume half.ck"));
         assert!(folder.bytes("whole.exr") == folder.bytes("whole-again.exr"), "{method}");
@@ -65,8 +73,8 @@ fn all_methods_make_a_sheet_an_image_each_and_a_table() {
     let all = "render scene.xml -o sheet.png --integrator all --passes 3 --photons 2000";
     let events = events(&folder.done(&format!("{all} --json")).stdout);
     let of: Vec<&Value> = events.iter().filter(|e| e["event"] == "method").collect();
-    assert_eq!(of.iter().map(|e| e["integrator"].as_str().expect("a name")).collect::<Vec<_>>(), METHODS);
-    for (event, method) in of.iter().zip(METHODS) {
+    assert_eq!(of.iter().map(|e| e["integrator"].as_str().expect("a name")).collect::<Vec<_>>(), methods());
+    for (event, method) in of.iter().zip(methods()) {
         interface::has_keys(event, "event integrator passes seconds error difference output");
         let alone = format!("render scene.xml -o alone.exr --integrator {method} --passes 3 --photons 2000");
         folder.done(&alone);
@@ -80,4 +88,33 @@ fn all_methods_make_a_sheet_an_image_each_and_a_table() {
     assert!(said.contains("differs from alone.exr by"), "{said}");
     let said = folder.fails(2, "render scene.xml -o sheet.png --integrator all --reference sheet-path.exr");
     assert!(said.contains("sheet-path.exr"), "{said}");
+}
+
+#[test]
+fn the_scene_decides_where_asked_to_and_that_is_said() {
+    let folder = Folder::new("auto-method");
+    let matt = SCENE.replace(r#"<bsdf type="dielectric"/>"#, "");
+    folder.write("matt.xml", &matt);
+    folder.write(
+        "lens.xml",
+        &matt.replace(r#"type="perspective""#, r#"type="thinlens""#).replace(
+            r#"<transform name="to_world"><lookat"#,
+            r#"<float name="aperture_radius" value="0.1"/><transform name="to_world"><lookat"#,
+        ),
+    );
+    for (scene, method, why) in
+        [("scene", "sppm", "mirrors or glass"), ("matt", "ppm", "spread light"), ("lens", "sppm", "a lens")]
+    {
+        let render = format!("render {scene}.xml -o auto.exr --photons 500 --passes 2 --integrator");
+        let said = text(&folder.done(&format!("{render} auto")).stderr);
+        assert!(
+            said.contains(&format!("--integrator auto: {method}, because")) && said.contains(why),
+            "{said}"
+        );
+        let chosen = folder.bytes("auto.exr");
+        folder.done(&format!("{render} {method}"));
+        assert!(folder.bytes("auto.exr") == chosen, "{scene}");
+        let info = text(&folder.done(&format!("info {scene}.xml")).stdout);
+        assert!(info.contains(&format!("--integrator auto would take {method}")), "{info}");
+    }
 }
