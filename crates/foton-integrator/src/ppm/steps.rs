@@ -69,6 +69,7 @@ impl Ppm {
             training: self.guidance.training(self.passes, photons),
             grid: &self.grid,
             stores_direct: self.direct.is_none(),
+            ends_where_light_spreads: false,
             policy: LOBE_POLICY,
             directions: self.hit_points.need_directions(),
             arch: self.arch,
