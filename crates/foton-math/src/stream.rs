@@ -22,6 +22,8 @@ pub enum Purpose {
     Pilot = 4,
     /// Numbers for tests.
     Test = 5,
+    /// Maps of photons that stay: rounding, and looking around them.
+    PhotonMap = 20,
 }
 
 /// The increment of SplitMix64: 2^64 divided by the golden ratio, odd.

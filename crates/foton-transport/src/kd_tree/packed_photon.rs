@@ -60,6 +60,12 @@ impl PackedPhoton {
         Self { position, power, direction: octahedral::encode::<DIRECTION_BITS>(direction) as u16, flags }
     }
 
+    /// The same with another power.
+    #[must_use]
+    pub const fn with_power(self, power: Rgbe) -> Self {
+        Self { power, ..self }
+    }
+
     /// Unit direction towards where it came from.
     #[must_use]
     #[inline]
