@@ -69,6 +69,12 @@ impl LayerKind {
         matches!(self, Self::Direct | Self::Caustic | Self::Indirect)
     }
 
+    /// Whether it tells of photons, which not all methods have.
+    #[must_use]
+    pub const fn needs_photons(self) -> bool {
+        matches!(self, Self::Radius | Self::PhotonCount)
+    }
+
     /// Whether the error must be estimated for it.
     #[must_use]
     pub const fn needs_error(self) -> bool {

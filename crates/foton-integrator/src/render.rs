@@ -10,8 +10,12 @@ use foton_transport::codec::StateError;
 use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite, ShouldSuspend, Stage};
 
 use crate::error::{ErrorEstimate, TileError};
+use crate::feature::Feature;
 use crate::layers::LayerKind;
-use crate::ppm::{Disc, EyeSamples, PassReport, PhotonPath, Ppm, Radii, Start, StoredPhoton};
+use crate::memory::MemoryEstimate;
+use crate::ppm::{self, Disc, EyeSamples, PhotonPath, Ppm, Radii, StoredPhoton};
+use crate::report::{PassReport, Start};
+use crate::sampled::{self, Sampled};
 use crate::settings::{Method, RenderSettings, SettingChange};
 
 /// A scene, settings, and what passes have made of them so far.
@@ -20,6 +24,7 @@ pub struct Render(Running);
 /// One variant a method.
 enum Running {
     Ppm(Box<Ppm>),
+    Sampled(Box<Sampled>),
 }
 
 /// The same expression for the render of any method.
@@ -27,6 +32,7 @@ macro_rules! each {
     ($render:expr, $method:ident => $body:expr) => {
         match $render {
             Running::Ppm($method) => $body,
+            Running::Sampled($method) => $body,
         }
     };
 }
@@ -69,8 +75,10 @@ impl Render {
         watch: &mut dyn FnMut(Stage),
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
-        match eye.settings().method {
-            Method::Ppm => Ok(Self(Running::Ppm(Box::new(Ppm::start(eye, tell, watch, cancel)?)))),
+        let (scene, settings) = (Arc::clone(eye.scene()), eye.settings().clone());
+        match Sampled::start(scene, settings, watch, cancel)? {
+            Some(sampled) => Ok(Self(Running::Sampled(Box::new(sampled)))),
+            None => Ok(Self(Running::Ppm(Box::new(Ppm::start(eye, tell, watch, cancel)?)))),
         }
     }
 
@@ -86,8 +94,9 @@ impl Render {
         watch: &mut dyn FnMut(Stage),
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
-        match eye.settings().method {
-            Method::Ppm => {
+        match Sampled::start(Arc::clone(eye.scene()), settings.clone(), watch, cancel)? {
+            Some(sampled) => Ok(Self(Running::Sampled(Box::new(sampled)))),
+            None => {
                 let ppm = Ppm::start_with_some((eye, samples), (settings, widened), tell, watch, cancel)?;
                 Ok(Self(Running::Ppm(Box::new(ppm))))
             }
@@ -246,6 +255,27 @@ impl Render {
     }
 }
 
+/// What a render will be, before it is started.
+impl Render {
+    /// Its memory on so many threads.
+    #[must_use]
+    pub fn estimate_memory(scene: &Scene, settings: &RenderSettings, threads: usize) -> MemoryEstimate {
+        match settings.method {
+            Method::Ppm => ppm::memory(scene, settings, threads),
+            Method::Path | Method::Whitted => sampled::memory(scene, settings),
+        }
+    }
+
+    /// All parts that can be left out, with whether they are.
+    #[must_use]
+    pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
+        match settings.method {
+            Method::Ppm => ppm::features(scene, settings),
+            Method::Path | Method::Whitted => sampled::features(settings),
+        }
+    }
+}
+
 /// Images.
 impl Render {
     /// Radiance after all passes so far.
@@ -373,13 +403,17 @@ impl Render {
 
 /// For what is particular to a method.
 impl Render {
-    pub(crate) fn ppm(&self) -> &Ppm {
-        let Running::Ppm(ppm) = &self.0;
-        ppm
+    pub(crate) fn ppm(&self) -> Option<&Ppm> {
+        match &self.0 {
+            Running::Ppm(ppm) => Some(ppm),
+            Running::Sampled(_) => None,
+        }
     }
 
-    pub(crate) fn ppm_mut(&mut self) -> &mut Ppm {
-        let Running::Ppm(ppm) = &mut self.0;
-        ppm
+    pub(crate) fn ppm_mut(&mut self) -> Option<&mut Ppm> {
+        match &mut self.0 {
+            Running::Ppm(ppm) => Some(ppm),
+            Running::Sampled(_) => None,
+        }
     }
 }

@@ -16,15 +16,62 @@ pub enum Method {
     /// Progressive photon mapping: hit points once, then photon passes.
     #[default]
     Ppm,
+    /// Path tracing with shadow rays.
+    Path,
+    /// Whitted's ray tracing: shadow rays, perfect reflection and refraction.
+    Whitted,
 }
 
 impl Method {
+    /// All methods.
+    pub const ALL: [Self; 3] = [Self::Ppm, Self::Path, Self::Whitted];
+
     /// The name in files and on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Ppm => "ppm",
+            Self::Path => "path",
+            Self::Whitted => "whitted",
         }
+    }
+
+    /// The method of a name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|method| method.name() == name)
+    }
+
+    /// What it is called in full.
+    #[must_use]
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Ppm => "Progressive photon mapping",
+            Self::Path => "Path tracing",
+            Self::Whitted => "Whitted ray tracing",
+        }
+    }
+
+    /// Eye samples a pixel, unless someone says otherwise: of the whole render, or of each pass where passes follow eye samples of their
+    /// own.
+    #[must_use]
+    pub const fn default_samples(self) -> NonZeroU32 {
+        match self {
+            Self::Ppm => NonZeroU32::new(4).unwrap(),
+            Self::Path | Self::Whitted => NonZeroU32::MIN,
+        }
+    }
+
+    /// Whether each pass follows eye samples of its own: then the image converges with them, and so does what the error means.
+    #[must_use]
+    pub const fn renews_eye_samples(self) -> bool {
+        !matches!(self, Self::Ppm)
+    }
+
+    /// Whether photons bring light.
+    #[must_use]
+    pub const fn has_photons(self) -> bool {
+        matches!(self, Self::Ppm)
     }
 }
 
@@ -33,7 +80,7 @@ impl Method {
 pub struct RenderSettings {
     /// The method.
     pub method: Method,
-    /// Eye samples a pixel.
+    /// Eye samples a pixel: of the whole render, or of each pass where [`Method::renews_eye_samples`].
     pub samples_per_pixel: NonZeroU32,
     /// Longest path in edges, as Mitsuba counts them; `None`: what the scene says.
     pub max_depth: Option<u32>,
@@ -58,7 +105,7 @@ impl Default for RenderSettings {
     fn default() -> Self {
         Self {
             method: Method::default(),
-            samples_per_pixel: NonZeroU32::new(4).unwrap_or(NonZeroU32::MIN),
+            samples_per_pixel: Method::default().default_samples(),
             max_depth: None,
             seed: 0,
             photon_seed: None,

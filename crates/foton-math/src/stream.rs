@@ -22,6 +22,8 @@ pub enum Purpose {
     Pilot = 4,
     /// Numbers for tests.
     Test = 5,
+    /// Choices along paths from the camera that meet emitters by themselves.
+    Path = 6,
     /// Maps of photons that stay: rounding, and looking around them.
     PhotonMap = 20,
 }

@@ -37,6 +37,14 @@ pub struct Census {
     pub area_emitters: bool,
 }
 
+impl Census {
+    /// Whether mirrors or smooth glass throw light on other surfaces.
+    #[must_use]
+    pub fn bends_light(&self) -> bool {
+        self.bsdfs.iter().any(BsdfKind::bends_light)
+    }
+}
+
 /// What methods need to know of a BSDF that surfaces have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BsdfKind {
@@ -50,4 +58,15 @@ pub struct BsdfKind {
     pub lambertian: bool,
     /// Whether it has holes.
     pub masked: bool,
+}
+
+impl BsdfKind {
+    /// Whether light leaves it in a single direction that is not the one it came in: a surface that light only passes straight through
+    /// has no delta lobe that reflects.
+    #[must_use]
+    pub const fn bends_light(&self) -> bool {
+        let is_nothing =
+            self.flags.intersects(LobeFlags::STRAIGHT) && !self.flags.intersects(LobeFlags::REFLECTION);
+        self.flags.intersects(LobeFlags::DELTA) && !is_nothing
+    }
 }

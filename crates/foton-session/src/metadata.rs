@@ -1,7 +1,7 @@
 //! What travels with an image: enough to make it again. Nothing of when or where, so that equal renders give equal files.
 
 use foton_film::Metadata;
-use foton_integrator::{LayerKind, RadiusScale, Render};
+use foton_integrator::{LayerKind, Method, PpmSettings, RadiusScale, Render};
 use foton_scene::Sensor;
 
 /// The scene as metadata names it.
@@ -22,35 +22,49 @@ fn region(sensor: &Sensor) -> String {
     format!(" region={} of={width}x{height}", sensor.window())
 }
 
+/// Settings of photons.
+fn photons(s: &PpmSettings) -> String {
+    let radius = s.radius.map_or("footprint".to_owned(), |r| r.to_string());
+    let radius = if s.radius_scale == RadiusScale::default() {
+        radius
+    } else {
+        format!("{radius}*{}", s.radius_scale)
+    };
+    format!(
+        "alpha={} photons={} first_pass={} radius={radius} radius_rule={} radius_floor={} direct={} guide={} ",
+        s.alpha,
+        s.photons_per_pass,
+        s.first_pass,
+        s.radius_rule.name(),
+        s.radius_floor,
+        s.direct_light.name(),
+        if s.guided { "auto" } else { "off" }
+    )
+}
+
 /// Metadata of an image with layers of a render as it stands.
 pub(crate) fn of(render: &Render, layers: &[LayerKind], scene: &SceneIdentity) -> Metadata {
     let s = render.settings();
     let sensor = &render.scene().sensors()[s.sensor];
-    let radius = s.ppm.radius.map_or("footprint".to_owned(), |r| r.to_string());
-    let radius = if s.ppm.radius_scale == RadiusScale::default() {
-        radius
-    } else {
-        format!("{radius}*{}", s.ppm.radius_scale)
-    };
-    let rule = s.ppm.radius_rule.name();
-    let direct = s.ppm.direct_light.name();
-    let guide = if s.ppm.guided { "auto" } else { "off" };
-    let region = region(sensor);
-    let settings = format!(
-        "integrator={} alpha={} photons={} first_pass={} radius={radius} radius_rule={rule} radius_floor={} direct={direct} guide={guide} max_depth={} spp={} \
-         size={}x{} sensor={} hit_points_per_sample={} layers={}{region}",
-        s.method.name(),
-        s.ppm.alpha,
-        s.ppm.photons_per_pass,
-        s.ppm.first_pass,
-        s.ppm.radius_floor,
+    let common = format!(
+        "max_depth={} spp={} size={}x{} sensor={}",
         s.max_depth_in(render.scene()),
         s.samples_per_pixel,
         sensor.width,
         sensor.height,
         sensor.name,
-        s.ppm.hit_points_per_sample,
+    );
+    let settings = format!(
+        "integrator={} {}{common} {}layers={}{}",
+        s.method.name(),
+        if s.method.has_photons() { photons(&s.ppm) } else { String::new() },
+        if s.method == Method::Ppm {
+            format!("hit_points_per_sample={} ", s.ppm.hit_points_per_sample)
+        } else {
+            String::new()
+        },
         layers.iter().any(|layer| layer.needs_classes()),
+        region(sensor)
     );
     let changes: Vec<String> =
         render.changes().iter().map(|(pass, change)| format!("{pass} {change}")).collect();

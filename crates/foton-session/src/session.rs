@@ -104,7 +104,7 @@ impl Session {
         settings: &RenderSettings,
         threads: Option<usize>,
     ) -> MemoryEstimate {
-        MemoryEstimate::pilot(scene, settings, threads::count(threads))
+        Render::estimate_memory(scene, settings, threads::count(threads))
     }
 
     /// Collects hit points on `threads` threads, by default as many as the machine has.

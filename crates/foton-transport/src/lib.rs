@@ -18,6 +18,7 @@ pub mod photon_map;
 pub mod shading;
 mod stage;
 pub mod straight;
+mod vertex;
 
 pub use foton_math::{Cancel, Cancelled, ShouldSuspend, Suspended};
 pub use ledger::{Ledger, Loss};
@@ -25,3 +26,4 @@ pub use light_use::LightUse;
 pub use lobes::{Bounce, LobePolicy, LobeSplit, LobeUse};
 pub use not_finite::{Halt, LeftOut, NotFinite, Omissions, Quantity, Surface};
 pub use stage::Stage;
+pub use vertex::{Departure, Vertex};

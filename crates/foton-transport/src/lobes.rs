@@ -119,9 +119,7 @@ impl LobeUse {
             it.specular_gloss |= split.follows_gloss();
             it.gathered_gloss |= split.gathers() && !kind.lambertian;
             it.shading_normals |= split.gathers() && kind.interpolated_normals;
-            let is_nothing =
-                kind.flags.intersects(LobeFlags::STRAIGHT) && !kind.flags.intersects(LobeFlags::REFLECTION);
-            bends |= split.specular.intersects(LobeFlags::DELTA) && !is_nothing;
+            bends |= split.specular.intersects(LobeFlags::DELTA) && kind.bends_light();
         }
         it.highlights = it.specular_gloss && (census.delta_emitters || census.area_emitters);
         it.highlights_by_photons = it.specular_gloss && census.delta_emitters && bends;

@@ -3,10 +3,11 @@
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use foton_integrator::{Cancel, DirectLight, Feature, PpmSettings, Render, RenderSettings, features};
+use foton_integrator::{Cancel, DirectLight, Feature, PpmSettings, Render, RenderSettings};
 use foton_scene::Scene;
 use foton_scene::description::SceneDescription;
 use foton_session::Session;
+use foton_session::findings::{self, SettingNames};
 use serde_json::{Value, json};
 
 use crate::args::Info;
@@ -29,6 +30,9 @@ pub(crate) fn print(args: &Info, console: &Console) -> Result<(), Failure> {
     let bounds = Bounds { size: None, region: args.region, memory: args.memory };
     let (scene, identity) = build(opened, &name, sensor, bounds, console, &cancel)?;
     let settings = RenderSettings { sensor, ..RenderSettings::default() };
+    for finding in findings::of_settings(&scene, &settings, &SettingNames::OPTIONS) {
+        console.finding(&finding);
+    }
     if args.json {
         console.event(&as_json(&scene, &settings, &name, identity.hash));
     } else {
@@ -84,7 +88,7 @@ fn as_json(scene: &Scene, settings: &RenderSettings, name: &str, hash: u64) -> V
     let emitters: Vec<Value> = emitters(scene)
         .map(|(name, kind, watts, share)| json!({ "name": name, "type": kind, "watts": watts, "share": share }))
         .collect();
-    let parts: Vec<Value> = features(scene, settings)
+    let parts: Vec<Value> = Render::features(scene, settings)
         .iter()
         .map(|f| {
             json!({
@@ -133,7 +137,7 @@ fn as_text(scene: &Scene, settings: &RenderSettings, name: &str, hash: u64) -> V
         lines.push(format!("emitter {name} ({kind}): {watts:.4} W, {:.1} % of the photons", share * 100.0));
     }
     let on = |f: &Feature| if f.on { "on " } else { "off" };
-    for f in features(scene, settings) {
+    for f in Render::features(scene, settings) {
         let mut line = format!("{}  {}: {}", on(&f), f.name, f.why);
         if f.on {
             line += &format!("; costs {}", f.cost);

@@ -7,7 +7,7 @@ use foton_format::{Opened, Options, Severity};
 use foton_integrator::{Cancel, MemoryEstimate, RenderSettings};
 use foton_scene::description::{Crop, SceneDescription};
 use foton_scene::{BuildOptions, Scene};
-use foton_session::findings::{self, FindingKind, SettingNames};
+use foton_session::findings::{self, FindingKind};
 use foton_session::{SceneIdentity, Session};
 
 use crate::args::Size;
@@ -68,7 +68,7 @@ pub(crate) fn build(
     let options = BuildOptions { cancel: cancel.clone(), tell: Some(&tell), ..BuildOptions::default() };
     let scene = Scene::build_with(&opened.description, &options)
         .map_err(|cause| Failure::of_build(&opened, name, &cause))?;
-    for finding in findings::of_scene(&scene, sensor, &SettingNames::OPTIONS) {
+    for finding in findings::of_scene(&scene, sensor) {
         match finding.kind {
             FindingKind::FarAway => {
                 let place = finding.place.as_deref();

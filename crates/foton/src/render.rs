@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use foton_film::check_writable;
-use foton_integrator::{RenderSettings, SettingChange};
+use foton_integrator::{Method, RenderSettings, SettingChange};
 use foton_scene::Scene;
 use foton_session::checkpoint::{self, Keeper};
 use foton_session::findings::{self, SettingNames};
@@ -36,6 +36,7 @@ pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Fai
     let (scene, identity) = build(opened, &name, sensor, bounds, console, interrupt.cancel())?;
     let settings = SettingsBuilder::of_scene(&suggested)
         .preset(args.preset.map(Preset::from))
+        .method(args.integrator.into())
         .options(&args.settings)
         .sensor(sensor)
         .error(args.error != Some(ErrorWish::Off))
@@ -54,8 +55,12 @@ pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Fai
     run(args, &mut session, &rule, &identity, &interrupt, console)
 }
 
-/// Refuses outputs that cannot be written, before hours of rendering.
+/// Refuses outputs that cannot be written or made, before hours of rendering.
 fn check_outputs(args: &RenderArgs) -> Result<(), Failure> {
+    let method = Method::from(args.integrator);
+    if let Some(layer) = args.layers.iter().find(|layer| layer.needs_photons() && !method.has_photons()) {
+        return Err(Failure::Layer { layer: layer.name(), method: method.name() });
+    }
     let (path, _) = &args.output;
     check_writable(path)?;
     args.checkpoint.as_deref().map_or(Ok(()), check_writable)?;

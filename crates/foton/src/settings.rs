@@ -4,7 +4,7 @@
 use std::num::NonZeroU32;
 
 use foton_format::Suggested;
-use foton_integrator::{Alpha, LayerKind, PpmSettings, RenderSettings};
+use foton_integrator::{Alpha, LayerKind, Method, PpmSettings, RenderSettings};
 use foton_session::Preset;
 
 use crate::args::{Guide, Radius, SettingsOptions};
@@ -33,10 +33,17 @@ impl SettingsBuilder {
         preset.map_or(self, |preset| Self(preset.apply(RenderSettings::default())))
     }
 
+    /// By this method.
+    pub(crate) fn method(mut self, method: Method) -> Self {
+        self.0.method = method;
+        self.0.samples_per_pixel = method.default_samples();
+        self
+    }
+
     /// What options say.
     pub(crate) fn options(mut self, options: &SettingsOptions) -> Self {
         let settings = &mut self.0;
-        settings.samples_per_pixel = options.spp;
+        settings.samples_per_pixel = options.spp.unwrap_or(settings.method.default_samples());
         settings.max_depth = options.max_depth;
         settings.seed = options.seed;
         settings.photon_seed = options.photon_seed;

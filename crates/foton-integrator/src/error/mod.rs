@@ -13,6 +13,7 @@
 
 mod classes;
 mod estimate;
+mod independent;
 mod moments;
 mod pass;
 mod state;
@@ -20,6 +21,7 @@ mod state;
 pub use classes::ClassError;
 pub(crate) use classes::Question;
 pub use estimate::{ErrorEstimate, TileError};
+pub(crate) use independent::{Independent, PassPixel};
 pub(crate) use pass::{Pass, PassFacts};
 
 use crate::ppm::{Direct, HitPoints, Noise, Radiance};

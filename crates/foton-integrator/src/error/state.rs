@@ -14,14 +14,8 @@ impl ErrorSums {
         put(&self.scatter.numbers());
         put(&self.classes.numbers());
         put(&self.foci);
-        let e = self.estimate;
-        put(&[f64::from(u8::from(e.is_some()))]);
-        if let Some(e) = e {
-            put(&[e.total, e.noise, e.bias, e.low, e.high]);
-            put(&[e.focus, e.unknown_share, e.effective_passes, e.mean_luminance]);
-            put(&[f64::from(u8::from(e.classes.is_some()))]);
-            e.classes.iter().flatten().for_each(|c| put(&[c.noise, c.bias]));
-        }
+        write_estimate(self.estimate, out);
+        let mut put = |numbers: &[f64]| numbers.iter().for_each(|&n| out.f64(n));
         for p in &self.pixels {
             put(&[p.squares, p.cross, p.bias, p.bias_squares.into(), p.bias_cross.into()]);
         }
@@ -37,30 +31,7 @@ impl ErrorSums {
         self.scatter = Scatter::of(numbers(input)?);
         self.classes = Classes::of(numbers(input)?);
         self.foci = numbers(input)?;
-        let [is_known] = numbers(input)?;
-        self.estimate = None;
-        if is_known > 0.0 {
-            let [total, noise, bias, low, high, focus, unknown_share, effective_passes, mean_luminance] =
-                numbers(input)?;
-            let [has_classes] = numbers(input)?;
-            let class = |[noise, bias]: [f64; 2]| ClassError { noise, bias };
-            let mut classes = None;
-            if has_classes > 0.0 {
-                classes = Some([class(numbers(input)?), class(numbers(input)?), class(numbers(input)?)]);
-            }
-            self.estimate = Some(ErrorEstimate {
-                total,
-                noise,
-                bias,
-                low,
-                high,
-                focus,
-                unknown_share,
-                effective_passes,
-                mean_luminance,
-                classes,
-            });
-        }
+        self.estimate = read_estimate(input)?;
         for pixel in &mut self.pixels {
             let [squares, cross, bias, bias_squares, bias_cross] = numbers(input)?;
             let (bias_squares, bias_cross) = (bias_squares as f32, bias_cross as f32);
@@ -75,7 +46,45 @@ impl ErrorSums {
     }
 }
 
-fn numbers<const N: usize>(input: &mut Reader<'_>) -> Result<[f64; N], StateError> {
+pub(super) fn write_estimate(estimate: Option<ErrorEstimate>, out: &mut Writer) {
+    let mut put = |numbers: &[f64]| numbers.iter().for_each(|&n| out.f64(n));
+    put(&[f64::from(u8::from(estimate.is_some()))]);
+    if let Some(e) = estimate {
+        put(&[e.total, e.noise, e.bias, e.low, e.high]);
+        put(&[e.focus, e.unknown_share, e.effective_passes, e.mean_luminance]);
+        put(&[f64::from(u8::from(e.classes.is_some()))]);
+        e.classes.iter().flatten().for_each(|c| put(&[c.noise, c.bias]));
+    }
+}
+
+pub(super) fn read_estimate(input: &mut Reader<'_>) -> Result<Option<ErrorEstimate>, StateError> {
+    let [is_known] = numbers(input)?;
+    if is_known <= 0.0 {
+        return Ok(None);
+    }
+    let [total, noise, bias, low, high, focus, unknown_share, effective_passes, mean_luminance] =
+        numbers(input)?;
+    let [has_classes] = numbers(input)?;
+    let class = |[noise, bias]: [f64; 2]| ClassError { noise, bias };
+    let mut classes = None;
+    if has_classes > 0.0 {
+        classes = Some([class(numbers(input)?), class(numbers(input)?), class(numbers(input)?)]);
+    }
+    Ok(Some(ErrorEstimate {
+        total,
+        noise,
+        bias,
+        low,
+        high,
+        focus,
+        unknown_share,
+        effective_passes,
+        mean_luminance,
+        classes,
+    }))
+}
+
+pub(super) fn numbers<const N: usize>(input: &mut Reader<'_>) -> Result<[f64; N], StateError> {
     let mut numbers = [0.0; N];
     for number in &mut numbers {
         *number = input.f64()?;

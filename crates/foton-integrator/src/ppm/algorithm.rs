@@ -14,12 +14,12 @@ use super::guidance::Guidance;
 use super::hit_points::HitPoints;
 use super::laid_out::LaidOut;
 use super::light::Light;
-use super::report::{PassReport, Start};
 use super::schedule::begin_small;
 use super::slots::EarlierBatches;
 use super::under_way::{Once, UnderWay};
 use crate::changes::Changes;
 use crate::error::ErrorSums;
+use crate::report::{PassReport, Start};
 use crate::settings::{RenderSettings, SettingChange};
 
 /// A render under way.

@@ -34,6 +34,12 @@ impl EyeSamples {
         self.paths.samples
     }
 
+    /// The scene.
+    #[must_use]
+    pub const fn scene(&self) -> &Arc<Scene> {
+        &self.scene
+    }
+
     /// The settings of the render.
     #[must_use]
     pub const fn settings(&self) -> &RenderSettings {

@@ -1,6 +1,5 @@
 //! What a render models, and why: each part is in the passes only if the scene or the settings ask for it.
 
-use std::borrow::Cow;
 use std::num::NonZeroU32;
 
 use foton_scene::{Census, Emitter, Scene};
@@ -14,41 +13,11 @@ use super::lobes::lobe_use;
 use super::radiance::Radiance;
 use super::settings::{DirectLight, RadiusRule};
 use crate::error::ErrorSums;
+use crate::feature::Feature;
 use crate::settings::RenderSettings;
 
-/// A part of the renderer that a scene may or may not need.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Feature {
-    /// Its name.
-    pub name: &'static str,
-    /// Whether it is in the passes.
-    pub on: bool,
-    /// What was found, or not found.
-    pub why: &'static str,
-    /// What it costs while it is on.
-    pub cost: Cow<'static, str>,
-    /// Bytes a hit point while it is on.
-    pub bytes_per_hit_point: usize,
-    /// Bytes a pixel while it is on.
-    pub bytes_per_pixel: usize,
-}
-
-impl Feature {
-    /// A part that costs no memory for each hit point or pixel. `why` has what was found, and what was not.
-    fn new(name: &'static str, on: bool, why: [&'static str; 2], cost: impl Into<Cow<'static, str>>) -> Self {
-        let [found, absent] = why;
-        let why = if on { found } else { absent };
-        Self { name, on, why, cost: cost.into(), bytes_per_hit_point: 0, bytes_per_pixel: 0 }
-    }
-
-    fn with_bytes(self, bytes_per_hit_point: usize, bytes_per_pixel: usize) -> Self {
-        Self { bytes_per_hit_point, bytes_per_pixel, ..self }
-    }
-}
-
 /// All parts that can be left out, with whether they are.
-#[must_use]
-pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
+pub(crate) fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
     let (census, lobes) = (scene.census(), lobe_use(scene));
     let aims = scene.emitters().iter().any(Emitter::aims_at_casters);
     let parts = eye_paths(census, lobes, settings.ppm.hit_points_per_sample)

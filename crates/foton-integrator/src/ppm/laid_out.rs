@@ -11,8 +11,8 @@ use super::eye_samples::EyeSamples;
 use super::guidance::Guidance;
 use super::hit_points::HitPoints;
 use super::lobes::lobe_use;
-use super::report::Start;
 use super::settings::RadiusRule;
+use crate::report::Start;
 use crate::settings::RenderSettings;
 
 /// About this many hit points stand for all of them.

@@ -9,9 +9,9 @@ use foton_transport::{Ledger, LightUse, Loss, NotFinite};
 
 use super::algorithm::Ppm;
 use super::direct::Direct;
-use super::report::Start;
 use super::under_way::{Once, UnderWay};
 use crate::error::ErrorSums;
+use crate::report::Start;
 use crate::settings::{RenderSettings, SettingChange};
 
 impl Ppm {

@@ -44,9 +44,9 @@ mod tests {
     use foton_transport::Cancel;
 
     use super::*;
-    use crate::ppm::tests::scene::scene;
     use crate::ppm::{EyeSamples, Ppm};
     use crate::settings::RenderSettings;
+    use crate::test_scene::scene;
 
     fn start(radius: Option<f64>, samples: u32) -> Ppm {
         let number = |n| NonZeroU32::new(n).expect("above 0");

@@ -4,20 +4,20 @@ use foton_transport::light_paths::{Batch, PhotonPass};
 use foton_transport::{Cancel, Cancelled, Halt, LeftOut, NotFinite, ShouldSuspend, Stage, Suspended};
 
 use super::algorithm::Ppm;
-use super::by_block::ByBlock;
 use super::counts::Counts;
 use super::direct::Lighting;
 use super::laid_out::MAX_PROBED;
 use super::light::Light;
 use super::lobes::LOBE_POLICY;
-use super::report::PassReport;
 use super::rule::Rule;
 use super::settings::RadiusRule;
 use super::slots::EarlierBatches;
 use super::sweep::{Photons, sweep};
 use super::tally::Tally;
 use super::under_way::{NextStep, UnderWay};
+use crate::by_block::ByBlock;
 use crate::error::{ErrorSums, PassFacts, Question};
+use crate::report::PassReport;
 
 /// Cells are marked again when the mean r² has shrunk by this factor since the last time.
 const MARK_AGAIN: f64 = 0.7;

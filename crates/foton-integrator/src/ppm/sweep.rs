@@ -6,13 +6,13 @@ use foton_transport::photon_map::{Grid, LANES, Packet, PhotonMap};
 use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
-use super::by_block::ByBlock;
 use super::gather::{collect, collect_gloss};
 use super::hit_points::{HitPoints, Irradiance};
 use super::refine::refine;
 use super::rule::Rule;
 use super::slots::{ClassTerm, EarlierBatches, Found, Slots};
 use super::tally::Tally;
+use crate::by_block::ByBlock;
 use crate::error::SlotMoments;
 
 /// What is gathered beside light: nothing, or what the error is estimated from and radii that adapt go by.

@@ -14,11 +14,11 @@ use foton_transport::{Cancel, Cancelled, ShouldSuspend, Stage};
 use rayon::prelude::*;
 
 use super::algorithm::Ppm;
-use super::report::PassReport;
 use super::settings::PpmSettings;
 use super::under_way::UnderWay;
 use crate::render::Render;
-use crate::settings::RenderSettings;
+use crate::report::PassReport;
+use crate::settings::{Method, RenderSettings};
 
 /// Whose work begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +30,9 @@ pub enum Step {
     /// A stage of the variant of that index.
     Of(usize, Stage),
 }
+
+/// What [`Variants::start`] makes sure of.
+const OF_PPM: &str = "variants are renders by progressive photon mapping";
 
 /// Variants advance by whole passes.
 const NEVER: ShouldSuspend<'static> = &|| false;
@@ -58,24 +61,26 @@ impl Variants {
         cancel: &Cancel,
     ) -> Result<Option<Self>, Cancelled> {
         let Some(first) = settings.first() else { return Ok(None) };
-        if settings.iter().any(|s| !shares_photons(first, s)) {
+        if first.method != Method::Ppm || settings.iter().any(|s| !shares_photons(first, s)) {
             return Ok(None);
         }
         let start = |(i, settings): (usize, &RenderSettings)| {
             let watch = &mut |stage| watch(Step::Of(i, stage));
             let mut run = Render::start(Arc::clone(scene), settings.clone(), watch, cancel)?;
-            run.ppm_mut().settings.photon_seed = Some(photons);
+            run.ppm_mut().expect(OF_PPM).settings.photon_seed = Some(photons);
             Ok(run)
         };
         let mut runs: Vec<Render> = settings.iter().enumerate().map(start).collect::<Result<_, _>>()?;
         // All begin as small as those with the widest discs.
         let first_pass = |run: &Render| run.settings().ppm.first_pass;
         let Some(least) = runs.iter().map(first_pass).min() else { return Ok(None) };
-        runs.iter_mut().for_each(|run| run.ppm_mut().settings.ppm.first_pass = least);
-        let widest = |run: &&Render| run.ppm().hit_points.statistics().map(|s| s.radius2()).sum::<f64>();
+        runs.iter_mut().for_each(|run| run.ppm_mut().expect(OF_PPM).settings.ppm.first_pass = least);
+        let widest = |run: &&Render| {
+            run.ppm().expect(OF_PPM).hit_points.statistics().map(|s| s.radius2()).sum::<f64>()
+        };
         let widest = runs.iter().max_by(|a, b| widest(a).total_cmp(&widest(b)));
         let Some(everywhere) =
-            widest.map(|run| Grid::new(&run.ppm().hit_points.packets, cancel)).transpose()?
+            widest.map(|run| Grid::new(&run.ppm().expect(OF_PPM).hit_points.packets, cancel)).transpose()?
         else {
             return Ok(None);
         };
@@ -91,19 +96,20 @@ impl Variants {
         watch: &mut dyn FnMut(Step),
         cancel: &Cancel,
     ) -> Result<Vec<PassReport>, Cancelled> {
-        let mut passes: Vec<UnderWay> = self.runs.iter_mut().map(|run| run.ppm_mut().begin_pass()).collect();
+        let mut passes: Vec<UnderWay> =
+            self.runs.iter_mut().map(|run| run.ppm_mut().expect(OF_PPM).begin_pass()).collect();
         let photons = passes[0].planned();
-        let stores_direct = self.runs.iter().any(|run| run.ppm().direct.is_none());
+        let stores_direct = self.runs.iter().any(|run| run.ppm().expect(OF_PPM).direct.is_none());
         while let Some(batch) = passes[0].batch() {
             watch(Step::Trace);
-            let pass = self.runs[0].ppm().photon_pass(photons, batch);
+            let pass = self.runs[0].ppm().expect(OF_PPM).photon_pass(photons, batch);
             let photon_pass = PhotonPass { grid: &self.everywhere, stores_direct, ..pass };
             photon_pass.begin(&mut self.chunks);
             photon_pass.shoot(&mut self.chunks, cancel, NEVER).map_err(|_| Cancelled)?;
             // All have the cells of the first.
-            self.runs[0].ppm_mut().guidance.take(&mut self.chunks);
+            self.runs[0].ppm_mut().expect(OF_PPM).guidance.take(&mut self.chunks);
             for (i, (run, pass)) in self.runs.iter_mut().zip(&mut passes).enumerate() {
-                let run = run.ppm_mut();
+                let run = run.ppm_mut().expect(OF_PPM);
                 watch(Step::Share);
                 hand_out(&self.chunks, run);
                 let watch = &mut |stage| watch(Step::Of(i, stage));
@@ -115,7 +121,7 @@ impl Variants {
         let runs = self.runs.iter_mut().zip(passes).enumerate();
         let conclude = |(i, (run, mut pass)): (usize, (&mut Render, UnderWay))| {
             let watch = &mut |stage| watch(Step::Of(i, stage));
-            let run = run.ppm_mut();
+            let run = run.ppm_mut().expect(OF_PPM);
             run.add_shadow_rays(&mut pass, watch, NEVER).map_err(|_| Cancelled)?;
             Ok(run.accumulate(pass, watch))
         };
@@ -179,7 +185,7 @@ mod tests {
 
     use super::super::eye_samples::EyeSamples;
     use super::super::settings::{Alpha, DirectLight, RadiusScale};
-    use super::super::tests::scene::scene;
+    use crate::test_scene::scene;
 
     #[test]
     fn variants_in_batches_have_the_bits_of_runs_of_their_own_in_batches() {
@@ -212,7 +218,7 @@ mod tests {
         let (scene, cancel) = (scene(), Cancel::default());
         let started = Variants::start(&scene, settings, 0, &mut |_| (), &cancel).expect("not cancelled");
         let mut together = started.expect("they share their photons");
-        together.runs.iter_mut().for_each(|run| run.ppm_mut().max_in_batch = 6_000);
+        together.runs.iter_mut().for_each(|run| run.ppm_mut().expect(OF_PPM).max_in_batch = 6_000);
         for _ in 0..3 {
             together.advance(&mut |_| (), &cancel).expect("not cancelled");
         }

@@ -126,7 +126,7 @@ impl Sweep {
     /// What the largest job takes on so many threads: its runs stand side by side.
     #[must_use]
     pub fn memory(&self, threads: usize) -> Option<MemoryEstimate> {
-        let estimate = |settings: &RenderSettings| MemoryEstimate::pilot(&self.scene, settings, threads);
+        let estimate = |settings: &RenderSettings| Render::estimate_memory(&self.scene, settings, threads);
         let of_job = |job: &Job| {
             let runs: Vec<MemoryEstimate> = job.settings(&self.centre).iter().map(estimate).collect();
             MemoryEstimate::together(&runs)

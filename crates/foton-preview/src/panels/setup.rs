@@ -54,6 +54,7 @@ fn rebased(draft: Configuration, base: &Configuration, now: &Configuration) -> C
         };
     }
     newest!(
+        method,
         radius,
         radius_floor,
         radius_rule,

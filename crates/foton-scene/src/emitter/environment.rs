@@ -34,6 +34,11 @@ impl Constant {
         let direction = Frame::from_normal(normal).to_outer(local);
         (pdf > 0.0).then(|| from_infinity(direction, self.radiance / pdf, pdf))
     }
+
+    /// The pdf (sr⁻¹) with which [`Constant::illuminate`] chooses a direction towards it.
+    pub(super) fn pdf(&self, normal: Vec3, direction: Vec3) -> f32 {
+        direction.dot(normal).max(0.0) / PI
+    }
 }
 
 /// Radiance by direction.
@@ -56,6 +61,11 @@ impl Environment {
         let direction = -sample.direction;
         let (origin, pdf) = aim.parallel(&self.scene, direction, u_part, u_position);
         Emission { origin, direction, power: sample.radiance / (pdf * sample.pdf) }
+    }
+
+    /// The pdf (sr⁻¹) with which [`Environment::illuminate`] chooses a direction towards it.
+    pub(super) fn pdf(&self, direction: Vec3) -> f32 {
+        self.map.pdf(direction)
     }
 
     pub(super) fn illuminate(&self, u: Vec2) -> Option<Illumination> {

@@ -19,6 +19,7 @@ use foton_math::Rgb;
 use foton_math::glam::{Vec2, Vec3};
 
 use crate::plugins::emitters;
+use crate::surface::Surface;
 
 pub(crate) use aim::{Aim, Ball, Target};
 pub(crate) use area::Area;
@@ -181,6 +182,27 @@ impl Emitter {
             Kind::Constant(sky) => sky.illuminate(normal, u),
             Kind::Directional(sun) => Some(sun.illuminate()),
             Kind::Environment(sky) => sky.illuminate(u),
+        }
+    }
+
+    /// The pdf (sr⁻¹) with which [`Emitter::illuminate`] chooses the direction from `position` to this point of its surface; 0 if it
+    /// is no surface, or seen from behind.
+    #[must_use]
+    pub fn pdf_of_point(&self, point: &Surface, position: Vec3) -> f32 {
+        match &self.kind {
+            Kind::Area(area) => area.pdf(point, position),
+            _ => 0.0,
+        }
+    }
+
+    /// The pdf (sr⁻¹) with which [`Emitter::illuminate`] chooses the unit `direction` towards it, where its light comes from infinity
+    /// by any direction; 0 otherwise.
+    #[must_use]
+    pub fn pdf_of_direction(&self, normal: Vec3, direction: Vec3) -> f32 {
+        match &self.kind {
+            Kind::Constant(sky) => sky.pdf(normal, direction),
+            Kind::Environment(sky) => sky.pdf(direction),
+            _ => 0.0,
         }
     }
 }

@@ -18,6 +18,12 @@ impl Scene {
         }
     }
 
+    /// The index of the emitter that a surface is.
+    #[must_use]
+    pub fn emitter_of(&self, surface: &Surface) -> Option<usize> {
+        self.shapes[surface.shape as usize].emitter.map(|emitter| emitter as usize)
+    }
+
     /// The pdf (sr⁻¹) of sampling this point of an area emitter from `position`, choice of the emitter included; 0 where the surface
     /// does not emit in that direction.
     #[must_use]

@@ -30,6 +30,7 @@ pub(super) fn of(render: &Render, scene: &SceneIdentity) -> String {
     };
     let lines = [
         (SCENE, format!("{:016x}", scene.hash)),
+        ("integrator", s.method.name().to_owned()),
         ("sensor", sensor.name.replace('\n', " ")),
         ("size", size(sensor)),
         ("seed", s.seed.to_string()),

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use foton_edit::{DragMode, FieldId, Handle, Make, NewThing, Target, Value, ViewSide};
-use foton_integrator::{DirectLight, RadiusFloor, RadiusRule, RenderSettings};
+use foton_integrator::{DirectLight, Method, RadiusFloor, RadiusRule, RenderSettings};
 pub use foton_scene::description::Crop as Region;
 
 use crate::snapshot::Look;
@@ -21,6 +21,8 @@ pub enum Source {
 /// What restarts a render when it changes. The rest of [`RenderSettings`] changes between passes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Configuration {
+    /// The method.
+    pub method: Method,
     /// First radius in world units; `None`: from the pixel's footprint.
     pub radius: Option<f64>,
     /// How far radii shrink.
@@ -48,6 +50,7 @@ impl Configuration {
     #[must_use]
     pub fn of(settings: &RenderSettings, threads: Option<usize>, region: Option<Region>) -> Self {
         Self {
+            method: settings.method,
             radius: settings.ppm.radius,
             radius_floor: settings.ppm.radius_floor,
             radius_rule: settings.ppm.radius_rule,
@@ -63,6 +66,7 @@ impl Configuration {
 
     /// Settings with this configuration.
     pub(super) fn apply(&self, settings: &mut RenderSettings) {
+        settings.method = self.method;
         settings.ppm.radius = self.radius;
         settings.ppm.radius_floor = self.radius_floor;
         settings.ppm.radius_rule = self.radius_rule;

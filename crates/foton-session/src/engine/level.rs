@@ -64,8 +64,12 @@ impl Level {
 
     /// The level after this one, of a picture of so many pixels with so many eye samples each. Where the whole has few of them anyway, there
     /// is nothing in between.
-    pub(super) fn next(self, pixels: u64, samples: u32) -> Self {
-        let middle = u64::from(Self::Middle.pixels());
+    pub(super) fn next(self, pixels: u64, settings: &RenderSettings) -> Self {
+        let (samples, middle) = (settings.samples_per_pixel.get(), u64::from(Self::Middle.pixels()));
+        if settings.method.renews_eye_samples() {
+            // Its passes are rounds themselves.
+            return if self == Self::Small && pixels > 4 * middle { Self::Middle } else { Self::Whole };
+        }
         let is_quick = pixels * u64::from(samples) <= 2 * middle;
         match self {
             Self::Small if is_quick => Self::Whole,
@@ -115,12 +119,26 @@ impl Level {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use foton_integrator::Method;
 
-    fn levels(pixels: u64, samples: u32) -> Vec<Level> {
+    fn levels_by(method: Method, pixels: u64, samples: u32) -> Vec<Level> {
+        let samples_per_pixel = NonZeroU32::new(samples).expect("not zero");
+        let settings = RenderSettings { method, samples_per_pixel, ..RenderSettings::default() };
         let all = std::iter::successors(Some(Level::Small), |level| {
-            (*level != Level::Whole).then(|| level.next(pixels, samples))
+            (*level != Level::Whole).then(|| level.next(pixels, &settings))
         });
         all.collect()
+    }
+
+    fn levels(pixels: u64, samples: u32) -> Vec<Level> {
+        levels_by(Method::Ppm, pixels, samples)
+    }
+
+    #[test]
+    fn passes_that_follow_eye_samples_of_their_own_need_no_rounds() {
+        use Level::{Middle, Small, Whole};
+        assert_eq!(levels_by(Method::Path, 960 * 640, 4), [Small, Whole]);
+        assert_eq!(levels_by(Method::Path, 1920 * 1080, 8), [Small, Middle, Whole]);
     }
 
     #[test]

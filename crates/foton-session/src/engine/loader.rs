@@ -13,7 +13,7 @@ use foton_scene::{BuildError, BuildOptions, Scene};
 
 use super::command::Source;
 use super::frame::BuildProgress;
-use crate::findings::{self, Finding, SettingNames};
+use crate::findings::{self, Finding};
 use crate::metadata::SceneIdentity;
 use crate::panic::catch_panic;
 
@@ -186,7 +186,7 @@ fn open_and_build(
         let scene = built.map_err(|cause| loader.why_not_built(&loaded, &cause))?;
         // A sensor that is not there is found where it is used.
         let sensor = loaded.settings.sensor.min(scene.sensors().len().saturating_sub(1));
-        let findings = findings::of_scene(&scene, sensor, &SettingNames::CONTROLS);
+        let findings = findings::of_scene(&scene, sensor);
         Ok(Box::new(Ready { source, loaded, scene: Arc::new(scene), findings }))
     })
 }

@@ -196,9 +196,9 @@ impl LevelRender {
         self.level == Level::Whole
     }
 
-    /// The level that is due once this one is as good as it gets, where the whole has so many pixels and eye samples of each.
-    pub(super) fn next_level(&self, pixels: u64, samples: u32) -> Option<Level> {
-        (self.render().passes() >= self.level.passes()).then(|| self.level.next(pixels, samples))
+    /// The level that is due once this one is as good as it gets, where the whole has so many pixels and these settings.
+    pub(super) fn next_level(&self, pixels: u64, whole: &RenderSettings) -> Option<Level> {
+        (self.render().passes() >= self.level.passes()).then(|| self.level.next(pixels, whole))
     }
 
     /// Whether there is nothing to do until a person goes on, or stops.

@@ -26,6 +26,8 @@ pub enum FindingKind {
     NarrowGloss,
     /// Caustics of delta emitters on narrow gloss come as photons.
     NarrowCaustics,
+    /// The method finds no light on some paths of the scene.
+    LightMissed,
     /// The first radius is larger than the scene.
     RadiusBeyondScene,
     /// Few photons of an emitter reach what is seen.

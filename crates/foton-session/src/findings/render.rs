@@ -1,7 +1,7 @@
 //! Findings in a render under way: starved emitters, power that was lost, bias that stays.
 
 use foton_input::quoted;
-use foton_integrator::{Render, RenderSettings};
+use foton_integrator::{Render, RenderSettings, lobe_use};
 use foton_scene::Scene;
 
 use super::{Finding, FindingKind, SettingNames};
@@ -37,7 +37,35 @@ pub fn of_settings(scene: &Scene, settings: &RenderSettings, names: &SettingName
             format!("{} is larger than the whole scene and is cut to that, {largest:.4}", names.radius);
         Finding::new(FindingKind::RadiusBeyondScene, None, text)
     });
-    finding.into_iter().collect()
+    let finding = finding.filter(|_| settings.method.has_photons());
+    finding.into_iter().chain(of_method(scene, settings, names)).collect()
+}
+
+/// What a method cannot do with a scene, or does in a way of its own.
+fn of_method(scene: &Scene, settings: &RenderSettings, names: &SettingNames) -> Vec<Finding> {
+    let (census, lobes, method) = (scene.census(), lobe_use(scene), settings.method);
+    let mut findings = Vec::new();
+    if !method.has_photons() && census.delta_emitters && census.bends_light() {
+        let text = format!(
+            "{} finds no light of points, spots and suns that mirrors or smooth glass throw on other surfaces: these caustics are \
+             missing",
+            method.title()
+        );
+        findings.push(Finding::new(FindingKind::LightMissed, None, text));
+    }
+    if !method.renews_eye_samples() && lobes.specular_gloss {
+        let text = format!(
+            "gloss of roughness up to 0.1 is followed in directions chosen once: its noise stays; {} lowers it",
+            names.eye_samples
+        );
+        findings.push(Finding::new(FindingKind::NarrowGloss, None, text));
+    }
+    if method.has_photons() && lobes.highlights_by_photons {
+        let text = "light of points, spots and suns that mirrors or glass throw on such gloss comes as photons: the narrower, \
+                    the noisier";
+        findings.push(Finding::new(FindingKind::NarrowCaustics, None, text));
+    }
+    findings
 }
 
 /// Emitters that most photons leave in vain.

@@ -1,17 +1,16 @@
 //! Findings in a scene, before it is rendered.
 
 use foton_input::quoted;
-use foton_integrator::lobe_use;
 use foton_scene::Scene;
 
-use super::{Finding, FindingKind, SettingNames};
+use super::{Finding, FindingKind};
 
 /// A shape that is fewer steps of single precision across is worth a warning: its outline is off by a hundredth of its size.
 const MIN_STEPS: f32 = 100.0;
 
-/// What a scene as seen by a sensor has too small, too far away, hidden, or noisy by nature.
+/// What a scene as seen by a sensor has too small, too far away or hidden.
 #[must_use]
-pub fn of_scene(scene: &Scene, sensor: usize, names: &SettingNames) -> Vec<Finding> {
+pub fn of_scene(scene: &Scene, sensor: usize) -> Vec<Finding> {
     let mut findings = Vec::new();
     let census = scene.census();
     if census.degenerate_triangles > 0 {
@@ -37,19 +36,6 @@ pub fn of_scene(scene: &Scene, sensor: usize, names: &SettingNames) -> Vec<Findi
             quoted(over)
         );
         findings.push(Finding::new(FindingKind::HiddenShape, Some(under), text));
-    }
-    let lobes = lobe_use(scene);
-    if lobes.specular_gloss {
-        let text = format!(
-            "gloss of roughness up to 0.1 is followed in directions chosen once: its noise stays; {} lowers it",
-            names.eye_samples
-        );
-        findings.push(Finding::new(FindingKind::NarrowGloss, None, text));
-    }
-    if lobes.highlights_by_photons {
-        let text = "light of points, spots and suns that mirrors or glass throw on such gloss comes as photons: the narrower, \
-                    the noisier";
-        findings.push(Finding::new(FindingKind::NarrowCaustics, None, text));
     }
     findings.extend(without_light(scene));
     findings

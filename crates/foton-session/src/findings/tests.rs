@@ -10,7 +10,7 @@ use crate::test_scene::discs;
 
 #[test]
 fn a_scene_is_searched_for_what_its_image_does_not_tell() {
-    let found = of_scene(&discs(None), 0, &SettingNames::OPTIONS);
+    let found = of_scene(&discs(None), 0);
     let hidden = found.iter().find(|f| f.kind == FindingKind::HiddenShape).expect("the letter");
     assert_eq!(hidden.place.as_deref(), Some("letter"));
     assert!(found.iter().any(|f| f.kind == FindingKind::NoEmitter && f.place.is_none()));

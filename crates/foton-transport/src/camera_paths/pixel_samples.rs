@@ -6,17 +6,19 @@ use rand::Rng;
 
 /// The (0, 2)-sequence of Sobol' in two dimensions, scrambled by XOR for each pixel: the first 2^k points have one point in
 /// each elementary interval, any other number is nearly as even. Source: Kollig and Keller (2002). `[KK02]`
-pub(super) struct PixelSamples {
+pub struct PixelSamples {
     scramble: [u32; 2],
 }
 
 impl PixelSamples {
-    pub(super) fn new(stream: &mut Stream) -> Self {
+    /// Those of a pixel.
+    pub fn new(stream: &mut Stream) -> Self {
         Self { scramble: [stream.next_u32(), stream.next_u32()] }
     }
 
     /// The `index`-th point.
-    pub(super) fn point(&self, index: u32) -> Vec2 {
+    #[must_use]
+    pub fn point(&self, index: u32) -> Vec2 {
         let unit = |bits: u32| (bits >> 8) as f32 / (1 << 24) as f32;
         Vec2::new(unit(index.reverse_bits() ^ self.scramble[0]), unit(sobol(index) ^ self.scramble[1]))
     }

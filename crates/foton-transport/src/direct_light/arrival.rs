@@ -27,6 +27,8 @@ pub struct Arrival {
     pub irradiance: Rgb,
     /// Unit direction that it comes from.
     pub from: Vec3,
+    /// The pdf of the direction (sr⁻¹), times the probability of the emitter; infinite where light comes from a single one.
+    pub pdf: f32,
     /// Index of the emitter.
     pub emitter: u32,
 }
@@ -48,5 +50,10 @@ pub fn arrival(
     let ray = Ray { origin: at.origin, direction: light.direction, t_min: 0.0, t_max };
     let transmittance = straight::transmittance(scene, ray, at.edges, rays);
     let irradiance = light.radiance_over_pdf * transmittance * cosine;
-    (!transmittance.is_black()).then_some(Arrival { irradiance, from: light.direction, emitter })
+    (!transmittance.is_black()).then_some(Arrival {
+        irradiance,
+        from: light.direction,
+        pdf: light.pdf,
+        emitter,
+    })
 }

@@ -57,6 +57,12 @@ impl Lights {
         self.fixed.len() as u32
     }
 
+    /// The probability with which [`Lights::sample`] sends a ray to an emitter: for paths that find it without.
+    #[must_use]
+    pub fn probability(&self, at: &Receiver, emitter: u32) -> f64 {
+        if self.each.contains(&emitter) { 1.0 } else { self.tree.probability(emitter, at) }
+    }
+
     /// Light of emitters of a single point or direction: all of it, without noise.
     pub fn fixed(&self, scene: &Scene, at: &Receiver, rays: &mut u64, mut add: impl FnMut(Arrival)) {
         let of = |&emitter: &u32| arrival(scene, at, emitter, (0.0, Vec2::ZERO), rays);
@@ -84,7 +90,12 @@ impl Lights {
         let Some((emitter, probability)) = self.tree.choose(at, choice) else { return };
         let [x, y, _, part] = point.map(sobol::unit);
         if let Some(found) = arrival(scene, at, emitter, (part, Vec2::new(x, y)), rays) {
-            add(Arrival { irradiance: found.irradiance / probability as f32, ..found });
+            let probability = probability as f32;
+            add(Arrival {
+                irradiance: found.irradiance / probability,
+                pdf: found.pdf * probability,
+                ..found
+            });
         }
     }
 }

@@ -19,8 +19,10 @@ const DIMMEST: f32 = 0.1;
 pub struct LightTree {
     /// The root first. The first child of a branch comes right behind it.
     nodes: Vec<Node>,
-    /// Node of each emitter, in the order they were given in.
+    /// Node of each emitter, in the order of nodes.
     leaves: Vec<u32>,
+    /// Index and node of each emitter, by index.
+    by_emitter: Vec<(u32, u32)>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -54,6 +56,9 @@ impl LightTree {
         let mut tree = Self::default();
         if !emitters.is_empty() {
             tree.add(&mut emitters, 0);
+            let of = |&leaf: &u32| tree.emitter(leaf).map(|emitter| (emitter, leaf));
+            tree.by_emitter = tree.leaves.iter().filter_map(of).collect();
+            tree.by_emitter.sort_unstable();
         }
         tree
     }
@@ -104,6 +109,13 @@ impl LightTree {
             left = left.min(1.0 - f64::EPSILON);
         }
         Some((self.emitter(node)?, self.uniform() + (1.0 - UNIFORM) * chance))
+    }
+
+    /// The probability of an emitter for light at a point; 0 if it is none of these.
+    #[must_use]
+    pub fn probability(&self, emitter: u32, at: &Receiver) -> f64 {
+        let found = self.by_emitter.binary_search_by_key(&emitter, |&(emitter, _)| emitter);
+        found.map_or(0.0, |i| self.probability_of(self.by_emitter[i].1, at))
     }
 
     /// The probability of each emitter with its index, for light at a point.

@@ -56,9 +56,9 @@ pub(crate) struct SettingsOptions {
     /// Size of the whole image; a crop window is scaled with it [default: from the scene]
     #[arg(long, value_name = "WxH")]
     pub(crate) size: Option<Size>,
-    /// Eye samples per pixel
-    #[arg(long, value_name = "N", default_value_t = RenderSettings::default().samples_per_pixel)]
-    pub(crate) spp: NonZeroU32,
+    /// Eye samples per pixel: of the whole render by ppm, of each pass by other methods [default: 4, or 1 in each pass]
+    #[arg(long, value_name = "N")]
+    pub(crate) spp: Option<NonZeroU32>,
     /// Longest path in edges, as Mitsuba counts them. 1: directly visible emitters only; 2: one bounce [default: from the scene]
     #[arg(long, value_name = "N")]
     pub(crate) max_depth: Option<u32>,

@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use clap::ValueEnum;
 use foton_film::ToneMap;
-use foton_integrator::{DirectLight, RadiusRule, RadiusScale};
+use foton_integrator::{DirectLight, Method, RadiusRule, RadiusScale};
 use foton_session::Preset;
 
 /// `--error`.
@@ -140,6 +140,22 @@ pub(crate) enum Integrator {
     /// Progressive photon mapping
     #[value(name = "ppm")]
     ProgressivePhotonMapping,
+    /// Path tracing with shadow rays: hardly any bias, but it misses light that mirrors and glass cast from small emitters
+    #[value(name = "path")]
+    PathTracing,
+    /// Whitted's ray tracing: shadow rays, perfect reflection and refraction, nothing else
+    #[value(name = "whitted")]
+    WhittedRayTracing,
+}
+
+impl From<Integrator> for Method {
+    fn from(integrator: Integrator) -> Self {
+        match integrator {
+            Integrator::ProgressivePhotonMapping => Self::Ppm,
+            Integrator::PathTracing => Self::Path,
+            Integrator::WhittedRayTracing => Self::Whitted,
+        }
+    }
 }
 
 impl From<Direct> for DirectLight {

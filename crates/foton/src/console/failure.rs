@@ -37,6 +37,11 @@ pub(crate) enum Failure {
         asked: String,
         known: Vec<String>,
     },
+    /// A layer that a method does not make.
+    Layer {
+        layer: &'static str,
+        method: &'static str,
+    },
     /// A part of the image that is none, in words.
     Region(String),
     Start(StartError),
@@ -93,6 +98,9 @@ impl fmt::Display for Failure {
             Self::Sensor { asked, known } => {
                 let known: Vec<_> = known.iter().take(MAX_NAMES).map(|name| quoted(name)).collect();
                 write!(f, "the scene has no sensor {}; it has {}", quoted(asked), known.join(", "))
+            }
+            Self::Layer { layer, method } => {
+                write!(f, "the layer {layer} tells of photons, which --integrator {method} does not have")
             }
             Self::Region(why) => f.write_str(why),
             Self::Start(cause) => cause.fmt(f),

@@ -10,7 +10,7 @@ use foton_transport::{LeftOut, Omissions, Quantity, Surface};
 use rayon::prelude::*;
 
 use super::sums::{Direct, Lit};
-use crate::ppm::by_block::ByBlock;
+use crate::by_block::ByBlock;
 use crate::ppm::hit_points::HitPoints;
 
 /// Places of one task.
@@ -102,7 +102,7 @@ impl Lighting<'_> {
             }
             let place = &hit_points.shadow_slots[slot];
             let at = Receiver { origin: place.origin, normal: place.shading_normal, edges: edges as u32 };
-            let mut add = |Arrival { irradiance, from, emitter }: Arrival| {
+            let mut add = |Arrival { irradiance, from, emitter, .. }: Arrival| {
                 let value = gloss.map_or(Rgb::WHITE, |g| g.eval(from));
                 let term = hit_points.weights[h] * value * irradiance;
                 // A point light that lies on the surface is infinitely bright there.

@@ -9,9 +9,10 @@ use foton_transport::{Cancel, Stage};
 
 use crate::layers::LayerKind;
 use crate::ppm::settings::{DirectLight, PpmSettings, RadiusRule};
-use crate::ppm::tests::scene::scene;
-use crate::ppm::{EyeSamples, PassReport, Ppm};
+use crate::ppm::{EyeSamples, Ppm};
+use crate::report::PassReport;
 use crate::settings::RenderSettings;
+use crate::test_scene::scene;
 
 const PHOTONS: u32 = 30_000;
 /// Three batches, and not equal ones.

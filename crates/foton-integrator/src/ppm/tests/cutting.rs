@@ -8,9 +8,10 @@ use foton_transport::{Cancel, Halt};
 
 use crate::layers::LayerKind;
 use crate::ppm::settings::{DirectLight, PpmSettings, RadiusRule};
-use crate::ppm::tests::scene::scene;
-use crate::ppm::{EyeSamples, PassReport, Ppm};
+use crate::ppm::{EyeSamples, Ppm};
+use crate::report::PassReport;
 use crate::settings::{RenderSettings, SettingChange};
+use crate::test_scene::scene;
 
 /// Three batches of several chunks.
 const PHOTONS: u32 = 60_000;

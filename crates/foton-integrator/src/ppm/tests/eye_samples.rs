@@ -10,9 +10,9 @@ use foton_transport::Cancel;
 
 use crate::layers::LayerKind;
 use crate::ppm::settings::PpmSettings;
-use crate::ppm::tests::scene;
 use crate::ppm::{EyeSamples, Ppm};
 use crate::settings::RenderSettings;
+use crate::test_scene as scene;
 
 const SAMPLES: u32 = 6;
 

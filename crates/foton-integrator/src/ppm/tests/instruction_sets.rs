@@ -8,9 +8,9 @@ use foton_transport::Cancel;
 use pulp::Arch;
 
 use crate::ppm::settings::PpmSettings;
-use crate::ppm::tests::scene::scene;
 use crate::ppm::{EyeSamples, Ppm};
 use crate::settings::RenderSettings;
+use crate::test_scene::scene;
 
 /// Bits of the image after three passes, and photons found.
 fn render(scene: &Arc<Scene>, arch: Arch) -> (Vec<[u32; 3]>, u64) {

@@ -5,7 +5,6 @@ mod cutting;
 mod eye_samples;
 mod instruction_sets;
 mod paths;
-pub(super) mod scene;
 mod suspending;
 
 use super::algorithm::Ppm;

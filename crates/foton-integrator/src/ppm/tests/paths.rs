@@ -7,9 +7,9 @@ use foton_transport::Cancel;
 use foton_transport::photon_map::PathClass;
 
 use crate::ppm::settings::{Alpha, DirectLight, PpmSettings, RadiusRule};
-use crate::ppm::tests::scene::scene;
 use crate::ppm::{EyeSamples, Ppm};
 use crate::settings::RenderSettings;
+use crate::test_scene::scene;
 
 fn start() -> Ppm {
     let photons = NonZeroU32::new(30_000).expect("above 0");

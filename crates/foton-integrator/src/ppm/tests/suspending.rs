@@ -7,9 +7,10 @@ use foton_transport::{Cancel, Halt, Stage};
 
 use crate::layers::LayerKind;
 use crate::ppm::settings::{Alpha, DirectLight, PpmSettings};
-use crate::ppm::tests::scene::scene;
-use crate::ppm::{EyeSamples, PassReport, Ppm};
+use crate::ppm::{EyeSamples, Ppm};
+use crate::report::PassReport;
 use crate::settings::{RenderSettings, SettingChange};
+use crate::test_scene::scene;
 
 /// Three batches of several chunks.
 const PHOTONS: u32 = 60_000;

@@ -85,12 +85,15 @@ pub struct HistoryEntry {
 /// Settings as a person compares them.
 pub(crate) fn in_words(settings: &RenderSettings, render: &Render) -> String {
     let (ppm, sensor) = (&settings.ppm, &render.scene().sensors()[settings.sensor]);
+    let photons = if settings.method.has_photons() {
+        format!("α {}, {} photons/pass, radii {}, ", ppm.alpha, ppm.photons_per_pass, ppm.radius_rule.name())
+    } else {
+        String::new()
+    };
     format!(
-        "α {}, {} photons/pass, {} samples/pixel, radii {}, seed {}, {} x {} pixels",
-        ppm.alpha,
-        ppm.photons_per_pass,
+        "{}, {photons}{} samples/pixel, seed {}, {} x {} pixels",
+        settings.method.name(),
         settings.samples_per_pixel,
-        ppm.radius_rule.name(),
         settings.seed,
         sensor.width,
         sensor.height

@@ -127,7 +127,7 @@ impl Worker {
         match &self.current.render {
             None => Some(Level::Small),
             Some(render) if self.plan.moving || render.is_whole() => None,
-            Some(render) => render.next_level(self.pixels(scene), self.plan.settings.samples_per_pixel.get()),
+            Some(render) => render.next_level(self.pixels(scene), &self.plan.settings),
         }
     }
 

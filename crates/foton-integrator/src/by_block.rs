@@ -11,7 +11,7 @@ pub(crate) struct ByBlock<'a, T> {
 
 impl<'a, T: Send + Sync> ByBlock<'a, T> {
     /// Makes room for that many blocks, and hands out the place of each.
-    pub(super) fn places(self, blocks: usize) -> impl IndexedParallelIterator<Item = Place<'a, T>> {
+    pub(crate) fn places(self, blocks: usize) -> impl IndexedParallelIterator<Item = Place<'a, T>> {
         let should_suspend = self.should_suspend;
         self.done.resize_with(blocks, || None);
         self.done.par_iter_mut().map(move |result| Place { result, should_suspend })
@@ -19,14 +19,14 @@ impl<'a, T: Send + Sync> ByBlock<'a, T> {
 }
 
 /// Where the result of a block goes.
-pub(super) struct Place<'a, T> {
+pub(crate) struct Place<'a, T> {
     result: &'a mut Option<T>,
     should_suspend: ShouldSuspend<'a>,
 }
 
 impl<T> Place<'_, T> {
     /// Works on the block, unless that was done before or all work is to make way.
-    pub(super) fn fill(self, work: impl FnOnce() -> T) {
+    pub(crate) fn fill(self, work: impl FnOnce() -> T) {
         if self.result.is_none() && !(self.should_suspend)() {
             *self.result = Some(work());
         }
