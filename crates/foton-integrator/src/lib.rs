@@ -12,6 +12,7 @@ mod feature;
 mod layers;
 mod memory;
 mod path;
+mod photon_map;
 mod ppm;
 mod render;
 mod report;
@@ -31,6 +32,7 @@ pub use foton_transport::{
 };
 pub use layers::LayerKind;
 pub use memory::MemoryEstimate;
+pub use photon_map::{KeptMaps, MapDisplay, PhotonMapSettings};
 pub use ppm::{
     Alpha, DirectLight, Disc, EyeSamples, PhotonPath, PpmSettings, Radii, RadiusFloor, RadiusRule,
     RadiusScale, Statistics, Step, StoredPhoton, Variants, lobe_use,

@@ -13,6 +13,7 @@ use crate::error::{ErrorEstimate, TileError};
 use crate::feature::Feature;
 use crate::layers::LayerKind;
 use crate::memory::MemoryEstimate;
+use crate::photon_map::KeptMaps;
 use crate::ppm::{self, Disc, EyeSamples, PhotonPath, Ppm, Radii, StoredPhoton};
 use crate::report::{PassReport, Start};
 use crate::sampled::{self, Sampled};
@@ -76,9 +77,36 @@ impl Render {
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
         let (scene, settings) = (Arc::clone(eye.scene()), eye.settings().clone());
-        match Sampled::start(scene, settings, watch, cancel)? {
+        match Sampled::start(scene, settings, None, watch, cancel)? {
             Some(sampled) => Ok(Self(Running::Sampled(Box::new(sampled)))),
             None => Ok(Self(Running::Ppm(Box::new(Ppm::start(eye, tell, watch, cancel)?)))),
+        }
+    }
+
+    /// A render by two-pass photon mapping with maps that were made before, of the same scene; by any other method, as
+    /// [`Render::start`].
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub fn start_with_maps(
+        scene: Arc<Scene>,
+        settings: RenderSettings,
+        maps: &KeptMaps,
+        watch: &mut dyn FnMut(Stage),
+        cancel: &Cancel,
+    ) -> Result<Self, Cancelled> {
+        match Sampled::start(Arc::clone(&scene), settings.clone(), Some(maps), watch, cancel)? {
+            Some(sampled) => Ok(Self(Running::Sampled(Box::new(sampled)))),
+            None => Self::start(scene, settings, watch, cancel),
+        }
+    }
+
+    /// The maps of a render by two-pass photon mapping.
+    #[must_use]
+    pub fn maps(&self) -> Option<KeptMaps> {
+        match &self.0 {
+            Running::Sampled(sampled) => sampled.maps(),
+            Running::Ppm(_) => None,
         }
     }
 
@@ -94,7 +122,7 @@ impl Render {
         watch: &mut dyn FnMut(Stage),
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
-        match Sampled::start(Arc::clone(eye.scene()), settings.clone(), watch, cancel)? {
+        match Sampled::start(Arc::clone(eye.scene()), settings.clone(), None, watch, cancel)? {
             Some(sampled) => Ok(Self(Running::Sampled(Box::new(sampled)))),
             None => {
                 let ppm = Ppm::start_with_some((eye, samples), (settings, widened), tell, watch, cancel)?;
@@ -262,7 +290,7 @@ impl Render {
     pub fn estimate_memory(scene: &Scene, settings: &RenderSettings, threads: usize) -> MemoryEstimate {
         match settings.method {
             Method::Ppm => ppm::memory(scene, settings, threads),
-            Method::Path | Method::Whitted => sampled::memory(scene, settings),
+            Method::Path | Method::Whitted | Method::PhotonMap => sampled::memory(scene, settings),
         }
     }
 
@@ -271,7 +299,7 @@ impl Render {
     pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
         match settings.method {
             Method::Ppm => ppm::features(scene, settings),
-            Method::Path | Method::Whitted => sampled::features(settings),
+            Method::Path | Method::Whitted | Method::PhotonMap => sampled::features(settings),
         }
     }
 }

@@ -5,6 +5,7 @@ use std::num::NonZeroU32;
 
 use foton_scene::Scene;
 
+use crate::photon_map::PhotonMapSettings;
 use crate::ppm::settings::{Alpha, PpmSettings};
 
 /// The longest path that is traced, whatever settings say. The ledger counts what that cuts off.
@@ -20,11 +21,13 @@ pub enum Method {
     Path,
     /// Whitted's ray tracing: shadow rays, perfect reflection and refraction.
     Whitted,
+    /// Two-pass photon mapping: maps of photons that stay, looked up by eye samples.
+    PhotonMap,
 }
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 3] = [Self::Ppm, Self::Path, Self::Whitted];
+    pub const ALL: [Self; 4] = [Self::Ppm, Self::Path, Self::Whitted, Self::PhotonMap];
 
     /// The name in files and on the command line.
     #[must_use]
@@ -33,6 +36,7 @@ impl Method {
             Self::Ppm => "ppm",
             Self::Path => "path",
             Self::Whitted => "whitted",
+            Self::PhotonMap => "photon-map",
         }
     }
 
@@ -49,6 +53,7 @@ impl Method {
             Self::Ppm => "Progressive photon mapping",
             Self::Path => "Path tracing",
             Self::Whitted => "Whitted ray tracing",
+            Self::PhotonMap => "Photon mapping",
         }
     }
 
@@ -58,7 +63,7 @@ impl Method {
     pub const fn default_samples(self) -> NonZeroU32 {
         match self {
             Self::Ppm => NonZeroU32::new(4).unwrap(),
-            Self::Path | Self::Whitted => NonZeroU32::MIN,
+            Self::Path | Self::Whitted | Self::PhotonMap => NonZeroU32::MIN,
         }
     }
 
@@ -68,7 +73,13 @@ impl Method {
         !matches!(self, Self::Ppm)
     }
 
-    /// Whether photons bring light.
+    /// Whether light that mirrors and glass throw from points and suns is missing.
+    #[must_use]
+    pub const fn misses_caustics_of_points(self) -> bool {
+        matches!(self, Self::Path | Self::Whitted)
+    }
+
+    /// Whether passes have photons.
     #[must_use]
     pub const fn has_photons(self) -> bool {
         matches!(self, Self::Ppm)
@@ -99,6 +110,8 @@ pub struct RenderSettings {
     pub error: bool,
     /// Of progressive photon mapping.
     pub ppm: PpmSettings,
+    /// Of two-pass photon mapping.
+    pub photon_map: PhotonMapSettings,
 }
 
 impl Default for RenderSettings {
@@ -113,6 +126,7 @@ impl Default for RenderSettings {
             layers: false,
             error: false,
             ppm: PpmSettings::default(),
+            photon_map: PhotonMapSettings::default(),
         }
     }
 }

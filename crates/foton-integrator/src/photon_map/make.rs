@@ -2,7 +2,7 @@
 
 use foton_math::glam::Vec3;
 use foton_math::{Cancel, Cancelled, Frame, Purpose, Ray, Rgb, Stream};
-use foton_scene::Scene;
+use foton_scene::{Scene, Sources};
 use foton_transport::guide::Cells;
 use foton_transport::kd_tree::{KdTree, MapClass, Nearest, PackedPhoton, Rgbe};
 use foton_transport::photon_map::Photon;
@@ -52,15 +52,16 @@ impl Maps {
         // Maps are for any camera: photons are aimed at no view.
         let sources = scene.sources(&[]);
         watch(Stage::Trace);
-        let shoot = |cells: &Cells, caustics, photons| {
-            let wanted = Wanted { scene, sources: &sources, cells, caustics, photons, max_depth, seed };
+        let shoot = |sources: &Sources, cells: &Cells, caustics, photons| {
+            let wanted = Wanted { scene, sources, cells, caustics, photons, max_depth, seed };
             wanted.shoot(cancel)
         };
-        let global = shoot(&Cells::unguided(&sources), false, u64::from(wanted.global_photons.get()))?;
+        let global = shoot(&sources, &Cells::unguided(&sources), false, wanted.global_photons.get().into())?;
         let has_casters = LobeUse::of(scene.census(), &LOBE_POLICY).specular;
         let caustic = if has_casters && wanted.caustic_photons > 0 {
+            let sources = sources.clone().by_direction();
             let cells = Cells::towards_casters(scene, &sources, &LOBE_POLICY);
-            shoot(&cells, true, u64::from(wanted.caustic_photons))?
+            shoot(&sources, &cells, true, u64::from(wanted.caustic_photons))?
         } else {
             Shot::default()
         };

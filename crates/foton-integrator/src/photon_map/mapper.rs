@@ -10,7 +10,7 @@ use foton_transport::direct_light::{Arrival, Lights, Receiver};
 use foton_transport::kd_tree::{MapClass, Nearest};
 use foton_transport::photon_map::PathClass;
 use foton_transport::shading::MIN_COSINE;
-use foton_transport::{LeftOut, LobeUse, Quantity, Stage, Surface};
+use foton_transport::{Ledger, LeftOut, LightUse, LobeUse, Loss, Quantity, Stage, Surface};
 
 use super::gather::{Gather, Scratch};
 use super::kept::KeptMaps;
@@ -66,6 +66,34 @@ impl PhotonMapper {
             uses: LobeUse { highlights_by_photons: false, ..lobe_use(scene) },
             settings: settings.clone(),
         })
+    }
+
+    /// Where the power of the global map's photons went.
+    pub(crate) fn ledger(&self) -> &Ledger {
+        &self.maps.account.ledger
+    }
+
+    pub(crate) fn light_use(&self) -> &[LightUse] {
+        &self.maps.account.lights
+    }
+
+    pub(crate) fn material_losses(&self) -> &[Loss] {
+        &self.maps.account.losses
+    }
+
+    /// The first photon whose power was no number.
+    pub(crate) fn left_out(&self) -> Option<LeftOut> {
+        self.maps.account.left_out
+    }
+
+    /// Photons of all maps.
+    pub(crate) fn photons_emitted(&self) -> u64 {
+        self.maps.account.emitted.iter().sum()
+    }
+
+    /// Bytes of the maps.
+    pub(crate) fn bytes(&self) -> usize {
+        self.maps.bytes()
     }
 
     /// The maps, to be kept.

@@ -54,7 +54,8 @@ impl PixelSums {
         if let Some(mut error) = self.error.take() {
             error.add(|pixel| PassPixel {
                 emission: f64::from(seen[pixel].emission.luminance()) / f64::from(samples),
-                reflected: f64::from((seen[pixel].all() - seen[pixel].emission).luminance()) / f64::from(samples),
+                reflected: f64::from((seen[pixel].all() - seen[pixel].emission).luminance())
+                    / f64::from(samples),
                 reflected_so_far: luminance(self.all[pixel]) - luminance(self.emission[pixel]),
                 scatters: seen[pixel].scatters,
             });

@@ -14,10 +14,10 @@ use super::cells::{Cell, Cells, MAX_CUTS};
 use crate::lobes::LobePolicy;
 
 /// Cells along each of the two axes that are cut most.
-const SIDE: usize = 32;
+const SIDE: usize = 64;
 
 /// Photons that look for casters in each cell.
-const PROBES: u64 = 16;
+const PROBES: u64 = 8;
 
 /// The share of photons that start as their emitters shine.
 const ELSEWHERE: f64 = 0.1;

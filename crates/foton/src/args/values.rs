@@ -146,6 +146,9 @@ pub(crate) enum Integrator {
     /// Whitted's ray tracing: shadow rays, perfect reflection and refraction, nothing else
     #[value(name = "whitted")]
     WhittedRayTracing,
+    /// Two-pass photon mapping: maps of photons that stay, shown by final gathering. Fast, with a bias that passes do not lower
+    #[value(name = "photon-map")]
+    PhotonMapping,
 }
 
 impl From<Integrator> for Method {
@@ -154,6 +157,7 @@ impl From<Integrator> for Method {
             Integrator::ProgressivePhotonMapping => Self::Ppm,
             Integrator::PathTracing => Self::Path,
             Integrator::WhittedRayTracing => Self::Whitted,
+            Integrator::PhotonMapping => Self::PhotonMap,
         }
     }
 }
