@@ -25,6 +25,7 @@ mod whitted;
 pub use error::{ClassError, ErrorEstimate, TileError};
 pub use feature::Feature;
 pub use foton_transport::codec::StateError;
+pub use foton_transport::kd_tree::KernelFilter;
 pub use foton_transport::photon_map::PathClass;
 pub use foton_transport::{
     Cancel, Cancelled, Halt, Ledger, LightUse, LobeUse, Loss, NotFinite, Quantity, ShouldSuspend, Stage,

@@ -25,6 +25,7 @@ pub mod findings;
 pub mod folders;
 mod in_time;
 mod interrupt;
+pub mod maps;
 mod metadata;
 mod panic;
 mod preset;
@@ -38,8 +39,8 @@ pub mod threads;
 pub use clock::StageTimes;
 pub use engine::Engine;
 pub use foton_integrator::{
-    Alpha, ClassError, DirectLight, ErrorEstimate, Ledger, PathClass, Radii, RadiusFloor, RadiusRule,
-    RadiusScale, RenderSettings, SettingChange, Stage,
+    Alpha, ClassError, DirectLight, ErrorEstimate, KeptMaps, Ledger, PathClass, Radii, RadiusFloor,
+    RadiusRule, RadiusScale, RenderSettings, SettingChange, Stage,
 };
 pub use interrupt::Interrupt;
 pub use metadata::SceneIdentity;

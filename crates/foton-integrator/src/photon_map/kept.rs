@@ -46,6 +46,16 @@ impl KeptMaps {
         self.0.max_depth
     }
 
+    /// A number that other photons hardly share.
+    #[must_use]
+    pub fn fingerprint(&self) -> u64 {
+        let trees = [&self.0.global, &self.0.caustic, &self.0.irradiance, &self.0.lit];
+        // A few thousand photons tell.
+        let some = trees.into_iter().flat_map(|tree| tree.nodes().iter().step_by(tree.len() / 1024 + 1));
+        let bytes = some.flat_map(|photon| photon.to_bytes());
+        bytes.fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
+    }
+
     /// As they stand in a file.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {

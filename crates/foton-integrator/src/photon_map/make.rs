@@ -16,8 +16,10 @@ use super::shoot::{Shot, Wanted};
 use crate::ppm::LOBE_POLICY;
 use crate::settings::RenderSettings;
 
-/// Irradiance is computed at one photon of so many. `[CHR99]`
-const PHOTONS_PER_IRRADIANCE: usize = 4;
+/// Irradiance is kept where one photon of so many lies `[CHR99]`. That photon counts for no estimate, the others for more: were it one of
+/// those that tell how densely they lie, irradiance would be kept where they happen to lie densely, and looked up farther around where
+/// they do not, both of which is bias.
+const PHOTONS_PER_IRRADIANCE: usize = 8;
 
 /// Photons of a tree whose distances tell how far others are looked for.
 const PROBED: usize = 256;
@@ -56,7 +58,12 @@ impl Maps {
             let wanted = Wanted { scene, sources, cells, caustics, photons, max_depth, seed };
             wanted.shoot(cancel)
         };
-        let global = shoot(&sources, &Cells::unguided(&sources), false, wanted.global_photons.get().into())?;
+        let global = shoot(
+            &sources,
+            &Cells::unguided(&sources),
+            false,
+            with_sites(wanted.global_photons.get().into()),
+        )?;
         let has_casters = LobeUse::of(scene.census(), &LOBE_POLICY).specular;
         let caustic = if has_casters && wanted.caustic_photons > 0 {
             let sources = sources.clone().by_direction();
@@ -67,8 +74,8 @@ impl Maps {
         };
         watch(Stage::Sort);
         let mut maps = Self {
-            global: KdTree::new(pack(&global, seed, ROUNDING)),
-            caustic: KdTree::new(pack(&caustic, seed, ROUNDING + 1)),
+            global: KdTree::new(pack(&global, PHOTONS_PER_IRRADIANCE, seed, ROUNDING)),
+            caustic: KdTree::new(pack(&caustic, usize::MAX, seed, ROUNDING + 1)),
             max_depth,
             neighbours: wanted.neighbours.get(),
             ..Self::default()
@@ -137,10 +144,20 @@ struct Kept {
     disc: f32,
 }
 
-/// The photons of a map with the power of each.
-fn pack(shot: &Shot, seed: u64, pass: u64) -> Vec<PackedPhoton> {
-    let share = 1.0 / (shot.emitted as f32).max(1.0);
+/// Photons such that so many are left without those where irradiance is kept.
+const fn with_sites(photons: u64) -> u64 {
+    let every = PHOTONS_PER_IRRADIANCE as u64;
+    (photons * every).div_ceil(every - 1)
+}
+
+/// The photons of a map with the power of each, but for the first of every `every`.
+fn pack(shot: &Shot, every: usize, seed: u64, pass: u64) -> Vec<PackedPhoton> {
+    let left = 1.0 - 1.0 / every as f32;
+    let share = 1.0 / ((shot.emitted as f32).max(1.0) * left);
     let packed = |(i, photon): (usize, &Photon)| {
+        if i.is_multiple_of(every) && every < usize::MAX {
+            return None;
+        }
         let power = photon.power * share;
         if !power.is_finite() || power.is_black() {
             return None;

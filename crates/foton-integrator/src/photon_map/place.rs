@@ -18,7 +18,7 @@ const ROUNDING: f32 = 1e-3;
 const PROBES: u32 = 16;
 
 /// Surfaces above one that are passed on the way to it.
-const MAX_PASSED: u32 = 4;
+const MAX_PASSED: u32 = 16;
 
 /// A point of a surface that light is looked up for.
 #[derive(Clone, Copy, Debug)]

@@ -10,6 +10,7 @@ use foton_session::snapshot::{Format, Look};
 
 use super::options::{SceneOptions, SettingsOptions};
 use super::parse::{bytes, duration, error_wish, image, layer, name, region, stops};
+use super::photon_map::PhotonMapOptions;
 use super::values::{ErrorWish, Every, Integrator, PresetName, ToneMapName};
 
 /// `foton render`.
@@ -40,7 +41,9 @@ pub(crate) struct RenderArgs {
     /// Light transport method
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Integrator::ProgressivePhotonMapping)]
     pub(crate) integrator: Integrator,
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = "Two-pass photon mapping (--integrator photon-map)")]
+    pub(crate) photon_map: PhotonMapOptions,
+    #[command(flatten, next_help_heading = "Options")]
     pub(crate) scene_options: SceneOptions,
     /// Render only a part of the image: W x H pixels from column X and row Y of the whole, in place of a crop window of the scene.
     /// The image has that size. Photons and radii go by what is seen in it, so its pixels are those of the whole image only up

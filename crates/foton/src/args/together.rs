@@ -1,5 +1,6 @@
 //! Options that contradict each other, or name one file twice: refused before anything is read.
 
+use foton_integrator::Method;
 use foton_session::snapshot::Format;
 
 use super::{Args, Command, Compare, Convert, ErrorWish, Info, Measure, RenderArgs};
@@ -62,7 +63,19 @@ impl Measure {
 impl RenderArgs {
     /// What cannot be done as it was asked for, and what would help.
     fn contradiction(&self) -> Option<String> {
-        self.layers_in_vain().or_else(|| self.look_in_vain()).or_else(|| clash(&self.roles()))
+        self.layers_in_vain()
+            .or_else(|| self.look_in_vain())
+            .or_else(|| self.maps_in_vain())
+            .or_else(|| clash(&self.roles()))
+    }
+
+    fn maps_in_vain(&self) -> Option<String> {
+        let maps = &self.photon_map;
+        let option =
+            maps.maps.as_ref().map(|_| "--maps").or(maps.save_maps.as_ref().map(|_| "--save-maps"))?;
+        (Method::from(self.integrator) != Method::PhotonMap).then(|| {
+            format!("{option}: only --integrator photon-map has photon maps; add that, or leave {option} out")
+        })
     }
 
     fn look_in_vain(&self) -> Option<String> {
@@ -106,6 +119,8 @@ impl RenderArgs {
             .keeps(self.checkpoint.as_deref())
             .writes_numbered(&self.output.0, self.every)
             .resumes(self.resume.as_deref())
+            .writes("--save-maps", self.photon_map.save_maps.as_deref())
+            .reads("--maps", self.photon_map.maps.as_deref())
             .reads("the scene", Some(&self.scene))
     }
 }
