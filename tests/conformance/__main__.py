@@ -10,8 +10,10 @@ import time
 from pathlib import Path
 
 import box_spheres
+import depth_of_field
 import depths
 import diffuse_box
+import path_tracing
 import shared_scenes
 from foton import Foton
 from mitsuba_side import Mitsuba
@@ -25,7 +27,7 @@ def main():
     parser.add_argument("--foton", type=Path, required=True, help="the program to test")
     parser.add_argument("--repository", type=Path, required=True, help="where assets/ is")
     parser.add_argument("--out", type=Path, required=True, help="folder for pictures and cached references")
-    parser.add_argument("--quick", action="store_true", help="only the diffuse box of assets/, small")
+    parser.add_argument("--quick", action="store_true", help="only a diffuse box of assets/, small")
     options = parser.parse_args()
 
     started = time.monotonic()
@@ -38,10 +40,13 @@ def main():
     print(f"{foton.version()} against Mitsuba {mitsuba.version} ({mitsuba.variant})", flush=True)
     if options.quick:
         diffuse_box.check(report, foton, mitsuba, diffuse[0], options.out, diffuse_box.QUICK)
+        path_tracing.check(report, foton, mitsuba, diffuse[0], path_tracing.QUICK)
     else:
         for scene in diffuse:
             diffuse_box.check(report, foton, mitsuba, scene, options.out, diffuse_box.FULL)
+            path_tracing.check(report, foton, mitsuba, scene, path_tracing.FULL)
         box_spheres.check(report, foton, mitsuba, benchmark, options.out)
+        depth_of_field.check(report, foton, mitsuba, options.repository, options.out)
         depths.check(report, foton, mitsuba, [*diffuse, benchmark])
         shared_scenes.check(report, foton, mitsuba, shared_scenes.find_shared(options.repository), options.out)
     report.print_table()

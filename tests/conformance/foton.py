@@ -18,14 +18,22 @@ class Foton:
         """What the program says of itself."""
         return self.run("--version").strip()
 
-    def render(self, prepared, seed, passes, photons, spp, radius=None, direct="photons"):
+    def render(self, prepared, seed, passes, photons, spp, radius=None, direct="photons", method="ppm"):
         """Renders and returns the image as (height, width, 3) float64. Without a radius the program takes its own."""
-        image = self.folder / f"foton-{prepared.stem}-s{seed}.exr"
+        image = self.folder / f"foton-{method}-{prepared.stem}-s{seed}.exr"
         arguments = ["render", prepared, "-o", image, "--passes", passes, "--photons", photons, "--seed", seed]
-        arguments += ["--spp", spp, "--direct", direct]
+        arguments += ["--spp", spp, "--integrator", method]
+        if method == "ppm":
+            arguments += ["--direct", direct]
         if radius is not None:
             arguments += ["--radius", radius]
         self.run(*arguments)
+        return read_image(image)
+
+    def trace_paths(self, prepared, seed, samples):
+        """Renders by path tracing with so many samples a pixel; as (height, width, 3) float64."""
+        image = self.folder / f"foton-{prepared.stem}-path-s{seed}.exr"
+        self.run("render", prepared, "-o", image, "--integrator", "path", "--passes", samples, "--seed", seed)
         return read_image(image)
 
     def run(self, *arguments):

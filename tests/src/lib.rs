@@ -39,6 +39,7 @@ impl Sketch {
             filter: Filter::Box { radius: 0.5 },
             near_clip: None,
             far_clip: None,
+            lens: None,
         });
         self
     }

@@ -2,7 +2,7 @@
 
 use foton_scene::bsdf::Bsdf;
 use foton_scene::parameter::{Kind, Parameter};
-use foton_scene::plugins::{Plugin, emitters, shapes, textures, wrappers};
+use foton_scene::plugins::{Plugin, emitters, sensors, shapes, textures, wrappers};
 
 /// A plugin with the parameters that it declares.
 pub struct Declared {
@@ -24,6 +24,7 @@ pub fn declared() -> Vec<Declared> {
     };
     let mut all = bsdfs();
     all.extend(wrappers::ALL.iter().map(of("bsdf")));
+    all.extend(sensors::ALL.iter().map(of("sensor")));
     all.extend(emitters::ALL.iter().map(of("emitter")));
     all.extend(shapes::ALL.iter().map(of("shape")));
     all.extend(textures::ALL.iter().map(of("texture")));
@@ -104,6 +105,7 @@ fn kind(parameter: &Parameter) -> String {
         Kind::Refraction => "number, or the name of a substance".to_owned(),
         Kind::Boolean => "boolean".to_owned(),
         Kind::Choice(words) => words.iter().map(|w| format!("`{w}`")).collect::<Vec<_>>().join(" or "),
+        Kind::Millimetres => "millimetres, such as `50mm`".to_owned(),
         Kind::Metal => "name of a metal".to_owned(),
         Kind::Vector => "point or vector".to_owned(),
         Kind::Transform => "transform".to_owned(),

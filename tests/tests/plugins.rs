@@ -24,6 +24,7 @@ fn value(parameter: &Parameter) -> String {
         Kind::Integer => format!(r#"<integer name="{name}" value="0"/>"#),
         Kind::Boolean => format!(r#"<boolean name="{name}" value="true"/>"#),
         Kind::Choice(words) => format!(r#"<string name="{name}" value="{}"/>"#, words[words.len() - 1]),
+        Kind::Millimetres => format!(r#"<string name="{name}" value="35mm"/>"#),
         Kind::Metal => format!(r#"<string name="{name}" value="Au"/>"#),
         Kind::Vector => format!(r#"<point name="{name}" value="0, 0, 2"/>"#),
         Kind::Transform => format!(r#"<transform name="{name}"><translate x="1"/></transform>"#),
@@ -36,6 +37,9 @@ fn value(parameter: &Parameter) -> String {
 fn said(plugin: &Declared, contents: &str) -> String {
     let inside = match plugin.name {
         "mask" | "twosided" => r#"<bsdf type="diffuse"/>"#,
+        "thinlens" if !contents.contains("aperture_radius") => {
+            r#"<float name="aperture_radius" value="0.1"/>"#
+        }
         _ => "",
     };
     let Declared { tag, name, .. } = plugin;
@@ -62,10 +66,11 @@ fn every_declared_parameter_is_read() {
     for plugin in declared() {
         for parameter in &plugin.parameters {
             let mut contents = value(parameter);
-            // Both axes of a roughness are said together.
+            // Both axes of a roughness are said together, and an axis of the angle of view with the angle.
             let pair = match parameter.name {
                 "alpha_u" => Some("alpha_v"),
                 "alpha_v" => Some("alpha_u"),
+                "fov_axis" => Some("fov"),
                 _ => None,
             };
             contents.extend(plugin.parameters.iter().filter(|p| Some(p.name) == pair).map(value));

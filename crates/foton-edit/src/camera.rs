@@ -7,9 +7,14 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use foton_math::glam::{DAffine3, DMat3, DVec3};
-use foton_scene::description::SensorDescription;
+use foton_scene::description::{Lens, SensorDescription};
+use foton_scene::parameter::Parameter;
+use foton_scene::plugins::sensors;
 
 use super::view::View;
+
+/// What is declared of a lens: its aperture radius and its focus distance.
+pub const LENS: [Parameter; 2] = [sensors::APERTURE_RADIUS, sensors::FOCUS_DISTANCE];
 
 /// Fields of view that a person can set, in degrees.
 pub const FOV_RANGE: (f64, f64) = (1.0, 170.0);
@@ -123,6 +128,8 @@ pub struct Camera {
     pub up: UpAxis,
     /// Field of view along the sensor's axis, in degrees.
     pub fov_degrees: f64,
+    /// What blurs things out of focus.
+    pub lens: Option<Lens>,
     /// Whether left and right are exchanged in the image.
     mirrored: bool,
     /// The camera of the file, and what its transform became.
@@ -152,6 +159,7 @@ impl Camera {
             roll: 0.0,
             up,
             fov_degrees: sensor.fov_degrees,
+            lens: sensor.lens,
             mirrored: sensor.to_world.matrix3.determinant() < 0.0,
             original: Box::new((sensor.to_world, sensor.fov_degrees)),
             is_moved: false,
@@ -189,10 +197,11 @@ impl Camera {
         DAffine3::from_mat3_translation(DMat3::from_cols(left, up, forward), self.position().into())
     }
 
-    /// The sensor with this camera's place and field of view.
+    /// The sensor with this camera's place, field of view and lens.
     #[must_use]
     pub fn applied_to(&self, sensor: &SensorDescription) -> SensorDescription {
-        SensorDescription { to_world: self.to_world(), fov_degrees: self.fov_degrees, ..sensor.clone() }
+        let (to_world, fov_degrees, lens) = (self.to_world(), self.fov_degrees, self.lens);
+        SensorDescription { to_world, fov_degrees, lens, ..sensor.clone() }
     }
 
     /// Turns around the target, by angles in radians; a positive pitch lets it look further up.
@@ -271,6 +280,24 @@ impl Camera {
     pub fn set_fov(&mut self, degrees: f64) {
         if degrees.is_finite() {
             self.fov_degrees = degrees.clamp(FOV_RANGE.0, FOV_RANGE.1);
+        }
+    }
+
+    /// Sets the radius of the lens in world units, 0 for a pinhole. A new lens is focused on the target.
+    pub fn set_aperture(&mut self, radius: f64) {
+        if radius.is_finite() && radius >= 0.0 {
+            let focus_distance = self.lens.map_or(self.distance, |lens| lens.focus_distance);
+            self.lens = Some(Lens { aperture_radius: radius, focus_distance });
+        }
+    }
+
+    /// Sets the depth at which things are sharp, in world units. A camera without a lens stays without one.
+    pub fn set_focus(&mut self, distance: f64) {
+        if let Some(lens) = &mut self.lens
+            && distance.is_finite()
+            && distance > 0.0
+        {
+            lens.focus_distance = distance;
         }
     }
 

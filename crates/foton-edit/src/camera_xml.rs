@@ -5,6 +5,7 @@
 use std::fmt::Write;
 
 use foton_scene::description::{Filter, FovAxis, SensorDescription};
+use foton_scene::plugins::sensors;
 
 /// The `<sensor>` element of a camera. It reads back as an equal camera.
 #[must_use]
@@ -16,8 +17,16 @@ pub fn camera_xml(sensor: &SensorDescription) -> String {
         FovAxis::Smaller => "smaller",
         FovAxis::Larger => "larger",
     };
-    let mut xml = String::from("<sensor type=\"perspective\">\n");
+    let plugin = if sensor.lens.is_some() { sensors::THINLENS } else { sensors::PERSPECTIVE };
+    let mut xml = format!("<sensor type=\"{}\">\n", plugin.name);
     // Writing to a string does not fail.
+    if let Some(lens) = sensor.lens {
+        for (parameter, value) in
+            [(sensors::APERTURE_RADIUS, lens.aperture_radius), (sensors::FOCUS_DISTANCE, lens.focus_distance)]
+        {
+            let _ = writeln!(xml, "    <float name=\"{}\" value=\"{value}\"/>", parameter.name);
+        }
+    }
     let _ = writeln!(xml, "    <float name=\"fov\" value=\"{}\"/>", sensor.fov_degrees);
     let _ = writeln!(xml, "    <string name=\"fov_axis\" value=\"{axis}\"/>");
     for (name, clip) in [("near_clip", sensor.near_clip), ("far_clip", sensor.far_clip)] {

@@ -32,7 +32,7 @@ mod tests;
 
 pub use additions::{NewThing, Site};
 pub use apply::Edit;
-pub use camera::{Camera, FOV_RANGE, UpAxis, ViewSide};
+pub use camera::{Camera, FOV_RANGE, LENS, UpAxis, ViewSide};
 pub use camera_xml::camera_xml;
 pub use contents::{Item, contents};
 pub use edit_error::EditError;

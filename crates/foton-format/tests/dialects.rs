@@ -6,7 +6,7 @@ use std::path::Path;
 use foton_format::{Opened, Options, Suggested, read_str};
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
-use foton_scene::description::{Bsdf, Diffuse, EmitterKind, Geometry, Plastic};
+use foton_scene::description::{Bsdf, Diffuse, EmitterKind, Geometry, Lens, Plastic};
 
 fn files(path: &Path) -> io::Result<Vec<u8>> {
     let text = |text: &str| Ok(text.as_bytes().to_vec());
@@ -37,6 +37,16 @@ fn read_version(version: &str, snippet: &str) -> Opened {
 
 fn read(snippet: &str) -> Opened {
     read_version("3.0.0", snippet)
+}
+
+#[test]
+fn a_lens_of_an_old_file_is_read_by_its_old_names() {
+    let opened = read_version(
+        "0.6.0",
+        "<sensor type='thinlens'><float name='apertureRadius' value='0.25'/><float name='focusDistance' value='3'/></sensor>",
+    );
+    let lens = Lens { aperture_radius: 0.25, focus_distance: 3.0 };
+    assert_eq!(opened.description.sensors[1].lens, Some(lens));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use foton_format::{Opened, Options, Saved, open, read_str, save_edited};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{
-    Bsdf, Colour, Conductor, Dielectric, Diffuse, EmitterKind, FovAxis, Geometry, Mesh,
+    Bsdf, Colour, Conductor, Dielectric, Diffuse, EmitterKind, FovAxis, Geometry, Lens, Mesh,
     MicrofacetDistribution, Microfacets, Mirror, Plastic, SceneDescription, ShapeDescription,
 };
 
@@ -257,6 +257,10 @@ fn lights_and_cameras_change_in_place() {
         d.sensors[0].width = 128;
     });
     assert!(lines.iter().all(|l| !l.contains("focal_length")), "{lines:?}");
+    let lines = changed_lines(&folder, |d| {
+        d.sensors[0].lens = Some(Lens { aperture_radius: 0.25, focus_distance: 3.0 });
+    });
+    assert!(lines.iter().any(|l| l.contains("thinlens")), "{lines:?}");
     assert!(fs::read_to_string(folder.saved()).unwrap().contains("Fifty millimetres"));
 }
 

@@ -180,6 +180,37 @@ fn cameras_have_mitsubas_defaults() {
 }
 
 #[test]
+fn a_lens_is_focused_where_the_file_says_or_as_far_as_the_camera_sees() {
+    let lens = |inside: &str| {
+        let sensor = format!("<sensor type='thinlens'><float name='fov' value='40'/>{inside}</sensor>");
+        let opened = read_with(&sensor, &[]);
+        assert_eq!(opened.warnings, []);
+        assert_eq!(opened.description.sensors[0].fov_degrees, 40.0);
+        opened.description.sensors[0].lens.map(|lens| (lens.aperture_radius, lens.focus_distance))
+    };
+    let aperture = "<float name='aperture_radius' value='0.25'/>";
+    assert_eq!(lens(&format!("{aperture}<float name='focus_distance' value='3'/>")), Some((0.25, 3.0)));
+    assert_eq!(lens(&format!("{aperture}<float name='far_clip' value='90'/>")), Some((0.25, 90.0)));
+    assert_eq!(lens(aperture), Some((0.25, 1e4)), "Mitsuba's own far_clip");
+    let refused = |sensor: &str| {
+        let xml = format!("<scene version='3.0.0'>{sensor}</scene>");
+        match read_str("s.xml", &xml, &files, &Options::default()) {
+            Ok(_) => panic!("{sensor}"),
+            Err(error) => error.to_string(),
+        }
+    };
+    let said = refused("<sensor type='thinlens'/>");
+    assert!(said.contains("s.xml:1:24: a \"thinlens\" needs an \"aperture_radius\""), "{said}");
+    let value = |name: &str, value: &str| {
+        refused(&format!("<sensor type='thinlens'>{aperture}<float name='{name}' value='{value}'/></sensor>"))
+    };
+    assert!(value("focus_distance", "0").contains("\"focus_distance\" must be above zero"));
+    assert!(value("principal_point_offset_x", "0.1").contains("of \"thinlens\" is not supported yet"));
+    let negative = refused("<sensor type='thinlens'><float name='aperture_radius' value='-1'/></sensor>");
+    assert!(negative.contains("\"aperture_radius\" must not be negative"), "{negative}");
+}
+
+#[test]
 fn all_that_a_camera_states_is_read() {
     let film = |filter: &str| {
         let sensor = format!(

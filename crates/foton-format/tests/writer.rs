@@ -9,8 +9,9 @@ use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
     Bitmap, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, EmitterDescription, EmitterKind, Filter,
-    FovAxis, Geometry, Hidden, Material, Mesh, MicrofacetDistribution, Microfacets, Mirror, Null, Plastic,
-    SceneDescription, SensorDescription, ShapeDescription, Texture, TextureKind, ThinDielectric, Wrap,
+    FovAxis, Geometry, Hidden, Lens, Material, Mesh, MicrofacetDistribution, Microfacets, Mirror, Null,
+    Plastic, SceneDescription, SensorDescription, ShapeDescription, Texture, TextureKind, ThinDielectric,
+    Wrap,
 };
 
 /// A folder of a test's own, removed when the test is over.
@@ -51,8 +52,8 @@ fn assert_same(a: &SceneDescription, b: &SceneDescription) {
         assert_eq!(a.to_world, b.to_world);
         assert_eq!((a.fov_degrees, a.fov_axis, a.filter), (b.fov_degrees, b.fov_axis, b.filter));
         assert_eq!(
-            (a.width, a.height, a.near_clip, a.far_clip),
-            (b.width, b.height, b.near_clip, b.far_clip)
+            (a.width, a.height, a.near_clip, a.far_clip, a.lens),
+            (b.width, b.height, b.near_clip, b.far_clip, b.lens)
         );
     }
     assert_eq!(a.emitters.len(), b.emitters.len());
@@ -247,11 +248,13 @@ fn sensors() -> Vec<SensorDescription> {
         filter,
         near_clip,
         far_clip: near_clip.map(|near| near + 100.0),
+        lens: None,
     };
     vec![
         sensor(FovAxis::Larger, Filter::Box { radius: 0.5 }, Some(odd(1))),
         SensorDescription {
             crop: Some(Crop { x: 10, y: 20, width: 100, height: 80 }),
+            lens: Some(Lens { aperture_radius: odd(3), focus_distance: odd(4).abs() }),
             ..sensor(FovAxis::X, Filter::Box { radius: 0.5 }, None)
         },
         sensor(FovAxis::Diagonal, Filter::Tent { radius: 1.1 }, None),

@@ -79,6 +79,12 @@ impl Method {
         matches!(self, Self::Path | Self::Whitted)
     }
 
+    /// Whether it finds all light in any scene, sooner or later, without bias that stays.
+    #[must_use]
+    pub const fn finds_all_light(self) -> bool {
+        self.has_photons()
+    }
+
     /// Whether passes have photons.
     #[must_use]
     pub const fn has_photons(self) -> bool {

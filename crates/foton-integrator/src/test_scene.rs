@@ -48,6 +48,7 @@ pub(crate) fn description() -> SceneDescription {
             filter: Filter::Box { radius: 0.5 },
             near_clip: None,
             far_clip: None,
+            lens: None,
         }],
         materials: vec![material("chalk", diffuse, Some(diffuse)), material("glass", glass, None)],
         shapes: vec![

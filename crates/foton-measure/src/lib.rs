@@ -25,9 +25,11 @@ mod flip;
 mod heat;
 mod pair;
 pub mod plot;
+mod sheet;
 pub mod sweep;
 
 pub use flip::{Flip, PIXELS_PER_DEGREE};
 pub use heat::{heat, scale_top, viridis};
 pub use pair::{Channels, CompareError, NonFinite, Pair};
+pub use sheet::{Panel, contact_sheet};
 pub use sweep::processor_time;

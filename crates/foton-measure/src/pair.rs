@@ -96,6 +96,21 @@ impl<'a> Pair<'a> {
         Channels { rgb: mean_square.rgb.map(f64::sqrt), all: mean_square.all.sqrt() }
     }
 
+    /// Root mean square difference of luminance over the mean luminance of the reference, both without the brightest 0.5 % of its pixels:
+    /// emitters that are seen would otherwise outweigh all that they light.
+    #[must_use]
+    pub fn trimmed_rmse(&self) -> f64 {
+        const BRIGHTEST: f64 = 0.005;
+        let mut pixels: Vec<[f64; 2]> =
+            self.finite().map(|(x, y)| [x, y].map(|c| f64::from(c.luminance()))).collect();
+        pixels.sort_by(|a, b| a[1].total_cmp(&b[1]));
+        pixels.truncate(pixels.len() - (pixels.len() as f64 * BRIGHTEST) as usize);
+        let count = pixels.len() as f64;
+        let mean = pixels.iter().map(|[_, y]| y).sum::<f64>() / count;
+        let square = pixels.iter().map(|[x, y]| (x - y) * (x - y)).sum::<f64>() / count;
+        square.sqrt() / mean
+    }
+
     /// Relative mean square error mean((x − y)²/(y² + 0.01)).
     #[must_use]
     pub fn rel_mse(&self) -> Channels {

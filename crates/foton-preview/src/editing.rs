@@ -11,6 +11,10 @@ pub(crate) struct Editing {
     pub(crate) snap: bool,
     /// Whether the next click aims the selected light.
     pub(crate) aiming: bool,
+    /// Whether the next click focuses the lens.
+    pub(crate) focusing: bool,
+    /// Keys that are held to fly.
+    pub(crate) flying: Vec<egui::Key>,
     /// The handle under the pointer, or the one that is dragged.
     pub(crate) handle: Option<Handle>,
     /// Whether the button went down to close a menu or a list: it does nothing else until it goes up.

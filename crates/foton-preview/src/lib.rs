@@ -15,6 +15,7 @@ mod preferences;
 mod present;
 mod state;
 mod themes;
+mod turns;
 mod window;
 
 pub use looking::BuiltIn;

@@ -1,7 +1,10 @@
-//! The perspective camera: film positions to rays, and what a pixel covers.
+//! Perspective cameras with a pinhole or a thin lens: film positions to rays, and what a pixel covers.
+
+use std::f32::consts::PI;
 
 use foton_math::Ray;
 use foton_math::glam::{DVec3, Vec2, Vec3};
+use foton_math::warp::square_to_disc;
 
 use crate::description::{Crop, FovAxis, SensorDescription};
 use crate::filter::FilterSampler;
@@ -29,6 +32,17 @@ pub struct Sensor {
     /// Depth bounds in scene units.
     near: f32,
     far: f32,
+    lens: Option<ThinLens>,
+}
+
+/// A lens in scene units.
+#[derive(Clone, Copy, Debug)]
+struct ThinLens {
+    /// Vectors from its middle to its edge, along the image's width and height.
+    right: Vec3,
+    up: Vec3,
+    radius: f32,
+    focus_distance: f32,
 }
 
 impl Sensor {
@@ -63,22 +77,65 @@ impl Sensor {
             forward: forward.as_vec3(),
             near: depth(description.near_clip, 0.0),
             far: depth(description.far_clip, f32::INFINITY),
+            lens: description.lens.filter(|lens| lens.aperture_radius > 0.0).map(|lens| {
+                let radius = normalisation.length(lens.aperture_radius);
+                let focus_distance = normalisation.length(lens.focus_distance);
+                let [right, up] = [-left, up].map(|axis| axis.as_vec3() * radius);
+                ThinLens { right, up, radius, focus_distance }
+            }),
         }
     }
 
-    /// The ray through a film position in pixels, (0, 0) being the top left corner of what is rendered.
+    /// The ray through a film position in pixels, (0, 0) being the top left corner of what is rendered; with a lens the one through
+    /// its middle.
     #[must_use]
     pub fn ray(&self, film: Vec2) -> Ray {
+        self.ray_from(Vec3::ZERO, self.at_depth_1(film))
+    }
+
+    /// The ray that an eye sample follows: through a film position and, where there is a lens, through a point of it, which `lens`
+    /// chooses uniformly from the unit square. All rays of a film position meet at the distance in focus.
+    #[must_use]
+    pub fn eye_ray(&self, film: Vec2, lens: Vec2) -> Ray {
+        let v = self.at_depth_1(film);
+        let Some(thin) = &self.lens else { return self.ray_from(Vec3::ZERO, v) };
+        let disc = square_to_disc(lens);
+        let from = thin.right * disc.x + thin.up * disc.y;
+        self.ray_from(from, v - from / thin.focus_distance)
+    }
+
+    /// From the camera's position to what a film position shows at depth 1.
+    fn at_depth_1(&self, film: Vec2) -> Vec3 {
         let place = (film + self.corner) / self.film;
         let (x, y) = (2.0 * place.x - 1.0, 1.0 - 2.0 * place.y);
-        let v = self.forward + self.right * x + self.up * y;
+        self.forward + self.right * x + self.up * y
+    }
+
+    /// The ray from a point of the lens, relative to its middle, along a vector whose depth is 1.
+    fn ray_from(&self, lens: Vec3, v: Vec3) -> Ray {
         let length = v.length();
         Ray {
-            origin: self.origin,
+            origin: self.origin + lens,
             direction: v / length,
             t_min: self.near * length,
             t_max: self.far * length,
         }
+    }
+
+    /// Radius and focus distance of its lens in scene units; `None` for a pinhole.
+    #[must_use]
+    pub fn lens(&self) -> Option<[f32; 2]> {
+        self.lens.map(|lens| [lens.radius, lens.focus_distance])
+    }
+
+    /// Area of the disc over which a lens spreads a film position at a distance along a ray of unit `direction`, perpendicular to
+    /// the camera's axis: the circle of confusion, projected into the scene. 0 for a pinhole.
+    #[must_use]
+    pub fn confusion(&self, direction: Vec3, distance: f32) -> f32 {
+        let Some(thin) = &self.lens else { return 0.0 };
+        let depth = distance * direction.dot(self.forward);
+        let radius = thin.radius * (depth / thin.focus_distance - 1.0);
+        PI * radius * radius
     }
 
     /// The part of the whole image that is rendered.
@@ -141,7 +198,7 @@ impl Sensor {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::description::Filter;
+    use crate::description::{Filter, Lens};
     use foton_math::glam::DAffine3;
 
     fn sensor(axis: FovAxis) -> Sensor {
@@ -162,7 +219,44 @@ mod tests {
             filter: Filter::Box { radius: 0.5 },
             near_clip: None,
             far_clip: None,
+            lens: None,
         }
+    }
+
+    #[test]
+    fn all_rays_of_a_film_position_meet_in_focus_and_spread_over_the_circle_of_confusion() {
+        let lens = Lens { aperture_radius: 0.25, focus_distance: 4.0 };
+        let description = SensorDescription { lens: Some(lens), ..description(FovAxis::X) };
+        let s = Sensor::new(&description, &Normalisation::IDENTITY);
+        for film in [Vec2::new(100.0, 50.0), Vec2::new(12.0, 90.0)] {
+            let middle = s.ray(film);
+            let at = |ray: &Ray, depth: f32| ray.at(depth / ray.direction.dot(-Vec3::Z));
+            let mut widest = [0f32; 2];
+            for i in 0..256 {
+                let u = Vec2::new((i % 16) as f32 / 15.0, (i / 16) as f32 / 15.0);
+                let ray = s.eye_ray(film, u);
+                assert!(at(&ray, 4.0).distance(at(&middle, 4.0)) < 1e-5, "{film} {u}");
+                assert!((ray.origin.z - 5.0).abs() < 1e-6, "from the plane of the lens");
+                // r |z/f − 1|, nearer and farther than the focus.
+                for (widest, depth) in widest.iter_mut().zip([1.0, 12.0]) {
+                    *widest = widest.max(
+                        (ray.origin + ray.direction * (depth / -ray.direction.z))
+                            .distance(at(&middle, depth)),
+                    );
+                }
+            }
+            for (widest, (depth, expected)) in widest.into_iter().zip([(1.0, 0.1875), (12.0, 0.5)]) {
+                assert!((widest / expected - 1.0).abs() < 1e-4, "{widest} {expected}");
+                let distance = depth / middle.direction.dot(-Vec3::Z);
+                let area = s.confusion(middle.direction, distance);
+                assert!((area / (PI * expected * expected) - 1.0).abs() < 1e-4, "{area}");
+            }
+        }
+        assert_eq!(s.lens(), Some([0.25, 4.0]));
+        let closed = SensorDescription { lens: Some(Lens { aperture_radius: 0.0, ..lens }), ..description };
+        let pinhole = Sensor::new(&closed, &Normalisation::IDENTITY);
+        assert_eq!(pinhole.lens(), None);
+        assert_eq!(pinhole.eye_ray(Vec2::ONE, Vec2::ZERO).origin, pinhole.ray(Vec2::ONE).origin);
     }
 
     #[test]

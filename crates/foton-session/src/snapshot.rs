@@ -75,9 +75,15 @@ pub fn write(
 /// `OUT-000016.exr` for `OUT.exr` after 16 passes.
 #[must_use]
 pub fn numbered(path: &Path, pass: u64) -> PathBuf {
+    suffixed(path, &format!("{pass:06}"))
+}
+
+/// `OUT-SUFFIX.exr` for `OUT.exr`.
+#[must_use]
+pub fn suffixed(path: &Path, suffix: &str) -> PathBuf {
     // Names need not be text.
     let mut name = path.file_stem().unwrap_or_default().to_owned();
-    name.push(format!("-{pass:06}."));
+    name.push(format!("-{suffix}."));
     name.push(path.extension().unwrap_or_default());
     path.with_file_name(name)
 }

@@ -31,6 +31,7 @@ pub(crate) fn discs(radiance: Option<Rgb>) -> Scene {
             filter: Filter::Box { radius: 0.5 },
             near_clip: None,
             far_clip: None,
+            lens: None,
         }],
         materials: vec![Material { name: "white".into(), front: white, back: None, opacity: None }],
         shapes: vec![

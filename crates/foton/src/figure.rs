@@ -1,6 +1,6 @@
 //! The live error in words and in JSON.
 
-use foton_integrator::{ClassError, ErrorEstimate};
+use foton_integrator::{ClassError, ErrorEstimate, Method};
 use serde_json::{Value, json};
 
 /// Names of the path classes, in their order.
@@ -13,13 +13,28 @@ pub(crate) fn classes_text(e: &ErrorEstimate) -> String {
     if parts.is_empty() { String::new() } else { format!("; of it {}", parts.join(", ")) }
 }
 
-/// What the upper end of the error takes for granted.
-pub(crate) fn upper_end_text(e: &ErrorEstimate) -> &'static str {
-    if e.is_of_narrow_light() {
-        "uncertain because light is narrower than the discs (foci, beams), so that a few bright pixels decide"
+/// What the upper end of the error takes for granted, and what the error leaves out.
+pub(crate) fn limits_text(e: &ErrorEstimate, method: Method) -> String {
+    let upper_end = if !method.has_photons() {
+        ""
+    } else if e.is_of_narrow_light() {
+        ", uncertain because light is narrower than the discs (foci, beams), so that a few bright pixels decide"
     } else {
-        "if all bias is at edges"
-    }
+        ", if all bias is at edges"
+    };
+    let missed = match (method.renews_eye_samples(), method.has_photons()) {
+        (false, _) => "what eye samples miss and what no photon has found",
+        (true, true) => "what no photon has found",
+        (true, false) => "what no path has found",
+    };
+    format!("{upper_end}; without {missed}")
+}
+
+/// A share in per cent, with three digits.
+pub(crate) fn percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    let digits = (2.0 - percent.abs().max(1e-9).log10().floor()).clamp(0.0, 4.0) as usize;
+    format!("{percent:.digits$} %")
 }
 
 /// The error in a few words.

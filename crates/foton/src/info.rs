@@ -4,10 +4,9 @@ use std::num::NonZeroU32;
 use std::sync::Arc;
 
 use foton_integrator::{Cancel, DirectLight, Feature, PpmSettings, Render, RenderSettings};
-use foton_scene::Scene;
 use foton_scene::description::SceneDescription;
+use foton_scene::{Scene, Sensor};
 use foton_session::Session;
-use foton_session::findings::{self, SettingNames};
 use serde_json::{Value, json};
 
 use crate::args::Info;
@@ -30,9 +29,7 @@ pub(crate) fn print(args: &Info, console: &Console) -> Result<(), Failure> {
     let bounds = Bounds { size: None, region: args.region, memory: args.memory };
     let (scene, identity) = build(opened, &name, sensor, bounds, console, &cancel)?;
     let settings = RenderSettings { sensor, ..RenderSettings::default() };
-    for finding in findings::of_settings(&scene, &settings, &SettingNames::OPTIONS) {
-        console.finding(&finding);
-    }
+    console.of_settings(&scene, &settings);
     if args.json {
         console.event(&as_json(&scene, &settings, &name, identity.hash));
     } else {
@@ -105,7 +102,7 @@ fn as_json(scene: &Scene, settings: &RenderSettings, name: &str, hash: u64) -> V
             "shapes": scene.shapes().len(), "triangles": c.triangles, "spheres": c.spheres, "discs": c.discs,
             "tubes": c.cylinders, "degenerate_triangles": c.degenerate_triangles, "emitters": c.emitters,
         },
-        "sensors": scene.sensors().iter().map(|s| json!({ "name": s.name, "width": s.width, "height": s.height })).collect::<Vec<_>>(),
+        "sensors": scene.sensors().iter().map(|s| sensor(scene, s)).collect::<Vec<_>>(),
         "emitters": emitters,
         "features": parts,
         "memory": {
@@ -131,7 +128,11 @@ fn as_text(scene: &Scene, settings: &RenderSettings, name: &str, hash: u64) -> V
         ),
     ];
     for s in scene.sensors() {
-        lines.push(format!("sensor {}: {} x {} pixels", s.name, s.width, s.height));
+        let mut line = format!("sensor {}: {} x {} pixels", s.name, s.width, s.height);
+        if let Some([radius, focus]) = lens(scene, s) {
+            line += &format!(", a lens of radius {radius:.4} focused at {focus:.4}");
+        }
+        lines.push(line);
     }
     for (name, kind, watts, share) in emitters(scene) {
         lines.push(format!("emitter {name} ({kind}): {watts:.4} W, {:.1} % of the photons", share * 100.0));
@@ -150,6 +151,20 @@ fn as_text(scene: &Scene, settings: &RenderSettings, name: &str, hash: u64) -> V
     }
     lines.push(format!("memory: about {}", Session::estimate_memory(scene, settings, None)));
     lines
+}
+
+/// Radius and focus distance of a camera's lens in world units, if it has one.
+fn lens(scene: &Scene, sensor: &Sensor) -> Option<[f64; 2]> {
+    let world = |length: f32| scene.normalisation().world_length(f64::from(length));
+    sensor.lens().map(|lens| lens.map(world))
+}
+
+fn sensor(scene: &Scene, sensor: &Sensor) -> Value {
+    let mut value = json!({ "name": sensor.name, "width": sensor.width, "height": sensor.height });
+    if let Some([radius, focus]) = lens(scene, sensor) {
+        value["lens"] = json!({ "aperture_radius": radius, "focus_distance": focus });
+    }
+    value
 }
 
 /// Name, kind, power (mean of the channels, W) and share of the photons of each emitter.

@@ -3,6 +3,7 @@
 //! Exit codes: 0 done, 1 could not render or compare or write what was asked for, 2 bad usage. A render that a signal ended, and
 //! whose image was written, is done.
 
+mod all_methods;
 mod args;
 mod compare;
 mod console;

@@ -39,6 +39,7 @@ pub(crate) fn render(scene: Option<&Path>, console: &mut Console) -> Result<(), 
     let suggested = opened.suggested;
     let (scene, identity) = build(opened, &name, 0, Bounds::default(), console, cancel)?;
     let settings = SettingsBuilder::of_scene(&suggested).error(true).build();
+    console.of_settings(&scene, &settings);
     refuse_beyond_memory(&scene, &settings, None, None)?;
     let stem = snapshot::next_free(Path::new(""));
     let output = |extension, format| Output { path: stem.with_extension(extension), format, is_new: true };

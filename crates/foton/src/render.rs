@@ -8,11 +8,11 @@ use foton_film::check_writable;
 use foton_integrator::{Method, RenderSettings, SettingChange};
 use foton_scene::Scene;
 use foton_session::checkpoint::{self, Keeper};
-use foton_session::findings::{self, SettingNames};
 use foton_session::maps;
 use foton_session::snapshot::{self, Format};
 use foton_session::{Interrupt, Preset, SceneIdentity, Session, StopRule};
 
+use crate::all_methods;
 use crate::args::{ErrorWish, RenderArgs};
 use crate::console::{Console, Failure};
 use crate::interrupts::{begin_step, interrupt_on_signals, say_limit};
@@ -35,19 +35,24 @@ pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Fai
     let suggested = opened.suggested;
     let bounds = Bounds { size: args.settings.size, region: args.region, memory: args.memory };
     let (scene, identity) = build(opened, &name, sensor, bounds, console, interrupt.cancel())?;
-    let settings = SettingsBuilder::of_scene(&suggested)
-        .preset(args.preset.map(Preset::from))
-        .method(args.integrator.into())
-        .options(&args.settings)
-        .photon_map(args.photon_map.settings())
-        .sensor(sensor)
-        .error(args.error != Some(ErrorWish::Off))
-        .layers(&args.layers)
-        .build();
+    let settings = |method| {
+        SettingsBuilder::of_scene(&suggested)
+            .preset(args.preset.map(Preset::from))
+            .method(method)
+            .options(&args.settings)
+            .photon_map(args.photon_map.settings())
+            .sensor(sensor)
+            .error(args.error != Some(ErrorWish::Off))
+            .layers(&args.layers)
+            .build()
+    };
     let rule = stop_rule(args, suggested.passes, console);
-    for finding in findings::of_settings(&scene, &settings, &SettingNames::OPTIONS) {
-        console.finding(&finding);
-    }
+    let Some(method) = args.integrator.method() else {
+        let scene = (&scene, &identity);
+        return all_methods::render(args, scene, settings, (&rule, &interrupt), console);
+    };
+    let settings = settings(method);
+    console.of_settings(&scene, &settings);
     let mut session = start(args, scene, settings, &interrupt, console)?;
     if let Some(path) = &args.resume {
         begin_step("resuming the checkpoint");
@@ -57,11 +62,10 @@ pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Fai
     run(args, &mut session, &rule, &identity, &interrupt, console)
 }
 
-/// Refuses outputs that cannot be written or made, before hours of rendering.
+/// Refuses outputs that cannot be written, before hours of rendering.
 fn check_outputs(args: &RenderArgs) -> Result<(), Failure> {
-    let method = Method::from(args.integrator);
-    if let Some(layer) = args.layers.iter().find(|layer| layer.needs_photons() && !method.has_photons()) {
-        return Err(Failure::Layer { layer: layer.name(), method: method.name() });
+    if args.integrator.method().is_none() {
+        Method::ALL.iter().try_for_each(|m| check_writable(&args.image_of(*m)))?;
     }
     let (path, _) = &args.output;
     check_writable(path)?;

@@ -88,6 +88,7 @@ impl Gizmo {
             filter: Filter::Box { radius: 0.5 },
             near_clip: None,
             far_clip: None,
+            lens: None,
         });
         Self {
             view,

@@ -23,6 +23,7 @@ fn sensor(forward: DVec3, up: DVec3, mirrored: bool) -> SensorDescription {
         filter: Filter::Box { radius: 0.5 },
         near_clip: None,
         far_clip: None,
+        lens: None,
     }
 }
 
@@ -122,4 +123,31 @@ fn the_up_axis_is_that_of_a_level_camera() {
     assert_eq!(guess(DVec3::new(0.3, -0.9, -1.0), DVec3::Y), UpAxis::Y);
     assert_eq!(guess(DVec3::new(0.3, 1.0, -0.9), DVec3::Z), UpAxis::Z);
     assert_eq!(guess(DVec3::new(0.0, 1.0, -0.2), DVec3::Z), UpAxis::Z);
+}
+
+#[test]
+fn a_lens_is_focused_on_the_target_until_a_person_says_otherwise_and_goes_with_the_camera() {
+    let sensor = &sensors()[0];
+    let mut camera = Camera::new(sensor, 4.0);
+    camera.set_focus(2.0);
+    assert_eq!(camera.lens, None, "a pinhole has no focus");
+    camera.set_aperture(0.25);
+    let lens =
+        |camera: &Camera| camera.applied_to(sensor).lens.map(|l| (l.aperture_radius, l.focus_distance));
+    assert_eq!(lens(&camera), Some((0.25, 4.0)));
+    camera.set_focus(2.5);
+    for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        camera.set_focus(wrong);
+    }
+    camera.set_aperture(-1.0);
+    camera.set_aperture(f64::NAN);
+    camera.orbit(0.3, 0.1);
+    assert_eq!(lens(&camera), Some((0.25, 2.5)));
+    // As a file has it, and back to it.
+    let with_lens = camera.applied_to(sensor);
+    let mut camera = Camera::new(&with_lens, 4.0);
+    camera.set_aperture(0.0);
+    assert_eq!(lens(&camera), Some((0.0, 2.5)), "the focus is kept for when it is opened again");
+    camera.reset(&with_lens);
+    assert_eq!(lens(&camera), Some((0.25, 2.5)));
 }

@@ -39,6 +39,7 @@ fn sensor(to_world: DAffine3) -> SensorDescription {
         filter: Filter::Box { radius: 0.5 },
         near_clip: None,
         far_clip: None,
+        lens: None,
     }
 }
 

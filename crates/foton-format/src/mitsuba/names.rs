@@ -84,8 +84,8 @@ pub(crate) const EMITTERS: Plugins = Plugins {
 
 pub(crate) const SENSORS: Plugins = Plugins {
     kind: "sensor",
-    supported: || vec!["perspective"],
-    elsewhere: &["thinlens", "orthographic", "radiancemeter", "irradiancemeter", "distant", "batch"],
+    supported: || plugins::names(plugins::sensors::ALL).collect(),
+    elsewhere: &["orthographic", "radiancemeter", "irradiancemeter", "distant", "batch"],
 };
 
 pub(crate) const FILMS: Plugins =

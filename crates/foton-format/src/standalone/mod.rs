@@ -304,6 +304,7 @@ impl Model {
             filter: Filter::Gaussian { stddev: 0.5 },
             near_clip: None,
             far_clip: None,
+            lens: None,
         });
         report.warning(Place::default(), format!("a mesh file has no camera: one is placed {place}"));
     }

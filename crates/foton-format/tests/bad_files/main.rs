@@ -93,7 +93,7 @@ fn unknown_names_come_with_the_nearest_known_one() {
         ("<shape type='instance'/>", &["s.xml:2:14: shape \"instance\" is not supported yet"]),
         ("<emitter type='sunsky'/>", &["s.xml:2:16: emitter \"sunsky\" is not supported yet"]),
         ("<emitter type='pont'/>", &["s.xml:2:16: unknown emitter \"pont\", did you mean \"point\"?"]),
-        ("<sensor type='thinlens'/>", &["s.xml:2:15: sensor \"thinlens\" is not supported yet"]),
+        ("<sensor type='orthographic'/>", &["s.xml:2:15: sensor \"orthographic\" is not supported yet"]),
         ("<shap type='sphere'/>", &["s.xml:2:1: unknown element <shap>, did you mean \"shape\"?"]),
         (
             "<shape type='sphere'><float name='radus' value='2'/></shape>",

@@ -50,6 +50,7 @@ impl Sampling<'_> {
         let places = PixelSamples::new(&mut scramble);
         let directions = PixelSamples::new(&mut scramble);
         let lights = scrambles(&mut scramble);
+        let lens = PixelSamples::shuffled(&mut scramble);
         let samples = u64::from(self.settings.samples_per_pixel.get());
         let mut sum = Seen::default();
         for i in 0..samples {
@@ -59,7 +60,7 @@ impl Sampling<'_> {
             let place = places.point(point);
             let stream = Stream::new(self.settings.seed, Purpose::Path, index, pixel as u64);
             let sample = EyeSample {
-                ray: sensor.ray(corner + 0.5 + sensor.filter.offset(place)),
+                ray: sensor.eye_ray(corner + 0.5 + sensor.filter.offset(place), lens.point(point)),
                 numbers: Numbers::new(stream, point, lights, directions.point(point)),
             };
             let mut seen = Seen::default();

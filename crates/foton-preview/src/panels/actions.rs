@@ -58,8 +58,8 @@ pub(super) fn escape(state: &mut State) {
     } else if state.grip == Grip::Object {
         state.grip = Grip::None;
         state.ask(Command::Edit(SceneEdit::CancelDrag));
-    } else if state.editing.aiming {
-        state.editing.aiming = false;
+    } else if state.editing.aiming || state.editing.focusing {
+        (state.editing.aiming, state.editing.focusing) = (false, false);
     } else {
         deselect(state);
     }

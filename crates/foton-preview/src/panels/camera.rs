@@ -1,13 +1,22 @@
-//! The camera: its field of view, and the way back.
+//! The camera: its field of view, its lens, and the way back.
+
+use std::ops::RangeInclusive;
 
 use egui::Ui;
-use foton_edit::ViewSide;
+use foton_edit::{LENS, ViewSide};
 use foton_session::engine::{Command, Gesture};
 
 use super::number::{Change, Digits, Number};
 use super::slider::Slider;
 use super::widgets::{row, tight};
 use crate::state::State;
+
+/// The largest lens that the slider offers, the nearest focus and the farthest, as shares of half the scene's size; and the largest
+/// numbers that may be typed.
+const WIDEST: f64 = 0.1;
+const NEAREST: f64 = 0.01;
+const FARTHEST: f64 = 10.0;
+const MOST: f64 = 1e6;
 
 const HELP: &str = "Angle of view along the camera's own axis, 1° to 170°";
 
@@ -26,6 +35,7 @@ pub(super) fn show(ui: &mut Ui, state: &mut State) {
             None => {}
         }
     });
+    lens(ui, state);
     sides(ui, state);
     if ui.button("Reset camera").on_hover_text("Back to where the scene's file has it (H)").clicked() {
         state.ask(Command::ResetCamera);
@@ -43,5 +53,36 @@ pub(super) fn sides(ui: &mut Ui, state: &mut State) {
                 state.ask(Command::Camera { gesture: Gesture::Face(side), moving: false });
             }
         }
+    });
+}
+
+/// How wide the lens is, and what it shows sharp.
+fn lens(ui: &mut Ui, state: &mut State) {
+    let Some(frame) = &state.frame else { return };
+    let Some(lens) = frame.scene.sensors.get(frame.settings.sensor).map(|s| s.lens) else { return };
+    let [aperture, focus] = LENS.map(|p| (p.label, p.help));
+    let (size, radius) = (frame.scene.radius, lens.map_or(0.0, |lens| lens.aperture_radius));
+    let turn = |gesture: fn(f64) -> Gesture, change: Change| match change {
+        Change::Moving(value) => Command::Camera { gesture: gesture(value), moving: true },
+        Change::Done(value) => Command::Camera { gesture: gesture(value), moving: false },
+    };
+    let line = |ui: &mut Ui, (label, help): (&str, &str), range: RangeInclusive<f64>, value: f64| {
+        row(ui, label, help, |ui, _| {
+            let least = if *range.start() > 0.0 { f64::MIN_POSITIVE } else { 0.0 };
+            let number = Number::new(label, least..=MOST).speed(1e-3 * size);
+            let slider = Slider::new(label, range).logarithmic(true);
+            let ([slider, field], change) = slider.show(ui, number, value);
+            (slider | field).on_hover_text(help);
+            change
+        })
+    };
+    let change = line(ui, aperture, 0.0..=WIDEST * size, radius);
+    state.outbox.extend(change.map(|change| turn(Gesture::Aperture, change)));
+    ui.add_enabled_ui(radius > 0.0, |ui| {
+        let distance = lens.map_or(0.0, |lens| lens.focus_distance);
+        let change = line(ui, focus, NEAREST * size..=FARTHEST * size, distance);
+        state.outbox.extend(change.map(|change| turn(Gesture::FocusDistance, change)));
+        let pick = ui.toggle_value(&mut state.editing.focusing, "Focus on a point");
+        pick.on_hover_text("The next click in the picture says what is sharp; Esc leaves it");
     });
 }

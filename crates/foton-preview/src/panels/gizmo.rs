@@ -55,7 +55,7 @@ pub(super) fn point(ui: &egui::Ui, state: &mut State, response: &egui::Response,
     }
     note_places(state, film);
     state.editing.handle = response.hover_pos().and_then(|pointer| at(state, film, pointer));
-    if state.editing.aiming && response.hovered() {
+    if (state.editing.aiming || state.editing.focusing) && response.hovered() {
         ui.ctx().set_cursor_icon(egui::CursorIcon::Crosshair);
     } else if state.editing.handle.is_some() {
         ui.ctx().set_cursor_icon(egui::CursorIcon::Grab);

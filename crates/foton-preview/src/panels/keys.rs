@@ -45,8 +45,8 @@ const DIGITS: [Key; 5] = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5]
 
 pub(super) fn obey(ui: &egui::Ui, state: &mut State) {
     let is_typing = typing::is_under_way(ui.ctx(), state);
-    let is_modal = ui.memory(|m| m.top_modal_layer().is_some());
-    if state.dialog.is_some() || is_modal || egui::Popup::is_any_open(ui.ctx()) {
+    // Not by egui's modal layer, which it knows of a frame late: the key after Esc would be lost.
+    if state.dialog.is_some() || state.leaving.is_some() || egui::Popup::is_any_open(ui.ctx()) {
         return;
     }
     let pressed = |modifiers: Modifiers, key: Key| ui.input_mut(|i| i.consume_key(modifiers, key));
@@ -146,17 +146,30 @@ fn nudge(ui: &egui::Ui, state: &mut State) {
     }
 }
 
+/// Flies by the keys that are held. Only by those that were pressed for that: one that is still down when Ctrl has been let go, or
+/// the field that it was typed into, moves nothing.
 fn fly(ui: &egui::Ui, state: &mut State) {
     let (modifiers, now) = ui.input(|i| (i.modifiers, i.time));
-    if modifiers.any() {
-        return;
-    }
-    let held = |key: Key| ui.input(|i| f64::from(u8::from(i.key_down(key))));
+    let flying = &mut state.editing.flying;
+    ui.input(|i| flying.extend(i.events.iter().filter_map(begins_to_fly)));
+    let held = |key: Key| f64::from(u8::from(flying.contains(&key)));
     let along = |ahead: Key, back: Key| (held(ahead) - held(back)) * STEP;
     let (forward, right, up) = (along(Key::W, Key::S), along(Key::D, Key::A), along(Key::E, Key::Q));
-    if (forward, right, up) != (0.0, 0.0, 0.0) {
+    // A key that was down for less than a frame has counted.
+    flying.retain(|key| ui.input(|i| i.key_down(*key)));
+    if !modifiers.any() && (forward, right, up) != (0.0, 0.0, 0.0) {
         state.moved_at = Some(now);
         state.ask(Command::Camera { gesture: Gesture::Fly { forward, right, up }, moving: true });
         ui.ctx().request_repaint_after(std::time::Duration::from_millis(30));
+    }
+}
+
+fn begins_to_fly(event: &egui::Event) -> Option<Key> {
+    match event {
+        egui::Event::Key { key, pressed: true, repeat: false, modifiers, .. } => {
+            let flies = matches!(key, Key::W | Key::A | Key::S | Key::D | Key::Q | Key::E);
+            (flies && !modifiers.any()).then_some(*key)
+        }
+        _ => None,
     }
 }

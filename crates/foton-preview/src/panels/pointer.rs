@@ -51,17 +51,22 @@ pub(super) fn obey(ui: &egui::Ui, state: &mut State, response: &egui::Response, 
     rest(ui, state, now);
 }
 
-/// A click selects, or aims what is selected; two show the whole image. No click moves anything.
+/// A click selects, focuses the lens, or aims what is selected; two show the whole image. No click moves anything.
 fn click(state: &mut State, response: &egui::Response, film: Film) {
     if response.double_clicked() {
         state.placement = Placement::FIT;
     } else if response.clicked()
-        && (state.editing.aiming || state.editing.handle.is_none())
+        && (state.editing.aiming || state.editing.focusing || state.editing.handle.is_none())
         && let Some(at) = response.interact_pointer_pos()
     {
         let at = film.to_film(at);
         let aims = std::mem::take(&mut state.editing.aiming);
-        state.ask(if aims { Command::Edit(SceneEdit::AimAt(at)) } else { Command::Choose(Some(at)) });
+        let focuses = std::mem::take(&mut state.editing.focusing);
+        state.ask(match (aims, focuses) {
+            (true, _) => Command::Edit(SceneEdit::AimAt(at)),
+            (false, true) => Command::Camera { gesture: Gesture::FocusAt(at), moving: false },
+            (false, false) => Command::Choose(Some(at)),
+        });
     }
 }
 

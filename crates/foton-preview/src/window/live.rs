@@ -14,6 +14,7 @@ use super::event::UserEvent;
 use crate::panels;
 use crate::state::State;
 use crate::themes;
+use crate::turns::first_turn;
 
 pub(super) struct Live {
     pub(super) window: Arc<Window>,
@@ -122,7 +123,7 @@ impl Live {
 
     /// Draws the state. What was asked of the panels goes to `ask` before anything is painted, so that the engine works on it
     /// meanwhile. If that returns `false`, nothing is painted: something better follows at once. Returns whether it was.
-    pub(super) fn draw(&mut self, state: &mut State, ask: impl FnOnce(&mut State) -> bool) -> bool {
+    pub(super) fn draw(&mut self, state: &mut State, mut ask: impl FnMut(&mut State) -> bool) -> bool {
         let theme = if state.preferences.dark { egui::Theme::Dark } else { egui::Theme::Light };
         if self.context.theme() != theme {
             self.context.set_theme(theme);
@@ -132,12 +133,21 @@ impl Live {
             self.window.set_title(&title);
             self.title = title;
         }
-        let input = self.egui.take_egui_input(&self.window);
-        let mut output = self.context.run_ui(input, |ui| panels::show(ui, state));
-        let is_worth_it = ask(state);
-        let platform = std::mem::take(&mut output.platform_output);
-        self.egui.handle_platform_output(&self.window, platform);
-        self.textures.append(std::mem::take(&mut output.textures_delta));
+        let mut input = self.egui.take_egui_input(&self.window);
+        let mut waiting = std::mem::take(&mut input.events);
+        let mut is_worth_it = true;
+        let mut output = loop {
+            input.events = first_turn(&mut waiting);
+            let mut output = self.context.run_ui(input, |ui| panels::show(ui, state));
+            is_worth_it &= ask(state);
+            let platform = std::mem::take(&mut output.platform_output);
+            self.egui.handle_platform_output(&self.window, platform);
+            self.textures.append(std::mem::take(&mut output.textures_delta));
+            if waiting.is_empty() {
+                break output;
+            }
+            input = self.egui.take_egui_input(&self.window);
+        };
         if !is_worth_it {
             return false;
         }

@@ -37,7 +37,8 @@ pub(super) fn check_sensors(
             && s.crop.is_none_or(|c| fits(c.x, c.width, s.width) && fits(c.y, c.height, s.height))
             && determinant.is_finite()
             && determinant != 0.0
-            && s.to_world.translation.is_finite();
+            && s.to_world.translation.is_finite()
+            && s.lens.is_none_or(|lens| lens.is_sound());
         if !good {
             return Err(BuildError::BadSensor(s.name.clone()));
         }

@@ -11,7 +11,7 @@ pub enum BuildError {
     #[error("the scene has no sensor")]
     NoSensor,
     /// A camera's numbers make no image.
-    #[error("sensor {}: its field of view, size or transform makes no image", quoted(.0))]
+    #[error("sensor {}: its field of view, size, lens or transform makes no image", quoted(.0))]
     BadSensor(String),
     /// A coordinate, or what an emitter emits, is NaN or infinite.
     #[error("{} has a coordinate or an emission that is not finite", quoted(.0))]

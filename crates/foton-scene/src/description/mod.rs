@@ -17,7 +17,7 @@ pub use crate::bsdf::{
 pub use emitter::{EmitterDescription, EmitterKind};
 pub use hidden::Hidden;
 pub use material::Material;
-pub use sensor::{Crop, Filter, FovAxis, SensorDescription};
+pub use sensor::{Crop, Filter, FovAxis, Lens, SensorDescription};
 pub use shape::{Geometry, Mesh, ShapeDescription};
 pub use texture::{Bitmap, Colour, Texture, TextureKind, Wrap};
 

@@ -27,6 +27,28 @@ pub struct SensorDescription {
     pub near_clip: Option<f64>,
     /// Nothing farther than this depth along the camera's z is seen, in world units. `None`: no bound.
     pub far_clip: Option<f64>,
+    /// What blurs things away from the plane in focus. `None`: a pinhole, which shows everything sharp.
+    pub lens: Option<Lens>,
+}
+
+/// A thin lens: a disc around the camera's position, perpendicular to its z, that brings one plane into focus.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// Radius of the disc in world units; 0 is a pinhole.
+    pub aperture_radius: f64,
+    /// Depth along the camera's z at which things are sharp, in world units, above 0.
+    pub focus_distance: f64,
+}
+
+impl Lens {
+    /// Whether it makes an image.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        self.aperture_radius.is_finite()
+            && self.aperture_radius >= 0.0
+            && self.focus_distance.is_finite()
+            && self.focus_distance > 0.0
+    }
 }
 
 impl SensorDescription {

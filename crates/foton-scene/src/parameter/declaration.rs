@@ -52,6 +52,8 @@ pub enum Kind {
     Boolean,
     /// One of some words.
     Choice(&'static [&'static str]),
+    /// A length in millimetres, such as `50mm`.
+    Millimetres,
     /// The name of a metal.
     Metal,
     /// A point or a direction.

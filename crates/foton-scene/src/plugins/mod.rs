@@ -2,6 +2,7 @@
 //! documentation call them. A BSDF declares its own in its file (`bsdf/`).
 
 pub mod emitters;
+pub mod sensors;
 pub mod shapes;
 pub mod textures;
 pub mod wrappers;

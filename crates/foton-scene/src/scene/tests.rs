@@ -37,6 +37,7 @@ fn squares(materials: Vec<Material>) -> Scene {
         filter: Filter::Box { radius: 0.5 },
         near_clip: None,
         far_clip: None,
+        lens: None,
     };
     let board = TextureKind::Checkerboard { colours: [Rgb::splat(0.2), Rgb::splat(0.7)] };
     let description = SceneDescription {

@@ -83,6 +83,7 @@ fn describe(shapes: Vec<ShapeDescription>) -> SceneDescription {
         filter: Filter::Box { radius: 0.5 },
         near_clip: None,
         far_clip: None,
+        lens: None,
     };
     let white = Bsdf::Diffuse(Diffuse { reflectance: Rgb::splat(0.5).into() });
     let material = Material { name: "white".into(), front: white, back: Some(white), opacity: None };

@@ -117,6 +117,12 @@ pub enum Gesture {
     FieldOfView(f64),
     /// Looks at the same along an axis of the world.
     Face(ViewSide),
+    /// Radius of the lens in world units, 0 for a pinhole.
+    Aperture(f64),
+    /// Depth at which the lens shows things sharp, in world units.
+    FocusDistance(f64),
+    /// Focuses the lens on what is seen at a film position.
+    FocusAt([f64; 2]),
 }
 
 /// An edit of the scene. Film positions are pixels from the image's top left corner.

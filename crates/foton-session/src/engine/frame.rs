@@ -8,6 +8,7 @@ use foton_film::{Image, Plane};
 use foton_integrator::{ErrorEstimate, Ledger, PathClass, Radii, RenderSettings};
 use foton_math::Rgb;
 use foton_scene::BuildStep;
+use foton_scene::description::Lens;
 
 use super::command::{Region, ViewMode};
 use super::history::HistoryEntry;
@@ -128,6 +129,8 @@ pub struct SensorFacts {
     pub name: String,
     /// Field of view in degrees along its own axis.
     pub fov_degrees: f64,
+    /// Its lens, if it has one.
+    pub lens: Option<Lens>,
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// As an element of Mitsuba XML.
@@ -162,6 +165,8 @@ pub struct SceneFacts {
     pub sensors: Vec<SensorFacts>,
     /// Surfaces.
     pub shapes: usize,
+    /// Half the diagonal of what they take up, in world units.
+    pub radius: f64,
     /// All shapes, lights and cameras.
     pub contents: Arc<Vec<Item>>,
     /// Whether the scene differs from its file.

@@ -68,6 +68,34 @@ fn a_moving_camera_gives_small_pictures_then_the_whole() {
     assert!(!back.scene.is_edited);
 }
 
+#[test]
+fn a_lens_opens_focuses_on_what_is_picked_and_goes_with_the_camera_when_it_is_reset() {
+    let (rig, before) = Rig::at_pass(2);
+    let look = |gesture| rig.send(Command::Camera { gesture, moving: false });
+    assert_eq!(before.scene.sensors[0].lens, None);
+    look(Gesture::Aperture(0.3));
+    let open = whole(&rig, &before);
+    let lens = open.scene.sensors[0].lens.expect("a lens");
+    assert!((lens.aperture_radius - 0.3).abs() < 1e-12 && open.scene.is_edited);
+    assert!(open.scene.sensors[0].xml.contains("thinlens"));
+    assert!(differing(&image(&before), &image(&open)) > 1000);
+    look(Gesture::FocusAt(BALL));
+    let focused = whole(&rig, &open);
+    let ball = focused.scene.sensors[0].lens.expect("kept").focus_distance;
+    look(Gesture::FocusAt([BALL[0], f64::from(SIZE[1]) - 1.0]));
+    let near = whole(&rig, &focused);
+    let floor = near.scene.sensors[0].lens.expect("kept").focus_distance;
+    assert!(floor > 0.0 && floor < ball, "the floor before the ball is nearer: {floor} {ball}");
+    // An orbit keeps it, and so does undoing something else.
+    look(Gesture::Orbit { yaw: 0.2, pitch: 0.0 });
+    let turned = whole(&rig, &near);
+    assert_eq!(turned.scene.sensors[0].lens, near.scene.sensors[0].lens);
+    rig.send(Command::ResetCamera);
+    let back = whole(&rig, &turned);
+    assert_eq!(image(&back), image(&before));
+    assert!(back.scene.sensors[0].lens.is_none() && !back.scene.is_edited);
+}
+
 /// A window that draws in software takes long for a frame: one that only says that a picture will come would delay it.
 #[test]
 fn while_the_camera_moves_every_frame_has_its_picture() {

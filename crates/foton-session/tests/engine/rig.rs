@@ -68,6 +68,7 @@ pub(crate) fn room() -> SceneDescription {
             filter: Filter::Box { radius: 0.5 },
             near_clip: None,
             far_clip: None,
+            lens: None,
         }],
         materials: vec![material("grey", grey), material("glass", glass)],
         shapes: vec![

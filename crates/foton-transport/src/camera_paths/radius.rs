@@ -6,7 +6,8 @@
 //!
 //! Eye samples stand still, so light that is narrower than the gaps between them is seen only by discs that are as wide as the
 //! gaps. A radius that shrank below them would let a narrow beam fall between the samples: it would be lost from the picture. So
-//! no radius falls below a multiple of √(A/n), the spacing of a pixel's n samples.
+//! no radius falls below a multiple of √(A/n), the spacing of a pixel's n samples. Out of focus these lie in the circle of confusion,
+//! whose area is then added to A: a lens has blurred there already what such a radius blurs.
 
 use std::f32::consts::PI;
 
@@ -47,19 +48,25 @@ impl FirstRadius {
         }
     }
 
-    /// Squares of the first radius and of the smallest at `position`, where a pixel covers `area`.
-    pub fn first_and_smallest2(&self, area: f32, position: Vec3) -> (f32, f32) {
+    /// Squares of the first radius and of the smallest at `position`, where a pixel covers `area` and a lens spreads each of its points
+    /// over `confusion`.
+    pub fn first_and_smallest2(&self, area: f32, confusion: f32, position: Vec3) -> (f32, f32) {
         let radius = self.fixed.unwrap_or_else(|| (FOOTPRINTS * (area / PI).sqrt()).min(self.largest));
         let resolved = smallest_radius(position.abs().max_element());
         let first = (radius * self.scale).max(resolved);
-        let smallest = (self.floor * area.sqrt()).clamp(resolved, first);
+        let smallest = (self.floor * (area + confusion).sqrt()).clamp(resolved, first);
         (first * first, smallest * smallest)
     }
 }
 
 /// The area that a pixel of `solid_angle` covers on a surface which it sees after `distance` in all, at `cosine` to the normal.
 pub(super) fn footprint(solid_angle: f32, distance: f32, cosine: f32) -> f32 {
-    distance * distance * solid_angle / cosine.max(MIN_COSINE)
+    on_surface(distance * distance * solid_angle, cosine)
+}
+
+/// An area across the line of sight, on a surface that is seen at `cosine` to its normal.
+pub(super) fn on_surface(area: f32, cosine: f32) -> f32 {
+    area / cosine.max(MIN_COSINE)
 }
 
 /// Eight units in the last place of the largest coordinate: below that positions are too coarse for a disc.
@@ -85,7 +92,7 @@ mod tests {
         let rule = FirstRadius { fixed: None, scale: 1.0, largest: 10.0, floor: 0.5 };
         let here = Vec3::splat(2000.0);
         let of = |rule: &FirstRadius, distance, cosine| {
-            let (first2, smallest2) = rule.first_and_smallest2(footprint(1e-4, distance, cosine), here);
+            let (first2, smallest2) = rule.first_and_smallest2(footprint(1e-4, distance, cosine), 0.0, here);
             (first2.sqrt(), smallest2.sqrt())
         };
         let r = |distance, cosine| of(&rule, distance, cosine).0;
@@ -102,11 +109,14 @@ mod tests {
     fn the_smallest_radius_is_a_multiple_of_the_samples_spacing_and_never_above_the_first() {
         let rule = FirstRadius { fixed: None, scale: 1.0, largest: 10.0, floor: 0.5 };
         let smallest = |rule: &FirstRadius, at: f32| {
-            rule.first_and_smallest2(footprint(1e-4, 20.0, 1.0), Vec3::new(0.0, at, 0.0)).1.sqrt()
+            rule.first_and_smallest2(footprint(1e-4, 20.0, 1.0), 0.0, Vec3::new(0.0, at, 0.0)).1.sqrt()
         };
         // √(20² · 10⁻⁴) is 0.2.
         assert!((smallest(&rule, 1.0) - 0.1).abs() < 1e-6);
         assert!((smallest(&FirstRadius { fixed: Some(0.03), ..rule }, 1.0) - 0.03).abs() < 1e-6);
+        // A lens spreads them further, as far as the first radius, 0.45.
+        let out_of_focus = |confusion| rule.first_and_smallest2(0.04, confusion, Vec3::ZERO).1.sqrt();
+        assert!((out_of_focus(0.12) - 0.2).abs() < 1e-6 && (out_of_focus(9.0) - 0.451_352).abs() < 1e-5);
         let none = FirstRadius { floor: 0.0, ..rule };
         assert!((smallest(&none, 1500.0) / smallest_radius(1500.0) - 1.0).abs() < 1e-5);
         assert!(

@@ -73,7 +73,7 @@ impl EyePass<'_> {
     /// light that it sees.
     pub fn follow_one(&self, ray: Ray, mut stream: Stream, paths: &mut EyePaths) -> Rgb {
         let [facet, emitter] = [stream.next_2d(), stream.next_2d()];
-        let points = SamplePoints { place: Vec2::ZERO, facet, emitter };
+        let points = SamplePoints { place: Vec2::ZERO, lens: Vec2::ZERO, facet, emitter };
         paths.shapes.push(NO_SHAPE);
         Walk::new(self, stream, &points, true, paths, &mut Vec::new()).follow_ray(ray)
     }
@@ -97,6 +97,7 @@ impl EyePass<'_> {
             let places = PixelSamples::new(&mut scramble);
             let facets = PixelSamples::new(&mut scramble);
             let emitters = PixelSamples::new(&mut scramble);
+            let lens = PixelSamples::shuffled(&mut scramble);
             for sample in earlier.samples()..samples {
                 if cancel.is_requested() {
                     return paths;
@@ -104,13 +105,17 @@ impl EyePass<'_> {
                 let index = u64::from(pixel) * u64::from(self.samples_per_pixel.get()) + u64::from(sample);
                 let points = SamplePoints {
                     place: places.point(sample),
+                    lens: lens.point(sample),
                     facet: facets.point(sample),
                     emitter: emitters.point(sample),
                 };
                 let stream = Stream::new(self.seed, self.purpose, 1, index);
                 let sum = emission
-                    + Walk::new(self, stream, &points, sample == 0, &mut paths, &mut branches)
-                        .follow(pixel, points.place);
+                    + Walk::new(self, stream, &points, sample == 0, &mut paths, &mut branches).follow(
+                        pixel,
+                        points.place,
+                        points.lens,
+                    );
                 if sum.is_finite() {
                     emission = sum;
                 } else {

@@ -9,7 +9,7 @@ use foton_scene::{LobeFlags, LobeSample, Scattering, Surface, Transport};
 use super::eye_pass::{EyePass, EyePaths};
 use super::highlights::{EmitterDraw, Glossy};
 use super::hit_point::{Gloss, HitPoint};
-use super::radius::{footprint, slab2};
+use super::radius::{footprint, on_surface, slab2};
 use crate::lobes::LobeSplit;
 use crate::not_finite::{self, LeftOut, Quantity};
 use crate::shading::{on_the_right_side, shading_normal_towards};
@@ -54,6 +54,8 @@ pub(super) struct Walk<'a, 'b> {
     /// The same for the point on an area emitter that is sampled from there.
     emitter_point: Option<Vec2>,
     solid_angle: f32,
+    /// Direction in which the sample leaves the camera.
+    view: Vec3,
     /// Whether the pixel's shape is still to be noted.
     first: bool,
     paths: &'a mut EyePaths,
@@ -67,6 +69,8 @@ pub(super) struct Walk<'a, 'b> {
 pub(super) struct SamplePoints {
     /// Where in the pixel.
     pub(super) place: Vec2,
+    /// Where on the lens; anywhere where there is none.
+    pub(super) lens: Vec2,
     /// For the first rough specular lobe.
     pub(super) facet: Vec2,
     /// For the point on an area emitter that is sampled from there.
@@ -89,6 +93,7 @@ impl<'a, 'b> Walk<'a, 'b> {
             facet: Some(points.facet),
             emitter_point: Some(points.emitter),
             solid_angle: 0.0,
+            view: Vec3::ZERO,
             first,
             paths,
             branches,
@@ -98,15 +103,16 @@ impl<'a, 'b> Walk<'a, 'b> {
     }
 
     /// Follows the sample to all its ends; returns the emitted light that it sees by specular bounces.
-    pub(super) fn follow(&mut self, pixel: u32, place: Vec2) -> Rgb {
+    pub(super) fn follow(&mut self, pixel: u32, place: Vec2, lens: Vec2) -> Rgb {
         let sensor = self.pass.sensor();
         let corner = Vec2::new((pixel % sensor.width) as f32, (pixel / sensor.width) as f32);
-        let ray = sensor.ray(corner + 0.5 + sensor.filter.offset(place));
+        let ray = sensor.eye_ray(corner + 0.5 + sensor.filter.offset(place), lens);
         self.follow_ray(ray)
     }
 
     /// The same from the sensor on.
     pub(super) fn follow_ray(&mut self, ray: Ray) -> Rgb {
+        self.view = ray.direction;
         self.solid_angle = self.pass.sensor().pixel_solid_angle(ray.direction);
         self.branches.push(Branch { ray, weight: Rgb::WHITE, edges: 1, distance: 0.0, pdf: 0.0 });
         while let Some(branch) = self.branches.pop() {
@@ -182,8 +188,11 @@ impl<'a, 'b> Walk<'a, 'b> {
         let behind = if part.behind { -1.0 } else { 1.0 };
         let side = behind * 1f32.copysign(wo.dot(surface.normal));
         let normal = surface.normal * side;
-        let footprint = footprint(self.solid_angle, distance, wo.dot(normal).abs());
-        let (radius2, smallest2) = self.pass.radius.first_and_smallest2(footprint, surface.position);
+        let cosine = wo.dot(normal).abs();
+        let footprint = footprint(self.solid_angle, distance, cosine);
+        let confusion = on_surface(self.pass.sensor().confusion(self.view, distance), cosine);
+        let (radius2, smallest2) =
+            self.pass.radius.first_and_smallest2(footprint, confusion, surface.position);
         self.paths.hit_points.push(HitPoint {
             position: surface.position,
             normal,

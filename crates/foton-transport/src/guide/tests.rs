@@ -66,6 +66,7 @@ fn sources() -> Sources {
             filter: Filter::Box { radius: 0.5 },
             near_clip: None,
             far_clip: None,
+            lens: None,
         }],
         emitters: vec![
             point(1.0, 3.0),

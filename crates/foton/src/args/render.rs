@@ -4,12 +4,12 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::Args as ClapArgs;
-use foton_integrator::LayerKind;
+use foton_integrator::{LayerKind, Method};
 use foton_scene::description::Crop;
-use foton_session::snapshot::{Format, Look};
+use foton_session::snapshot::{self, Format, Look};
 
 use super::options::{SceneOptions, SettingsOptions};
-use super::parse::{bytes, duration, error_wish, image, layer, name, region, stops};
+use super::parse::{bytes, duration, error_wish, exr, image, layer, name, region, stops};
 use super::photon_map::PhotonMapOptions;
 use super::values::{ErrorWish, Every, Integrator, PresetName, ToneMapName};
 
@@ -41,6 +41,9 @@ pub(crate) struct RenderArgs {
     /// Light transport method
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Integrator::ProgressivePhotonMapping)]
     pub(crate) integrator: Integrator,
+    /// With --integrator all, the image that the others are compared with [default: the one with the smallest estimated error]
+    #[arg(long, value_name = "REF.exr", value_parser = name(exr))]
+    pub(crate) reference: Option<PathBuf>,
     #[command(flatten, next_help_heading = "Two-pass photon mapping (--integrator photon-map)")]
     pub(crate) photon_map: PhotonMapOptions,
     #[command(flatten, next_help_heading = "Options")]
@@ -86,6 +89,11 @@ pub(crate) struct RenderArgs {
 }
 
 impl RenderArgs {
+    /// Where the image of a method goes, where several are asked for.
+    pub(crate) fn image_of(&self, method: Method) -> PathBuf {
+        snapshot::suffixed(&self.output.0, method.name()).with_extension("exr")
+    }
+
     /// How a PNG shows radiance.
     pub(crate) fn look(&self) -> Look {
         let default = Look::default();

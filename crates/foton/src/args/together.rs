@@ -66,6 +66,7 @@ impl RenderArgs {
         self.layers_in_vain()
             .or_else(|| self.look_in_vain())
             .or_else(|| self.maps_in_vain())
+            .or_else(|| self.method_in_vain())
             .or_else(|| clash(&self.roles()))
     }
 
@@ -73,9 +74,33 @@ impl RenderArgs {
         let maps = &self.photon_map;
         let option =
             maps.maps.as_ref().map(|_| "--maps").or(maps.save_maps.as_ref().map(|_| "--save-maps"))?;
-        (Method::from(self.integrator) != Method::PhotonMap).then(|| {
+        (self.integrator.method() != Some(Method::PhotonMap)).then(|| {
             format!("{option}: only --integrator photon-map has photon maps; add that, or leave {option} out")
         })
+    }
+
+    fn method_in_vain(&self) -> Option<String> {
+        let Some(method) = self.integrator.method() else {
+            let alone = [
+                (self.checkpoint.is_some(), "--checkpoint"),
+                (self.resume.is_some(), "--resume"),
+                (self.every.is_some(), "--every"),
+                (!self.layers.is_empty(), "--layers"),
+            ];
+            let (_, option) = alone.into_iter().find(|(is_there, _)| *is_there)?;
+            return Some(format!(
+                "{option} is of a render by one method, and --integrator all makes several"
+            ));
+        };
+        if self.reference.is_some() {
+            return Some("--reference is what --integrator all compares its images with".to_owned());
+        }
+        let layer = self.layers.iter().find(|layer| layer.needs_photons() && !method.has_photons())?;
+        Some(format!(
+            "the layer {} tells of photons, which --integrator {} does not have",
+            layer.name(),
+            method.name()
+        ))
     }
 
     fn look_in_vain(&self) -> Option<String> {
@@ -113,7 +138,7 @@ impl RenderArgs {
 
     /// The files that are named; those that the scene names are known once it was read.
     pub(crate) fn roles(&self) -> Roles {
-        Roles::default()
+        let roles = Roles::default()
             .prints(self.json)
             .writes("-o", Some(&self.output.0))
             .keeps(self.checkpoint.as_deref())
@@ -121,6 +146,9 @@ impl RenderArgs {
             .resumes(self.resume.as_deref())
             .writes("--save-maps", self.photon_map.save_maps.as_deref())
             .reads("--maps", self.photon_map.maps.as_deref())
-            .reads("the scene", Some(&self.scene))
+            .reads("--reference", self.reference.as_deref())
+            .reads("the scene", Some(&self.scene));
+        let methods: &[Method] = if self.integrator.method().is_none() { &Method::ALL } else { &[] };
+        methods.iter().fold(roles, |roles, method| roles.writes("-o with its", Some(&self.image_of(*method))))
     }
 }

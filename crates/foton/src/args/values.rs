@@ -149,15 +149,20 @@ pub(crate) enum Integrator {
     /// Two-pass photon mapping: maps of photons that stay, shown by final gathering. Fast, with a bias that passes do not lower
     #[value(name = "photon-map")]
     PhotonMapping,
+    /// Each of them in turn, for the same time: OUT becomes a contact sheet, and a table says how much they differ
+    #[value(name = "all")]
+    All,
 }
 
-impl From<Integrator> for Method {
-    fn from(integrator: Integrator) -> Self {
-        match integrator {
-            Integrator::ProgressivePhotonMapping => Self::Ppm,
-            Integrator::PathTracing => Self::Path,
-            Integrator::WhittedRayTracing => Self::Whitted,
-            Integrator::PhotonMapping => Self::PhotonMap,
+impl Integrator {
+    /// The method; `None` for all of them.
+    pub(crate) const fn method(self) -> Option<Method> {
+        match self {
+            Self::All => None,
+            Self::ProgressivePhotonMapping => Some(Method::Ppm),
+            Self::PathTracing => Some(Method::Path),
+            Self::WhittedRayTracing => Some(Method::Whitted),
+            Self::PhotonMapping => Some(Method::PhotonMap),
         }
     }
 }

@@ -38,9 +38,8 @@ pub(crate) enum Failure {
         asked: String,
         known: Vec<String>,
     },
-    /// A layer that a method does not make.
-    Layer {
-        layer: &'static str,
+    /// A method of several that did not finish its first pass.
+    Method {
         method: &'static str,
     },
     /// A part of the image that is none, in words.
@@ -101,8 +100,11 @@ impl fmt::Display for Failure {
                 let known: Vec<_> = known.iter().take(MAX_NAMES).map(|name| quoted(name)).collect();
                 write!(f, "the scene has no sensor {}; it has {}", quoted(asked), known.join(", "))
             }
-            Self::Layer { layer, method } => {
-                write!(f, "the layer {layer} tells of photons, which --integrator {method} does not have")
+            Self::Method { method } => {
+                write!(
+                    f,
+                    "--integrator {method} did not finish its first pass; --integrator {method} alone says why"
+                )
             }
             Self::Region(why) => f.write_str(why),
             Self::Start(cause) => cause.fmt(f),

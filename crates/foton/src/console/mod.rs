@@ -10,13 +10,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use foton_format::{Diagnostic, Severity};
 use foton_input::printable;
-use foton_scene::BuildStep;
+use foton_integrator::RenderSettings;
+use foton_scene::{BuildStep, Scene};
 use foton_session::findings::{self, Finding, SettingNames};
 use foton_session::{Progress, Session, StopRule};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::{Value, json};
 
-use crate::figure::{add_error, classes_text, error_text, upper_end_text};
+use crate::figure::{add_error, classes_text, error_text, limits_text};
 use crate::memory::Confined;
 
 pub(crate) use failure::Failure;
@@ -115,6 +116,12 @@ impl Console {
         } else {
             self.warning(&finding.text);
         }
+    }
+
+    /// What does not fit together in a scene and the settings of its render.
+    pub(crate) fn of_settings(&self, scene: &Scene, settings: &RenderSettings) {
+        let found = findings::of_settings(scene, settings, &SettingNames::OPTIONS);
+        found.iter().for_each(|finding| self.finding(finding));
     }
 
     /// What is odd in a scene file, and does not stop the render.
@@ -274,21 +281,26 @@ impl Console {
             .filter(|(_, t)| !t.is_zero())
             .map(|(s, t)| format!("{} {:.2} s", s.name().replace('_', " "), t.as_secs_f64()))
             .collect();
-        self.line(&format!(
-            "{} passes, {:.1} M photons in {seconds:.1} s ({:.2} M/s): {}",
-            render.passes(),
-            render.photons_emitted() as f64 / 1e6,
-            render.photons_emitted() as f64 / 1e6 / seconds.max(1e-9),
-            shares.join(", ")
-        ));
+        let (passes, method) = (render.passes(), render.settings().method);
+        let work = if method.has_photons() {
+            let millions = render.photons_emitted() as f64 / 1e6;
+            format!(
+                "{passes} passes, {millions:.1} M photons in {seconds:.1} s ({:.2} M/s)",
+                millions / seconds.max(1e-9)
+            )
+        } else {
+            let samples = passes * u64::from(render.settings().samples_per_pixel.get());
+            format!("{passes} passes, {samples} samples a pixel in {seconds:.1} s")
+        };
+        self.line(&format!("{work}: {}", shares.join(", ")));
         if let Some(error) = render.error() {
             self.line(&format!(
-                "{}{}; 90 % confidence {:.2} to {:.2} %, {}; without what eye samples miss and what no photon has found",
+                "{}{}; 90 % confidence {:.2} to {:.2} %{}",
                 error_text(&error),
                 classes_text(&error),
                 100.0 * error.low,
                 100.0 * error.high,
-                upper_end_text(&error)
+                limits_text(&error, method)
             ));
         }
         for path in outputs {

@@ -5,7 +5,7 @@ use super::*;
 
 /// Options of `foton render` with values of each that must be accepted.
 const OPTIONS: &[(&str, &[&str])] = &[
-    ("--integrator", &["ppm", "photon-map"]),
+    ("--integrator", &["ppm", "path", "whitted", "photon-map"]),
     ("--global-photons", &["500"]),
     ("--caustic-photons", &["0", "500"]),
     ("--neighbours", &["20"]),
@@ -136,7 +136,7 @@ fn help_has_every_option_and_default() {
         ("--direct", "auto"),
         ("--guide", "auto"),
         ("--seed", "0"),
-        ("--spp", "4"),
+        ("--spp", "4, or 1 in each pass"),
         ("--checkpoint-every", "30s"),
     ] {
         assert_eq!(default(option), Some(value), "{option}: {help}");
@@ -245,7 +245,7 @@ fn images_and_checkpoints_name_what_they_hold() {
     let stored = text(&bytes[44..44 + length]);
     assert_eq!(
         names(&stored, '\n').join(", "),
-        "scene, sensor, size, seed, photon-seed, spp, radius, radius-rule, radius-floor, direct, guide, max-depth, kinds of light, error, \
+        "scene, integrator, sensor, size, seed, photon-seed, spp, radius, radius-rule, radius-floor, direct, guide, max-depth, kinds of light, error, \
          photons of the first pass, hit points a sample, hit points"
     );
 }

@@ -5,6 +5,7 @@
 #[cfg(debug_assertions)]
 mod faults;
 mod interface;
+mod methods;
 #[cfg(target_os = "linux")]
 mod places;
 mod refusals;

@@ -5,6 +5,7 @@
 
 mod course;
 mod curve;
+mod methods;
 mod options;
 mod outcome;
 mod reference;
@@ -12,6 +13,8 @@ mod scenes;
 mod table;
 
 use std::path::Path;
+
+pub(crate) use methods::print as print_methods;
 
 use course::course;
 use curve::Curve;

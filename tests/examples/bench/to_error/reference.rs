@@ -83,5 +83,5 @@ fn place(scene: &SceneFile, options: &Options, key: &str) -> Result<PathBuf, Str
     let folder = rig::target().join("bench/references");
     fs::create_dir_all(&folder).map_err(text)?;
     let [width, height] = scene.size(options.width);
-    Ok(folder.join(format!("{}-{width}x{height}-spp{}-{key}.exr", scene.name, options.samples)))
+    Ok(folder.join(format!("{}-{width}x{height}-spp{}-{key}.exr", scene.name, options.samples.unwrap_or(0))))
 }

@@ -253,9 +253,9 @@ impl<'a> Properties<'a> {
         self.asked.extend(names);
     }
 
-    /// Values that would change the image: an error where they are given.
+    /// Values that would change the image: an error where they are given, unless they were taken and judged already.
     pub(crate) fn refuse(&mut self, names: &[&'static str], report: &mut Report) {
-        for value in self.values.iter_mut().filter(|v| names.contains(&v.name)) {
+        for value in self.values.iter_mut().filter(|v| !v.taken && names.contains(&v.name)) {
             value.taken = true;
             let message = format!("{} of \"{}\" is not supported yet", quoted(value.name), self.subject);
             report.error(value.element.place, message);

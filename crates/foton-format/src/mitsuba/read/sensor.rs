@@ -1,8 +1,12 @@
-//! `<sensor>`, `<film>` and `<rfilter>`: a perspective camera, its image size and filter.
+//! `<sensor>`, `<film>` and `<rfilter>`: a perspective camera with or without a lens, its image size and filter.
 
 use foton_input::quoted;
 use foton_math::glam::{DAffine3, DMat3};
-use foton_scene::description::{Crop, Filter, FovAxis, SensorDescription};
+use foton_scene::description::{Crop, Filter, FovAxis, Lens, SensorDescription};
+use foton_scene::plugins::sensors::{
+    APERTURE_RADIUS, FAR_CLIP, FOCAL_LENGTH, FOCUS_DISTANCE, FOV, FOV_AXIS, NEAR_CLIP, PERSPECTIVE, THINLENS,
+    TO_WORLD,
+};
 
 use crate::diagnostic::Place;
 use crate::mitsuba::document::NodeId;
@@ -29,17 +33,18 @@ impl Reader<'_> {
         let Some(element) = self.document.element(node) else { return };
         let Some(plugin) = self.plugin(element, &SENSORS) else { return };
         let mut p = self.properties(node, plugin);
-        let transform = p.transform("to_world", &mut self.report);
+        let transform = p.transform(TO_WORLD.name, &mut self.report);
         if let Some(transform) = transform.filter(|t| scales(t.value.matrix3)) {
             self.report.error(transform.place, "the transform of a camera must not scale or shear");
         }
         let (fov_degrees, fov_axis) = self.field_of_view(&mut p);
         let (near_clip, far_clip) = self.clips(&mut p);
+        let lens = (plugin == THINLENS.name).then(|| self.lens(&mut p, far_clip));
         let film = self.films(&mut p);
         p.nested("sampler");
-        p.ignore(&["shutter_open", "shutter_close"]);
         self.refuse_shift(&mut p, "principal_point_offset_x");
         self.refuse_shift(&mut p, "principal_point_offset_y");
+        p.leave_out(PERSPECTIVE.parameters, &mut self.report);
         p.finish(&mut self.report);
         let number = self.description.sensors.len() + 1;
         let name = match element.attribute("id") {
@@ -58,13 +63,34 @@ impl Reader<'_> {
             filter: film.filter,
             near_clip,
             far_clip,
+            lens,
         });
+    }
+
+    /// The lens of a camera that sees as far as `far_clip`, where Mitsuba puts the focus if a file does not say.
+    fn lens(&mut self, p: &mut Properties<'_>, far_clip: Option<f64>) -> Lens {
+        let aperture = p.number(APERTURE_RADIUS.name, &mut self.report);
+        let focus = p.number(FOCUS_DISTANCE.name, &mut self.report);
+        if let Some(aperture) = aperture.filter(|a| !APERTURE_RADIUS.holds(a.value)) {
+            self.report.error(aperture.place, "\"aperture_radius\" must not be negative");
+        }
+        if aperture.is_none() && !p.has(APERTURE_RADIUS.name) {
+            let message = "a \"thinlens\" needs an \"aperture_radius\", in world units";
+            self.report.error(p.place, message);
+        }
+        if let Some(focus) = focus.filter(|f| !FOCUS_DISTANCE.holds(f.value)) {
+            self.refuse_zero(FOCUS_DISTANCE.name, focus.place);
+        }
+        Lens {
+            aperture_radius: aperture.map_or(APERTURE_RADIUS.default, |a| a.value),
+            focus_distance: focus.map(|f| f.value).or(far_clip).unwrap_or(FOCUS_DISTANCE.default),
+        }
     }
 
     /// `fov` along `fov_axis`, or what a lens of `focal_length` (50 mm by default) sees on 35 mm film.
     fn field_of_view(&mut self, p: &mut Properties<'_>) -> (f64, FovAxis) {
-        let fov = p.number("fov", &mut self.report);
-        let focal = p.string("focal_length", &mut self.report);
+        let fov = p.number(FOV.name, &mut self.report);
+        let focal = p.string(FOCAL_LENGTH.name, &mut self.report);
         let axis = self.fov_axis(p);
         if let Some(fov) = fov {
             if let Some(focal) = focal {
@@ -91,7 +117,7 @@ impl Reader<'_> {
             ("smaller", FovAxis::Smaller),
             ("larger", FovAxis::Larger),
         ];
-        let axis = p.string("fov_axis", &mut self.report)?;
+        let axis = p.string(FOV_AXIS.name, &mut self.report)?;
         let found = AXES.iter().find(|(name, _)| *name == axis.value);
         if found.is_none() {
             self.report.error(axis.place, "\"fov_axis\" must be x, y, diagonal, smaller or larger");
@@ -111,8 +137,8 @@ impl Reader<'_> {
     }
 
     fn clips(&mut self, p: &mut Properties<'_>) -> (Option<f64>, Option<f64>) {
-        let near = p.number("near_clip", &mut self.report);
-        let far = p.number("far_clip", &mut self.report);
+        let near = p.number(NEAR_CLIP.name, &mut self.report);
+        let far = p.number(FAR_CLIP.name, &mut self.report);
         if let Some(near) = near.filter(|n| n.value <= 0.0) {
             self.report.error(near.place, "\"near_clip\" must be above zero");
         }
@@ -123,8 +149,12 @@ impl Reader<'_> {
     }
 
     fn refuse_shift(&mut self, p: &mut Properties<'_>, name: &'static str) {
+        if p.is_string(name) {
+            return;
+        }
         if let Some(shift) = p.number(name, &mut self.report).filter(|s| s.value != 0.0) {
-            self.report.error(shift.place, format!("\"{name}\" of \"perspective\" is not supported yet"));
+            let message = format!("\"{name}\" of \"{}\" is not supported yet", p.subject());
+            self.report.error(shift.place, message);
         }
     }
 

@@ -5,9 +5,9 @@ use std::collections::HashMap;
 use foton_math::Rgb;
 use foton_math::glam::DAffine3;
 use foton_scene::description::{
-    EmitterKind, FovAxis, Geometry, SceneDescription, SensorDescription, ShapeDescription,
+    EmitterKind, FovAxis, Geometry, Lens, SceneDescription, SensorDescription, ShapeDescription,
 };
-use foton_scene::plugins::{emitters, shapes};
+use foton_scene::plugins::{emitters, sensors, shapes};
 
 use super::materials;
 use super::pairs::Pairs;
@@ -119,11 +119,32 @@ impl<'a> Changes<'a> {
                 _ => {}
             }
         }
+        self.lens(node, old.lens, new.lens)?;
         if (old.width, old.height) != (new.width, new.height) {
             let film = self.document.elements_in(node).find(|(_, e)| e.name == "film").map(|(film, _)| film);
             let film = film.ok_or_else(|| format!("the film of \"{}\" stands elsewhere", old.name))?;
             self.value(film, "integer", "width", &new.width.to_string())?;
             self.value(film, "integer", "height", &new.height.to_string())?;
+        }
+        Ok(())
+    }
+
+    /// A camera with another lens, or with one where there was none; one without it is another plugin.
+    fn lens(&mut self, node: NodeId, old: Option<Lens>, new: Option<Lens>) -> Result<(), Obstacle> {
+        if old == new {
+            return Ok(());
+        }
+        let plugin = if new.is_some() { sensors::THINLENS } else { sensors::PERSPECTIVE };
+        self.document.set_attribute(node, "type", plugin.name);
+        let values = [
+            (sensors::APERTURE_RADIUS.name, new.map(|lens| lens.aperture_radius)),
+            (sensors::FOCUS_DISTANCE.name, new.map(|lens| lens.focus_distance)),
+        ];
+        for (name, value) in values {
+            match value {
+                Some(value) => self.value(node, "float", name, &number(value))?,
+                None => self.remove(node, name)?,
+            }
         }
         Ok(())
     }

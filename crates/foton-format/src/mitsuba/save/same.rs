@@ -52,7 +52,8 @@ pub(super) fn difference(a: &SceneDescription, b: &SceneDescription) -> Option<S
 
 pub(super) fn same_sensor(a: &SensorDescription, b: &SensorDescription) -> bool {
     let film = |s: &SensorDescription| (s.width, s.height, s.filter, s.near_clip, s.far_clip);
-    (a.to_world, a.fov_degrees, a.fov_axis) == (b.to_world, b.fov_degrees, b.fov_axis) && film(a) == film(b)
+    let view = |s: &SensorDescription| (s.to_world, s.fov_degrees, s.fov_axis, s.lens);
+    view(a) == view(b) && film(a) == film(b)
 }
 
 pub(super) fn same_emitter(a: &EmitterKind, b: &EmitterKind) -> bool {

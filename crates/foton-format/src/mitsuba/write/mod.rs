@@ -20,7 +20,7 @@ use foton_scene::description::{
     Bitmap, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
     SensorDescription, ShapeDescription,
 };
-use foton_scene::plugins::{emitters, shapes};
+use foton_scene::plugins::{emitters, sensors, shapes};
 
 use crate::mitsuba::read::shapes::is_turned_inside_out;
 use xml::{Xml, colour, number, single, vector};
@@ -194,7 +194,12 @@ impl<'a> Writer<'a> {
     fn sensor(&mut self, sensor: &SensorDescription) {
         let id = self.id(&sensor.name);
         let xml = &mut self.xml;
-        xml.open("sensor", &[("type", "perspective"), ("id", &id)]);
+        let plugin = if sensor.lens.is_some() { sensors::THINLENS } else { sensors::PERSPECTIVE };
+        xml.open("sensor", &[("type", plugin.name), ("id", &id)]);
+        if let Some(lens) = sensor.lens {
+            xml.value("float", sensors::APERTURE_RADIUS.name, &number(lens.aperture_radius));
+            xml.value("float", sensors::FOCUS_DISTANCE.name, &number(lens.focus_distance));
+        }
         xml.value("float", "fov", &number(sensor.fov_degrees));
         let axis = match sensor.fov_axis {
             FovAxis::X => "x",

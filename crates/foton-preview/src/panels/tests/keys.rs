@@ -56,6 +56,30 @@ fn flying_goes_on_while_a_key_is_held_and_ends_with_the_whole_picture() {
 }
 
 #[test]
+fn a_key_that_outlasts_its_ctrl_does_not_fly() {
+    let mut harness = window(|_| ());
+    for key in [Key::Q, Key::D, Key::S] {
+        harness.key_down_modifiers(Modifiers::COMMAND, key);
+        harness.run_steps(2);
+        harness.state_mut().dialog = None;
+        harness.state_mut().outbox.clear();
+        // Ctrl is let go first, as xdotool and many hands do, and the key repeats until it is let go too.
+        harness.key_down(key);
+        harness.run_steps(3);
+        assert_eq!(asked(&mut harness), [""; 0], "{key:?}");
+        harness.key_up(key);
+        harness.run_steps(2);
+        // Pressed by itself it flies, however briefly.
+        harness.key_down(key);
+        harness.key_up(key);
+        let flown = asked(&mut harness);
+        assert!(flown.iter().any(|a| a.contains("Fly")), "{key:?}: {flown:?}");
+        harness.run_steps(60);
+        harness.state_mut().outbox.clear();
+    }
+}
+
+#[test]
 fn the_overlay_opens_and_closes_by_key_and_button() {
     let mut harness = window(|_| ());
     let is_open =

@@ -49,6 +49,7 @@ fn frame() -> Frame {
     let sensor = |name: &str| SensorFacts {
         name: name.into(),
         fov_degrees: 40.0,
+        lens: None,
         size: SIZE,
         xml: "<sensor type=\"perspective\"/>".into(),
     };
@@ -264,7 +265,7 @@ fn every_control_has_an_accessible_name() {
             assert!(is_named || !node.data().supports_action(Action::Focus), "{:?}", node.data());
         }
         let count = harness.query_all_by_role(Role::Slider).count();
-        assert_eq!(count, if with_everything { 7 } else { 5 });
+        assert_eq!(count, if with_everything { 9 } else { 7 });
     }
     let mut empty = window(|state| state.frame = None);
     empty.check_accessibility();

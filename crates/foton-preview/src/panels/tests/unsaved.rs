@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::*;
 use crate::state::Leaving;
+use crate::turns::first_turn;
 
 fn edited() -> Harness<'static, State> {
     window(|state| {
@@ -77,4 +78,30 @@ fn the_window_is_called_after_the_scene() {
     assert_eq!(harness.state().title(), "room.xml (edited) – foton");
     harness.state_mut().frame = None;
     assert_eq!(harness.state().title(), "foton");
+}
+
+#[test]
+fn keys_that_come_in_one_frame_do_what_they_do_one_by_one() {
+    let mut harness = edited();
+    let pressed = |key: egui::Key, modifiers| egui::Event::Key {
+        key,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers,
+    };
+    let undo = pressed(egui::Key::Z, egui::Modifiers::COMMAND);
+    let mut waiting = vec![
+        pressed(egui::Key::Q, egui::Modifiers::COMMAND),
+        pressed(egui::Key::Escape, egui::Modifiers::NONE),
+        undo.clone(),
+        undo,
+    ];
+    while !waiting.is_empty() {
+        harness.input_mut().events = first_turn(&mut waiting);
+        harness.step();
+    }
+    assert!(!is_asked(&harness), "Esc was for the question");
+    let undone = asked(&mut harness).iter().filter(|a| a.contains("Undo")).count();
+    assert_eq!(undone, 2, "and what came after it for the scene");
 }

@@ -57,9 +57,9 @@ struct MovedCamera {
     camera: Camera,
 }
 
-/// Whether any camera stands, or spans, otherwise.
+/// Whether any camera stands, spans or focuses otherwise.
 fn are_elsewhere(sensors: &[SensorDescription], others: &[SensorDescription]) -> bool {
-    let place = |s: &SensorDescription| (s.to_world, s.fov_degrees);
+    let place = |s: &SensorDescription| (s.to_world, s.fov_degrees, s.lens);
     sensors.iter().map(place).ne(others.iter().map(place))
 }
 
@@ -206,6 +206,15 @@ impl EditableScene {
             }
             Gesture::FieldOfView(degrees) => moved.set_fov(degrees),
             Gesture::Face(side) => moved.face(side),
+            Gesture::Aperture(radius) => moved.set_aperture(radius),
+            Gesture::FocusDistance(distance) => moved.set_focus(distance),
+            Gesture::FocusAt(film) => match self.depth_at(sensor, film) {
+                Some(depth) => moved.set_focus(depth),
+                None => {
+                    self.moved = Some(MovedCamera { sensor, camera });
+                    return Err("there is nothing to focus on".to_owned());
+                }
+            },
         }
         let before = self.sensors[sensor].clone();
         self.sensors[sensor] = moved.applied_to(&before);
@@ -274,6 +283,7 @@ impl EditableScene {
         let sensor = |s: &SensorDescription| SensorFacts {
             name: s.name.clone(),
             fov_degrees: s.fov_degrees,
+            lens: s.lens,
             size: [s.width, s.height],
             xml: camera_xml(s),
         };
@@ -283,6 +293,7 @@ impl EditableScene {
             file: self.source.file().cloned(),
             sensors: self.sensors.iter().map(sensor).collect(),
             shapes: self.description.shapes.len(),
+            radius: self.radius(),
             contents: self.listed(),
             is_edited: self.is_edited(),
             warnings: Arc::clone(&self.warnings),

@@ -46,6 +46,7 @@ fn wall() -> SceneDescription {
             filter: Filter::Box { radius: 0.5 },
             near_clip: None,
             far_clip: None,
+            lens: None,
         }],
         materials: vec![Material { name: "grey".into(), front: grey, back: Some(grey), opacity: None }],
         shapes: vec![ShapeDescription {

@@ -2,22 +2,15 @@
 
 use std::sync::Arc;
 
-use foton_film::{Image, Layer};
-use foton_math::Rgb;
-use foton_math::glam::DVec3;
 use foton_scene::Scene;
 use foton_transport::codec::StateError;
 use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite, ShouldSuspend, Stage};
 
-use crate::error::{ErrorEstimate, TileError};
-use crate::feature::Feature;
-use crate::layers::LayerKind;
-use crate::memory::MemoryEstimate;
 use crate::photon_map::KeptMaps;
-use crate::ppm::{self, Disc, EyeSamples, PhotonPath, Ppm, Radii, StoredPhoton};
+use crate::ppm::{EyeSamples, Ppm};
 use crate::report::{PassReport, Start};
-use crate::sampled::{self, Sampled};
-use crate::settings::{Method, RenderSettings, SettingChange};
+use crate::sampled::Sampled;
+use crate::settings::{RenderSettings, SettingChange};
 
 /// A scene, settings, and what passes have made of them so far.
 pub struct Render(Running);
@@ -37,6 +30,10 @@ macro_rules! each {
         }
     };
 }
+
+mod display;
+mod images;
+mod parts;
 
 impl Render {
     /// Collects hit points. `watch` is told each stage as it begins.
@@ -280,152 +277,6 @@ impl Render {
     /// When the bytes are no state, or that of another render; see [`StateError`].
     pub fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
         each!(&mut self.0, r => r.restore(state))
-    }
-}
-
-/// What a render will be, before it is started.
-impl Render {
-    /// Its memory on so many threads.
-    #[must_use]
-    pub fn estimate_memory(scene: &Scene, settings: &RenderSettings, threads: usize) -> MemoryEstimate {
-        match settings.method {
-            Method::Ppm => ppm::memory(scene, settings, threads),
-            Method::Path | Method::Whitted | Method::PhotonMap => sampled::memory(scene, settings),
-        }
-    }
-
-    /// All parts that can be left out, with whether they are.
-    #[must_use]
-    pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
-        match settings.method {
-            Method::Ppm => ppm::features(scene, settings),
-            Method::Path | Method::Whitted | Method::PhotonMap => sampled::features(settings),
-        }
-    }
-}
-
-/// Images.
-impl Render {
-    /// Radiance after all passes so far.
-    #[must_use]
-    pub fn image(&self) -> Image {
-        each!(&self.0, r => r.image())
-    }
-
-    /// Radiance of one pixel as it stands; black beyond the image.
-    #[must_use]
-    pub fn radiance(&self, pixel: usize) -> Rgb {
-        each!(&self.0, r => r.radiance(pixel))
-    }
-
-    /// The last pass's own, independent estimate of what photons bring: their part of the image is the mean of these, weighted by
-    /// photons.
-    #[must_use]
-    pub fn last_pass(&self) -> Image {
-        each!(&self.0, r => r.last_pass())
-    }
-
-    /// Luminance of each pixel's direct light by shadow rays (W/m²/sr) and its variance; `None` where photons bring it.
-    #[must_use]
-    pub fn direct_light(&self) -> Option<Vec<(f64, f64)>> {
-        each!(&self.0, r => r.direct_light())
-    }
-
-    /// A layer beside the image; `None` for one that is not made.
-    #[must_use]
-    pub fn layer(&self, kind: LayerKind) -> Option<Layer> {
-        each!(&self.0, r => r.layer(kind))
-    }
-
-    /// A layer of light; `None` for one that is not made, or no light.
-    #[must_use]
-    pub fn colour_layer(&self, kind: LayerKind) -> Option<Image> {
-        each!(&self.0, r => r.colour_layer(kind))
-    }
-
-    /// Photons of the passes whose light was summed by class, fewer than [`Render::photons_emitted`] where a state without that was
-    /// restored; `None` without [`RenderSettings::layers`].
-    #[must_use]
-    pub fn photons_by_class(&self) -> Option<u64> {
-        each!(&self.0, r => r.photons_by_class())
-    }
-
-    /// How wrong the image still is; `None` without [`RenderSettings::error`], in the first passes, and in the dark.
-    #[must_use]
-    pub fn error(&self) -> Option<ErrorEstimate> {
-        each!(&self.0, r => r.error())
-    }
-
-    /// The means of all squares of 8 × 8 pixels with their errors, row by row; none without [`RenderSettings::error`].
-    #[must_use]
-    pub fn error_tiles(&self) -> Vec<TileError> {
-        each!(&self.0, r => r.error_tiles())
-    }
-
-    /// The bias of each pixel's luminance, as estimated (W/m²/sr): with its sign, and √3 times as noisy as the pixel. `None`
-    /// without [`RenderSettings::error`].
-    #[must_use]
-    pub fn bias(&self) -> Option<Vec<f64>> {
-        each!(&self.0, r => r.bias())
-    }
-
-    /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`RenderSettings::error`].
-    #[must_use]
-    pub fn error_plane(&self, kind: LayerKind) -> Option<Vec<f32>> {
-        each!(&self.0, r => r.error_plane(kind))
-    }
-}
-
-/// Hit points and photons, for display. World units.
-impl Render {
-    /// The spread of radii as it is now.
-    #[must_use]
-    pub fn radii(&self) -> Radii {
-        each!(&self.0, r => r.radii())
-    }
-
-    /// The discs of a pixel's hit points, in the order of its samples. `pixel` counts along rows from the top left; one beyond
-    /// the image has none.
-    #[must_use]
-    pub fn discs(&self, pixel: usize) -> Vec<Disc> {
-        each!(&self.0, r => r.discs(pixel))
-    }
-
-    /// Photons of the last pass, `at_most` of them, spread evenly over the scene's cells.
-    #[must_use]
-    pub fn stored_photons(&self, at_most: usize) -> Vec<StoredPhoton> {
-        each!(&self.0, r => r.stored_photons(at_most))
-    }
-
-    /// Photons of the last pass within `radius` of a point, `at_most` of them.
-    #[must_use]
-    pub fn photons_near(&self, position: DVec3, radius: f64, at_most: usize) -> Vec<StoredPhoton> {
-        each!(&self.0, r => r.photons_near(position, radius, at_most))
-    }
-
-    /// Paths of photons of the last pass, or of the one under way, that count for a pixel's hit points, `at_most` of them; of passes in
-    /// several batches some. They are traced again for that. `pixel` counts along rows from the top left; one beyond the image has none.
-    #[must_use]
-    pub fn paths_to(&self, pixel: usize, at_most: usize) -> Vec<PhotonPath> {
-        each!(&self.0, r => r.paths_to(pixel, at_most))
-    }
-
-    /// Mean radius of each pixel's hit points, in world units; 0 without hit points.
-    #[must_use]
-    pub fn mean_radii(&self) -> Vec<f32> {
-        each!(&self.0, r => r.mean_radii())
-    }
-
-    /// Photons found by each pixel's hit points in all passes.
-    #[must_use]
-    pub fn photons_found(&self) -> Vec<u32> {
-        each!(&self.0, r => r.photons_found())
-    }
-
-    /// Per pixel, the share of its hit points that have found no photon in any pass: unknown, not dark.
-    #[must_use]
-    pub fn unknown_share(&self) -> Vec<f32> {
-        each!(&self.0, r => r.unknown_share())
     }
 }
 

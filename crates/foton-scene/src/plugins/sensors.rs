@@ -1,0 +1,98 @@
+//! Cameras of scene files, with their parameters.
+
+use super::Plugin;
+use crate::parameter::{Kind, Parameter};
+
+/// Where a camera stands, and which way it looks.
+pub const TO_WORLD: Parameter = Parameter::other("to_world", Kind::Transform, "identity")
+    .help("Camera to world: it looks along its +z, and +x points to the image's left. It must not scale.");
+
+/// Angle of view.
+pub const FOV: Parameter = Parameter::number("fov", 0.0, (f64::MIN_POSITIVE, 180.0))
+    .label("Field of view")
+    .unit("°")
+    .help("Angle of view along `fov_axis`, below 180.")
+    .default_text("by `focal_length`")
+    .excludes(&["focal_length"]);
+
+/// What the angle of view spans.
+pub const FOV_AXIS: Parameter =
+    Parameter::choice("fov_axis", &["x", "y", "diagonal", "smaller", "larger"]).help("What `fov` spans.");
+
+/// Angle of view as that of a lens on 35 mm film.
+pub const FOCAL_LENGTH: Parameter = Parameter::other("focal_length", Kind::Millimetres, "`50mm`")
+    .help("Sets the angle of view to that of such a lens on 35 mm film; it blurs nothing.")
+    .excludes(&["fov"]);
+
+/// Where the camera begins to see.
+pub const NEAR_CLIP: Parameter = Parameter::number("near_clip", 0.0, (f64::MIN_POSITIVE, f64::MAX))
+    .help("Nothing nearer is seen, in world units along the camera's z.")
+    .default_text("no bound");
+
+/// Where the camera ends to see.
+pub const FAR_CLIP: Parameter = Parameter::number("far_clip", 0.0, (f64::MIN_POSITIVE, f64::MAX))
+    .help("Nothing farther is seen, in world units along the camera's z; beyond `near_clip`.")
+    .default_text("no bound");
+
+/// Radius of a lens.
+pub const APERTURE_RADIUS: Parameter = Parameter::number("aperture_radius", 0.0, (0.0, f64::MAX))
+    .label("Aperture radius")
+    .unit("units")
+    .help("Radius of the lens in world units: the larger, the more is blurred that is out of focus. 0 is a pinhole.")
+    .default_text("required");
+
+/// What a lens shows sharp.
+pub const FOCUS_DISTANCE: Parameter = Parameter::number("focus_distance", 1e4, (f64::MIN_POSITIVE, f64::MAX))
+    .label("Focus distance")
+    .unit("units")
+    .help("Depth along the camera's z at which things are sharp, in world units.")
+    .default_text("`far_clip`, or 10000");
+
+const SHIFT_X: Parameter = Parameter::unsupported("principal_point_offset_x");
+const SHIFT_Y: Parameter = Parameter::unsupported("principal_point_offset_y");
+const SHUTTER: &str = "Nothing moves while the shutter is open.";
+const SHUTTER_OPEN: Parameter = Parameter::ignored("shutter_open", SHUTTER);
+const SHUTTER_CLOSE: Parameter = Parameter::ignored("shutter_close", SHUTTER);
+
+/// A camera with a pinhole.
+pub const PERSPECTIVE: Plugin = Plugin {
+    name: "perspective",
+    label: "camera",
+    help: "A camera with a pinhole, which shows everything sharp.",
+    parameters: &[
+        TO_WORLD,
+        FOV,
+        FOV_AXIS,
+        FOCAL_LENGTH,
+        NEAR_CLIP,
+        FAR_CLIP,
+        SHIFT_X,
+        SHIFT_Y,
+        SHUTTER_OPEN,
+        SHUTTER_CLOSE,
+    ],
+};
+
+/// A camera with a lens.
+pub const THINLENS: Plugin = Plugin {
+    name: "thinlens",
+    label: "camera with a lens",
+    help: "A camera with a thin lens, which blurs what is nearer or farther than the plane in focus.",
+    parameters: &[
+        APERTURE_RADIUS,
+        FOCUS_DISTANCE,
+        TO_WORLD,
+        FOV,
+        FOV_AXIS,
+        FOCAL_LENGTH,
+        NEAR_CLIP,
+        FAR_CLIP,
+        SHIFT_X,
+        SHIFT_Y,
+        SHUTTER_OPEN,
+        SHUTTER_CLOSE,
+    ],
+};
+
+/// All of them.
+pub const ALL: &[Plugin] = &[PERSPECTIVE, THINLENS];

@@ -1,0 +1,83 @@
+//! `--integrator`: each method alone, and all of them.
+
+use super::*;
+
+/// Methods, by their names.
+const METHODS: [&str; 3] = ["ppm", "path", "whitted"];
+
+#[test]
+fn every_method_writes_images_checkpoints_and_layers_and_says_which_it_is() {
+    let folder = Folder::new("each-method");
+    for method in METHODS {
+        let render = format!(
+            "render scene.xml --integrator {method} --photons 2000 --layers direct,indirect,emission,error_noise"
+        );
+        folder.done(&format!("{render} --passes 4 -o whole.exr"));
+        let (_, metadata) = folder.exr("whole.exr");
+        let settings = metadata.get("foton:settings").expect("settings").to_owned();
+        assert!(settings.starts_with(&format!("integrator={method} ")), "{settings}");
+        assert_eq!(settings.contains("alpha="), method == "ppm", "{settings}");
+        folder.done(&format!("{render} --passes 2 -o half.exr --checkpoint half.ck"));
+        folder.done(&format!("{render} --passes 4 -o whole-again.exr --resume half.ck"));
+        assert!(folder.bytes("whole.exr") == folder.bytes("whole-again.exr"), "{method}");
+        folder.done(&format!("{render} --passes 4 -o one.exr --threads 1"));
+        assert!(folder.bytes("whole.exr") == folder.bytes("one.exr"), "{method}");
+    }
+    let said = folder.fails(1, "render scene.xml --integrator ppm --passes 4 -o x.exr --resume half.ck");
+    assert!(said.contains("integrator whitted, not ppm"), "{said}");
+}
+
+#[test]
+fn what_a_method_cannot_do_is_refused_or_said() {
+    let folder = Folder::new("method-limits");
+    for (arguments, why) in [
+        (
+            "--integrator path --layers radius",
+            "the layer radius tells of photons, which --integrator path does not have",
+        ),
+        ("--integrator all --checkpoint x.ck", "--checkpoint is of a render by one method"),
+        ("--integrator all --layers direct", "--layers is of a render by one method"),
+        (
+            "--integrator path --reference r.exr",
+            "--reference is what --integrator all compares its images with",
+        ),
+    ] {
+        let said = folder.fails(2, &format!("render scene.xml -o x.exr --passes 1 {arguments}"));
+        assert!(said.contains(why), "{arguments}: {said}");
+    }
+    let point = r#"<emitter type="point"><point name="position" x="0" y="1.5" z="0"/><rgb name="intensity" value="1"/></emitter>"#;
+    folder.write("point.xml", &SCENE.replace("</scene>", &format!("{point}</scene>")));
+    for (scene, method, is_said) in [
+        ("point", "path", true),
+        ("point", "whitted", true),
+        ("point", "ppm", false),
+        ("scene", "path", false),
+    ] {
+        let arguments = format!("render {scene}.xml -o x.exr --passes 1 --photons 500 --integrator {method}");
+        let said = text(&folder.done(&arguments).stderr);
+        assert_eq!(said.contains("these caustics are missing"), is_said, "{arguments}: {said}");
+    }
+}
+
+#[test]
+fn all_methods_make_a_sheet_an_image_each_and_a_table() {
+    let folder = Folder::new("all-methods");
+    let all = "render scene.xml -o sheet.png --integrator all --passes 3 --photons 2000";
+    let events = events(&folder.done(&format!("{all} --json")).stdout);
+    let of: Vec<&Value> = events.iter().filter(|e| e["event"] == "method").collect();
+    assert_eq!(of.iter().map(|e| e["integrator"].as_str().expect("a name")).collect::<Vec<_>>(), METHODS);
+    for (event, method) in of.iter().zip(METHODS) {
+        interface::has_keys(event, "event integrator passes seconds error difference output");
+        let alone = format!("render scene.xml -o alone.exr --integrator {method} --passes 3 --photons 2000");
+        folder.done(&alone);
+        assert!(folder.bytes("alone.exr") == folder.bytes(&format!("sheet-{method}.exr")), "{method}");
+    }
+    // The one that the others are compared with has no difference.
+    assert_eq!(of.iter().filter(|e| e["difference"].is_null()).count(), 1);
+    let sheet = foton_film::read_png(&folder.file("sheet.png")).expect("a sheet");
+    assert!(sheet.width > 2 * 24 && sheet.height > 16);
+    let said = text(&folder.done(&format!("{all} --reference alone.exr")).stderr);
+    assert!(said.contains("differs from alone.exr by"), "{said}");
+    let said = folder.fails(2, "render scene.xml -o sheet.png --integrator all --reference sheet-path.exr");
+    assert!(said.contains("sheet-path.exr"), "{said}");
+}
