@@ -67,8 +67,8 @@ impl KeptMaps {
         }
         out.u64(maps.directions.len() as u64);
         maps.directions.iter().for_each(|directions| out.bytes(directions.bytes()));
-        let Reach { global2, caustic2, irradiance_disc } = maps.reach;
-        [global2, caustic2, irradiance_disc].iter().for_each(|&reach| out.f64(reach.into()));
+        let Reach { global2, caustic2, lit2, irradiance_disc } = maps.reach;
+        [global2, caustic2, lit2, irradiance_disc].iter().for_each(|&reach| out.f64(reach.into()));
         out.u64(maps.max_depth.into());
         out.u64(maps.neighbours.into());
         write_account(&maps.account, &mut out);
@@ -91,7 +91,8 @@ impl KeptMaps {
         }
         let mut number =
             || input.finite().and_then(|x| if x >= 0.0 { Ok(x as f32) } else { Err(StateError::Impossible) });
-        let reach = Reach { global2: number()?, caustic2: number()?, irradiance_disc: number()? };
+        let reach =
+            Reach { global2: number()?, caustic2: number()?, lit2: number()?, irradiance_disc: number()? };
         let mut small = || u32::try_from(input.u64()?).map_err(|_| StateError::Impossible);
         let (max_depth, neighbours) = (small()?, small()?);
         let account = read_account(&mut input)?;

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use super::directions::Directions;
 use super::maps::{Account, LookUp, Maps, Reach};
 use super::place::Place;
+use super::shadow::lit_and_shadowed;
 use super::shoot::{Shot, Wanted};
 use crate::ppm::LOBE_POLICY;
 use crate::settings::RenderSettings;
@@ -66,7 +67,7 @@ impl Maps {
         )?;
         let has_casters = LobeUse::of(scene.census(), &LOBE_POLICY).specular;
         let caustic = if has_casters && wanted.caustic_photons > 0 {
-            let sources = sources.clone().by_direction();
+            let sources = scene.sources(&[]).by_direction();
             let cells = Cells::towards_casters(scene, &sources, &LOBE_POLICY);
             shoot(&sources, &cells, true, u64::from(wanted.caustic_photons))?
         } else {
@@ -85,8 +86,14 @@ impl Maps {
         maps.reach = Reach {
             global2: reach2(scene, &maps.global, neighbours, GLOBAL_REACH),
             caustic2: reach2(scene, &maps.caustic, neighbours, CAUSTIC_REACH),
-            irradiance_disc: 0.0,
+            ..Reach::default()
         };
+        // Surfaces that light passes straight through cast shadows of their own.
+        if wanted.shadow_photons && !scene.census().straight {
+            let photons = wanted.global_photons.get().into();
+            maps.lit = lit_and_shadowed(scene, &sources, photons, seed, cancel)?;
+            maps.reach.lit2 = reach2(scene, &maps.lit, neighbours, 1.0);
+        }
         watch(Stage::Gather);
         maps.keep_irradiance(scene, &global.photons, seed, cancel)?;
         maps.account = Account {

@@ -1,5 +1,6 @@
 //! What is seen of the maps: an eye sample on its way, and the light where it ends.
 
+use std::cell::RefCell;
 use std::sync::Arc;
 
 use foton_math::glam::Vec3;
@@ -17,6 +18,7 @@ use super::kept::KeptMaps;
 use super::maps::{LookUp, Maps};
 use super::place::Place;
 use super::settings::MapDisplay;
+use super::shadow;
 use crate::ppm::{DirectLight, LOBE_POLICY, lobe_use};
 use crate::sampled::sample::{EyeSample, Numbers, Seen};
 use crate::settings::RenderSettings;
@@ -123,7 +125,7 @@ impl PhotonMapper {
             paths.shapes.first().copied().filter(|&shape| shape != foton_transport::camera_paths::NO_SHAPE);
         seen.left_out = seen.left_out.or(paths.left_out);
         seen.scatters |= !paths.hit_points.is_empty();
-        let whole: f32 = paths.hit_points.iter().map(|h| importance(h)).sum();
+        let whole: f32 = paths.hit_points.iter().map(importance).sum();
         let mut nearest = Nearest::default();
         for point in &paths.hit_points {
             let gloss = point.gloss.map(|g| &paths.gloss[g as usize]);
@@ -150,7 +152,7 @@ impl PhotonMapper {
         let look_up = LookUp { maps: &self.maps, scene, neighbours: settings.neighbours.get() as usize };
         let from_map = self.settings.ppm.direct_light == DirectLight::Photons;
         if !from_map {
-            self.shadow_rays(scene, end, numbers, seen);
+            self.shadow_rays(scene, end, (numbers, nearest), seen);
         }
         let mut stream = numbers.stream();
         let found = look_up.caustic(&end.place, nearest, settings.filter, |wi| end.value_of_photon(wi));
@@ -184,7 +186,13 @@ impl PhotonMapper {
         self.add(seen, PathClass::Indirect, end, light, Quantity::GatheredLight);
     }
 
-    fn shadow_rays(&self, scene: &Scene, end: &End<'_>, numbers: &mut Numbers, seen: &mut Seen) {
+    fn shadow_rays(
+        &self,
+        scene: &Scene,
+        end: &End<'_>,
+        (numbers, nearest): (&mut Numbers, &mut Nearest),
+        seen: &mut Seen,
+    ) {
         let at = Receiver {
             origin: end.point.origin,
             normal: end.point.shading_normal,
@@ -193,8 +201,16 @@ impl PhotonMapper {
         let (index, scrambles) = numbers.lights();
         let (mut sum, mut rays) = (Rgb::BLACK, 0);
         let mut add = |arrival: Arrival| sum += arrival.irradiance * end.value(arrival.from);
-        self.lights.fixed(scene, &at, &mut rays, &mut add);
-        self.lights.sample(scene, &at, (index, &scrambles), &mut rays, &mut add);
+        let (lit, lit2) = (&self.maps.lit, self.maps.reach.lit2);
+        if lit.is_empty() {
+            self.lights.fixed(scene, &at, &mut rays, &mut add);
+            self.lights.sample(scene, &at, (index, &scrambles), &mut rays, &mut add);
+        } else {
+            let nearest = RefCell::new(nearest);
+            let sees = |emitter| shadow::sees(lit, lit2, &end.place, emitter, *nearest.borrow_mut());
+            self.lights.fixed_where(scene, &at, sees, &mut rays, &mut add);
+            self.lights.sample_where(scene, &at, (index, &scrambles), sees, &mut rays, &mut add);
+        }
         seen.rays += rays;
         self.add(seen, PathClass::Direct, end, sum, Quantity::DirectLight);
     }

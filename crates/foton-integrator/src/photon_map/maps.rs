@@ -16,6 +16,7 @@ const SAME_NORMAL: f32 = 0.7;
 pub(super) struct Reach {
     pub(super) global2: f32,
     pub(super) caustic2: f32,
+    pub(super) lit2: f32,
     /// Half of the discs for which irradiance was computed are larger.
     pub(super) irradiance_disc: f32,
 }

@@ -13,7 +13,10 @@ mod mapper;
 mod maps;
 mod place;
 pub(crate) mod settings;
+mod shadow;
 mod shoot;
+#[cfg(test)]
+mod tests;
 
 pub use kept::KeptMaps;
 pub(crate) use mapper::PhotonMapper;

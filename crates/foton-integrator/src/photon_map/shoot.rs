@@ -97,10 +97,9 @@ impl Wanted<'_> {
                 batch,
             };
             photon_pass.begin(chunks);
-            match photon_pass.shoot(chunks, cancel, &|| false) {
-                Err(Halt::Cancelled(cancelled)) => return Err(cancelled),
-                // It is never suspended, and leaves out what is not finite.
-                Ok(()) | Err(_) => {}
+            // It is never suspended, and leaves out what is not finite.
+            if let Err(Halt::Cancelled(cancelled)) = photon_pass.shoot(chunks, cancel, &|| false) {
+                return Err(cancelled);
             }
         }
         Ok(())
