@@ -36,6 +36,7 @@ mod stop;
 #[cfg(test)]
 mod test_scene;
 pub mod threads;
+mod views;
 
 pub use clock::StageTimes;
 pub use engine::Engine;
@@ -49,3 +50,4 @@ pub use panic::Panic;
 pub use preset::Preset;
 pub use session::{PassError, Progress, Session, StartError, StopCause};
 pub use stop::StopRule;
+pub use views::Views;

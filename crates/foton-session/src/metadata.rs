@@ -58,6 +58,12 @@ fn maps(settings: &RenderSettings) -> String {
     )
 }
 
+/// The cameras whose renders shared their photons: to make one of them again, all are to be rendered.
+fn cameras(render: &Render) -> String {
+    let name = |&i: &usize| render.scene().sensors()[i].name.as_str();
+    render.cameras().iter().map(name).collect::<Vec<_>>().join(", ")
+}
+
 /// Metadata of an image with layers of a render as it stands.
 pub(crate) fn of(render: &Render, layers: &[LayerKind], scene: &SceneIdentity) -> Metadata {
     let s = render.settings();
@@ -109,6 +115,7 @@ pub(crate) fn of(render: &Render, layers: &[LayerKind], scene: &SceneIdentity) -
         ("foton:changes", changes.join("\n")),
     ]
     .into_iter()
+    .chain((!render.cameras().is_empty()).then(|| ("foton:cameras", cameras(render))))
     .chain(s.photon_seed.map(|seed| ("foton:photon-seed", seed.to_string())))
     .chain(error.map(|error| ("foton:error", error)))
     .collect()

@@ -4,6 +4,7 @@
 //! whose image was written, is done.
 
 mod all_methods;
+mod all_sensors;
 mod args;
 mod compare;
 mod console;

@@ -10,7 +10,7 @@ use foton_scene::{BuildOptions, Scene};
 use foton_session::findings::{self, FindingKind};
 use foton_session::{SceneIdentity, Session};
 
-use crate::args::Size;
+use crate::args::{ALL_SENSORS, Size};
 use crate::console::{Console, Failure};
 use crate::interrupts::begin_step;
 use crate::memory;
@@ -83,6 +83,11 @@ pub(crate) fn build(
 /// What a scene file is called in messages and in the metadata of images.
 pub(crate) fn file_name(scene: &Path) -> String {
     scene.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// Whether all sensors are asked for.
+pub(crate) fn asks_for_all_sensors(opened: &Opened, name: Option<&str>) -> bool {
+    name == Some(ALL_SENSORS) && opened.description.sensors.iter().all(|s| s.name != ALL_SENSORS)
 }
 
 /// The index of the sensor of that name; the first without one.

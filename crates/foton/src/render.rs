@@ -13,10 +13,14 @@ use foton_session::snapshot::{self, Format};
 use foton_session::{Interrupt, Preset, SceneIdentity, Session, StopRule};
 
 use crate::all_methods;
+use crate::all_sensors;
 use crate::args::{ErrorWish, RenderArgs};
 use crate::console::{Console, Failure};
 use crate::interrupts::{begin_step, interrupt_on_signals, say_limit};
-use crate::opening::{Bounds, build, choose_sensor, file_name, open, refuse_beyond_memory, refuse_two_roles};
+use crate::opening::{
+    Bounds, asks_for_all_sensors, build, choose_sensor, file_name, open, refuse_beyond_memory,
+    refuse_two_roles,
+};
 use crate::settings::SettingsBuilder;
 use crate::writing::{Content, Output, finish};
 
@@ -31,7 +35,10 @@ pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Fai
     let opened = open(&args.scene, &args.scene_options.defines, args.memory, interrupt.cancel())?;
     refuse_two_roles(args.roles(), &opened)?;
     let name = file_name(&args.scene);
-    let sensor = choose_sensor(&opened, args.scene_options.sensor.as_deref())?;
+    let asked = args.scene_options.sensor.as_deref();
+    let all_sensors = asks_for_all_sensors(&opened, asked);
+    let sensor = choose_sensor(&opened, asked.filter(|_| !all_sensors))?;
+    let files = opened.files.clone();
     let suggested = opened.suggested;
     let bounds = Bounds { size: args.settings.size, region: args.region, memory: args.memory };
     let (scene, identity) = build(opened, &name, sensor, bounds, console, interrupt.cancel())?;
@@ -52,6 +59,12 @@ pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Fai
         return all_methods::render(args, scene, settings, (&rule, &interrupt), console);
     };
     let settings = settings(method);
+    if all_sensors {
+        let images = all_sensors::outputs(args, &scene);
+        let roles = images.iter().fold(args.roles(), |roles, path| roles.writes("-o with its", Some(path)));
+        roles.scene_reads(&files).clash().map_or(Ok(()), |clash| Err(Failure::Roles(clash)))?;
+        return all_sensors::render(args, (&scene, &identity), &settings, (&rule, &interrupt), console);
+    }
     console.of_settings(&scene, &settings);
     let mut session = start(args, scene, settings, &interrupt, console)?;
     if let Some(path) = &args.resume {

@@ -57,6 +57,8 @@ pub(crate) struct Ppm {
     /// A pass that was suspended.
     pub(super) under_way: Option<Box<UnderWay>>,
     pub(super) start: Start,
+    /// The sensors whose renders share the photons of this one, it included; none where it has its own.
+    pub(super) cameras: Vec<usize>,
     /// Whether a pass that leaves a value out does not happen.
     pub(super) strict: bool,
     pub(super) not_finite: Option<NotFinite>,
@@ -150,6 +152,7 @@ impl Ppm {
             once: Once::default(),
             under_way: None,
             start,
+            cameras: Vec::new(),
             strict: false,
             not_finite,
             arch: Arch::new(),

@@ -3,7 +3,7 @@
 use foton_scene::Sources;
 use foton_transport::camera_paths::EyePaths;
 use foton_transport::codec::{Reader, StateError, Writer};
-use foton_transport::guide::{Cells, Samples, Training, Worth, grow, is_training_pass};
+use foton_transport::guide::{Cells, Samples, Training, Worth, WorthPoints, grow, is_training_pass};
 use foton_transport::photon_map::Chunk;
 
 /// Where the photons of the next pass start, and what is known of those before.
@@ -19,12 +19,19 @@ pub(crate) struct Guidance {
 impl Guidance {
     /// Photons start as their emitters shine; if `guided`, until the first training pass.
     pub(super) fn new(sources: &Sources, eye: &EyePaths, guided: bool) -> Self {
-        let is_specular = |gloss: u32| eye.gloss.get(gloss as usize).is_some_and(|gloss| gloss.specular);
-        let worth = || Worth::new(&eye.hit_points, |hit_point| hit_point.gloss.is_some_and(is_specular));
+        let mut points = WorthPoints::default();
+        if guided {
+            add_points(&mut points, eye);
+        }
+        Self::over(sources, guided.then_some(points))
+    }
+
+    /// The same by points that stand for what is seen; without them photons are not guided.
+    pub(super) fn over(sources: &Sources, points: Option<WorthPoints>) -> Self {
         Self {
             cells: Cells::unguided(sources),
             cells_before: None,
-            worth: guided.then(worth),
+            worth: points.map(Worth::over),
             samples: Samples::default(),
         }
     }
@@ -89,4 +96,10 @@ impl Guidance {
         self.cells = Cells::read(input, emitters)?;
         Ok(())
     }
+}
+
+/// Adds what eye samples have found to points that stand for what is seen.
+pub(super) fn add_points(points: &mut WorthPoints, eye: &EyePaths) {
+    let is_specular = |gloss: u32| eye.gloss.get(gloss as usize).is_some_and(|gloss| gloss.specular);
+    points.add(&eye.hit_points, |hit_point| hit_point.gloss.is_some_and(is_specular));
 }

@@ -50,10 +50,7 @@ impl LaidOut {
         if settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive {
             hit_points = hit_points.with_radius_statistics();
         }
-        let step = (found.len() / MAX_PROBED).max(1);
-        let disc = |h: &HitPoint| (h.position, h.radius2.sqrt());
-        let seen: Vec<(Vec3, f32)> = found.iter().step_by(step).map(disc).collect();
-        let sources = scene.sources(&seen);
+        let sources = scene.sources(&discs(found));
         Ok(Self {
             guidance: Guidance::new(&sources, paths, settings.ppm.guided),
             sources,
@@ -68,4 +65,10 @@ impl LaidOut {
             hit_points,
         })
     }
+}
+
+/// First discs that stand for all, by which photons are aimed.
+pub(super) fn discs(found: &[HitPoint]) -> Vec<(Vec3, f32)> {
+    let step = (found.len() / MAX_PROBED).max(1);
+    found.iter().step_by(step).map(|h| (h.position, h.radius2.sqrt())).collect()
 }

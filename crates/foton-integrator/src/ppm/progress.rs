@@ -122,6 +122,11 @@ impl Ppm {
         self.direct.is_some()
     }
 
+    /// The sensors whose renders share its photons, it included.
+    pub(crate) fn cameras(&self) -> &[usize] {
+        &self.cameras
+    }
+
     /// All changes so far, each with the number of passes before it.
     #[must_use]
     pub(crate) fn changes(&self) -> &[(u64, SettingChange)] {

@@ -8,12 +8,16 @@
 use std::sync::Arc;
 
 use foton_scene::Scene;
+use foton_transport::guide::WorthPoints;
 use foton_transport::light_paths::PhotonPass;
 use foton_transport::photon_map::{Chunk, Grid, PathClass};
 use foton_transport::{Cancel, Cancelled, ShouldSuspend, Stage};
 use rayon::prelude::*;
 
 use super::algorithm::Ppm;
+use super::eye_samples::EyeSamples;
+use super::guidance::{Guidance, add_points};
+use super::laid_out::discs;
 use super::settings::PpmSettings;
 use super::under_way::UnderWay;
 use crate::render::Render;
@@ -71,10 +75,7 @@ impl Variants {
             Ok(run)
         };
         let mut runs: Vec<Render> = settings.iter().enumerate().map(start).collect::<Result<_, _>>()?;
-        // All begin as small as those with the widest discs.
-        let first_pass = |run: &Render| run.settings().ppm.first_pass;
-        let Some(least) = runs.iter().map(first_pass).min() else { return Ok(None) };
-        runs.iter_mut().for_each(|run| run.ppm_mut().expect(OF_PPM).settings.ppm.first_pass = least);
+        begin_alike(&mut runs);
         let widest = |run: &&Render| {
             run.ppm().expect(OF_PPM).hit_points.statistics().map(|s| s.radius2()).sum::<f64>()
         };
@@ -84,6 +85,48 @@ impl Variants {
         else {
             return Ok(None);
         };
+        Ok(Some(Self { runs, everywhere, chunks: Vec::new() }))
+    }
+
+    /// Renders of a scene through several of its sensors, which photons are aimed at and guided to all together: each hit point gets the
+    /// light of a render of its own, with the noise of photons that start elsewhere. Where they are neither guided nor aimed, and passes
+    /// of that render would begin as small, it has its bits. `None` without sensors, or by another method.
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub fn of_sensors(
+        scene: &Arc<Scene>,
+        settings: &RenderSettings,
+        sensors: &[usize],
+        watch: &mut dyn FnMut(Step),
+        cancel: &Cancel,
+    ) -> Result<Option<Self>, Cancelled> {
+        if settings.method != Method::Ppm || sensors.is_empty() {
+            return Ok(None);
+        }
+        let (mut points, mut seen) = (WorthPoints::default(), Vec::new());
+        let mut runs = Vec::with_capacity(sensors.len());
+        for (i, &sensor) in sensors.iter().enumerate() {
+            let watch = &mut |stage| watch(Step::Of(i, stage));
+            watch(Stage::EyePass);
+            let mut eye = EyeSamples::new(Arc::clone(scene), RenderSettings { sensor, ..settings.clone() });
+            eye.follow_all(cancel, &|_| ())?;
+            add_points(&mut points, &eye.paths);
+            seen.extend(discs(&eye.paths.hit_points));
+            runs.push(Render::of_ppm(Ppm::start(eye, &|_| (), watch, cancel)?));
+        }
+        begin_alike(&mut runs);
+        let sources = scene.sources(&seen);
+        for run in &mut runs {
+            let run = run.ppm_mut().expect(OF_PPM);
+            // The first emits for all, and alone has to know what light is worth.
+            let points = settings.ppm.guided.then(|| std::mem::take(&mut points));
+            run.guidance = Guidance::over(&sources, points);
+            run.sources = sources.clone();
+            run.cameras = sensors.to_vec();
+        }
+        let all = runs.iter().flat_map(|run| run.ppm().expect(OF_PPM).hit_points.packets.iter().cloned());
+        let everywhere = Grid::new(&all.collect::<Vec<_>>(), cancel)?;
         Ok(Some(Self { runs, everywhere, chunks: Vec::new() }))
     }
 
@@ -135,6 +178,15 @@ impl Variants {
     }
 }
 
+/// All begin with passes as small as those with the widest discs.
+fn begin_alike(runs: &mut [Render]) {
+    let least = runs.iter().map(|run| run.settings().ppm.first_pass).min();
+    for run in runs {
+        let settings = &mut run.ppm_mut().expect(OF_PPM).settings;
+        settings.ppm.first_pass = least.unwrap_or(settings.ppm.first_pass);
+    }
+}
+
 /// Whether two renders trace the same photons from the same eye samples.
 fn shares_photons(a: &RenderSettings, b: &RenderSettings) -> bool {
     let same = RenderSettings {
@@ -183,9 +235,11 @@ mod tests {
     use super::*;
     use std::num::NonZeroU32;
 
-    use super::super::eye_samples::EyeSamples;
     use super::super::settings::{Alpha, DirectLight, RadiusScale};
-    use crate::test_scene::scene;
+    use crate::test_scene::{description, scene};
+    use foton_film::Image;
+    use foton_math::glam::DAffine3;
+    use foton_scene::description::SensorDescription;
 
     #[test]
     fn variants_in_batches_have_the_bits_of_runs_of_their_own_in_batches() {
@@ -236,6 +290,64 @@ mod tests {
             assert!(run.image() == alone.image() && run.ledger() == alone.ledger());
             assert!(alone.material_losses().iter().any(|loss| loss.truncated > 0.0));
             assert_eq!(run.material_losses(), alone.material_losses());
+        }
+    }
+
+    /// The scene with a second camera, which looks at the glass ball from aside and is as large as half the first.
+    fn two_cameras() -> Arc<Scene> {
+        let mut description = description();
+        let turned = DAffine3::from_rotation_y(0.4) * description.sensors[0].to_world;
+        let aside =
+            SensorDescription { name: "aside".into(), to_world: turned, ..description.sensors[0].clone() };
+        description.sensors.push(SensorDescription { width: 16, height: 24, ..aside });
+        Arc::new(Scene::build(&description).expect("sound"))
+    }
+
+    fn of_two(guided: bool) -> (RenderSettings, Vec<Image>) {
+        let (scene, cancel) = (two_cameras(), Cancel::default());
+        let photons = NonZeroU32::new(20_000).expect("above 0");
+        let ppm =
+            PpmSettings { photons_per_pass: photons, first_pass: photons, guided, ..PpmSettings::default() };
+        let settings = RenderSettings { error: true, ppm, ..RenderSettings::default() };
+        let started = Variants::of_sensors(&scene, &settings, &[0, 1], &mut |_| (), &cancel);
+        let mut together = started.expect("not cancelled").expect("by photons");
+        for _ in 0..4 {
+            together.advance(&mut |_| (), &cancel).expect("not cancelled");
+        }
+        let images = together.runs().iter().map(Render::image).collect();
+        (settings, images)
+    }
+
+    fn alone(settings: &RenderSettings, sensor: usize, passes: u32) -> Image {
+        let cancel = Cancel::default();
+        let settings = RenderSettings { sensor, ..settings.clone() };
+        let mut alone = Render::start(two_cameras(), settings, &mut |_| (), &cancel).expect("not cancelled");
+        for _ in 0..passes {
+            alone.advance(&mut |_| (), &cancel).expect("not cancelled");
+        }
+        alone.image()
+    }
+
+    #[test]
+    fn cameras_that_share_unguided_photons_have_the_bits_of_renders_of_their_own() {
+        let (settings, images) = of_two(false);
+        for (sensor, image) in images.iter().enumerate() {
+            assert!(*image == alone(&settings, sensor, 4), "camera {sensor}");
+        }
+        assert_eq!([images[1].width, images[1].height], [16, 24]);
+    }
+
+    #[test]
+    fn cameras_that_share_guided_photons_see_the_same_light() {
+        let (settings, images) = of_two(true);
+        for (sensor, image) in images.iter().enumerate() {
+            let mean = |image: &Image| {
+                image.pixels.iter().map(|p| f64::from(p.luminance())).sum::<f64>() / image.pixels.len() as f64
+            };
+            let reference = mean(&alone(&settings, sensor, 16));
+            let deviation = mean(image) / reference - 1.0;
+            assert!(deviation.abs() < 0.02, "camera {sensor}: {deviation}");
+            assert!(*image != alone(&settings, sensor, 4), "guided to what both see");
         }
     }
 }

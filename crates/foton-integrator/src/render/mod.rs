@@ -49,6 +49,11 @@ impl Render {
         Self::start_telling(scene, settings, &|_| (), watch, cancel)
     }
 
+    /// One by progressive photon mapping.
+    pub(crate) fn of_ppm(ppm: Ppm) -> Self {
+        Self(Running::Ppm(Box::new(ppm)))
+    }
+
     /// As [`Render::start`]; `tell` is told by many threads what share of the eye samples is followed.
     ///
     /// # Errors
@@ -196,6 +201,12 @@ impl Render {
     /// Changes a setting from the next pass on; not the one that is suspended. The change stands in [`Render::changes`] with the number of passes before it.
     pub fn change(&mut self, change: SettingChange) {
         each!(&mut self.0, r => r.change(change));
+    }
+
+    /// The sensors whose renders share its photons, it included; none where it has its own.
+    #[must_use]
+    pub fn cameras(&self) -> &[usize] {
+        self.ppm().map_or(&[], Ppm::cameras)
     }
 
     /// All changes so far, each with the number of passes before it.

@@ -24,4 +24,4 @@ mod worth;
 pub use cells::{Cells, Start};
 pub use growth::grow;
 pub use samples::{Sample, Samples, Training, is_training_pass};
-pub use worth::Worth;
+pub use worth::{Worth, WorthPoints};

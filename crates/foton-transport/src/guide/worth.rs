@@ -35,6 +35,24 @@ struct Leaf {
     worth: f32,
 }
 
+/// Hit points that stand for all that is seen, by one camera or by several.
+#[derive(Default)]
+pub struct WorthPoints(Vec<Point>);
+
+impl WorthPoints {
+    /// Adds those of a camera.
+    pub fn add(&mut self, hit_points: &[HitPoint], is_specular: impl Fn(&HitPoint) -> bool) {
+        let step = hit_points.len().div_ceil(MAX_POINTS).max(1);
+        let point = |h: &HitPoint| {
+            let factor = if h.gloss.is_some() { GLOSSY_WEIGHT } else { 1.0 };
+            let (weight, footprint) = (factor * h.weight.luminance(), h.footprint.max(f32::MIN_POSITIVE));
+            let counts = weight > 0.0 && weight.is_finite() && footprint.is_finite() && !is_specular(h);
+            counts.then_some(Point { position: h.position, weight, footprint })
+        };
+        self.0.extend(hit_points.iter().step_by(step).filter_map(point));
+    }
+}
+
 /// A balanced tree over hit points: small leaves where the view is close.
 #[derive(Default)]
 pub struct Worth {
@@ -49,14 +67,16 @@ impl Worth {
     /// Of what is seen.
     #[must_use]
     pub fn new(hit_points: &[HitPoint], is_specular: impl Fn(&HitPoint) -> bool) -> Self {
-        let step = hit_points.len().div_ceil(MAX_POINTS).max(1);
-        let point = |h: &HitPoint| {
-            let factor = if h.gloss.is_some() { GLOSSY_WEIGHT } else { 1.0 };
-            let (weight, footprint) = (factor * h.weight.luminance(), h.footprint.max(f32::MIN_POSITIVE));
-            let counts = weight > 0.0 && weight.is_finite() && footprint.is_finite() && !is_specular(h);
-            counts.then_some(Point { position: h.position, weight, footprint })
-        };
-        let mut points: Vec<Point> = hit_points.iter().step_by(step).filter_map(point).collect();
+        let mut points = WorthPoints::default();
+        points.add(hit_points, is_specular);
+        Self::over(points)
+    }
+
+    /// Of what several cameras see.
+    #[must_use]
+    pub fn over(points: WorthPoints) -> Self {
+        let step = points.0.len().div_ceil(MAX_POINTS).max(1);
+        let mut points: Vec<Point> = points.0.into_iter().step_by(step).collect();
         let levels = (points.len() / IN_LEAF).checked_ilog2().unwrap_or(0);
         if points.is_empty() {
             return Self::default();

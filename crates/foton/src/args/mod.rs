@@ -18,7 +18,7 @@ use foton_session::snapshot::Format;
 
 pub(crate) use measure::Measure;
 use options::SceneOptions;
-pub(crate) use options::SettingsOptions;
+pub(crate) use options::{ALL_SENSORS, SettingsOptions};
 use parse::{bytes, define, image, name, region, xml};
 pub(crate) use render::RenderArgs;
 pub(crate) use values::{ErrorWish, Every, Guide, Radius, Size};

@@ -8,12 +8,16 @@ use foton_integrator::{Alpha, RadiusFloor, RenderSettings};
 use super::parse::{alpha, define, radius, radius_floor, with_default};
 use super::values::{Direct, Guide, Radius, Rule, Size};
 
+/// The word for all sensors; a sensor of that name comes first.
+pub(crate) const ALL_SENSORS: &str = "all";
+
 // The structs have no doc comments: clap would take them for descriptions of the commands.
 
 // What a scene file is read with, and the sensor.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct SceneOptions {
-    /// The sensor to look through, by its id [default: the first]
+    /// The sensor to look through, by its id [default: the first]. `foton render` takes `all`: every sensor in one go, with photons
+    /// that all of them share, as OUT-NAME.exr
     #[arg(long, value_name = "NAME")]
     pub(crate) sensor: Option<String>,
     /// Set a parameter of the scene file

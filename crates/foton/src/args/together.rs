@@ -3,6 +3,7 @@
 use foton_integrator::Method;
 use foton_session::snapshot::Format;
 
+use super::options::ALL_SENSORS;
 use super::{Args, Command, Compare, Convert, ErrorWish, Info, Measure, RenderArgs};
 use crate::roles::Roles;
 
@@ -67,6 +68,7 @@ impl RenderArgs {
             .or_else(|| self.look_in_vain())
             .or_else(|| self.maps_in_vain())
             .or_else(|| self.method_in_vain())
+            .or_else(|| self.sensors_in_vain())
             .or_else(|| clash(&self.roles()))
     }
 
@@ -100,6 +102,25 @@ impl RenderArgs {
             "the layer {} tells of photons, which --integrator {} does not have",
             layer.name(),
             method.name()
+        ))
+    }
+
+    /// What is of one camera.
+    fn sensors_in_vain(&self) -> Option<String> {
+        if self.scene_options.sensor.as_deref() != Some(ALL_SENSORS) {
+            return None;
+        }
+        let alone = [
+            (self.integrator.method().is_none(), "--integrator all"),
+            (self.checkpoint.is_some(), "--checkpoint"),
+            (self.resume.is_some(), "--resume"),
+            (self.every.is_some(), "--every"),
+            (self.region.is_some(), "--region"),
+            (self.strict, "--strict"),
+        ];
+        let (_, option) = alone.into_iter().find(|(is_there, _)| *is_there)?;
+        Some(format!(
+            "{option} is of a render by one camera; render through each --sensor by its name instead"
         ))
     }
 

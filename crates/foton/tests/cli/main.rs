@@ -13,6 +13,7 @@ mod regions;
 mod resuming;
 mod roles;
 mod scene_says;
+mod sensors;
 #[cfg(unix)]
 mod signals;
 #[cfg(target_os = "linux")]
