@@ -82,18 +82,7 @@ impl Maps {
             ..Self::default()
         };
         cancel.check()?;
-        let neighbours = wanted.neighbours.get() as usize;
-        maps.reach = Reach {
-            global2: reach2(scene, &maps.global, neighbours, GLOBAL_REACH),
-            caustic2: reach2(scene, &maps.caustic, neighbours, CAUSTIC_REACH),
-            ..Reach::default()
-        };
-        // Surfaces that light passes straight through cast shadows of their own.
-        if wanted.shadow_photons && !scene.census().straight {
-            let photons = wanted.global_photons.get().into();
-            maps.lit = lit_and_shadowed(scene, &sources, photons, seed, cancel)?;
-            maps.reach.lit2 = reach2(scene, &maps.lit, neighbours, 1.0);
-        }
+        maps.reach_out(scene, &sources, settings, cancel)?;
         watch(Stage::Gather);
         maps.keep_irradiance(scene, &global.photons, seed, cancel)?;
         maps.account = Account {
@@ -105,6 +94,26 @@ impl Maps {
             left_out: global.left_out.or(caustic.left_out),
         };
         Ok(maps)
+    }
+
+    /// Finds out how far photons are looked for, and adds shadow photons if they are asked for.
+    fn reach_out(
+        &mut self,
+        scene: &Scene,
+        sources: &Sources,
+        settings: &RenderSettings,
+        cancel: &Cancel,
+    ) -> Result<(), Cancelled> {
+        let (wanted, neighbours) = (&settings.photon_map, self.neighbours as usize);
+        self.reach.global2 = reach2(scene, &self.global, neighbours, GLOBAL_REACH);
+        self.reach.caustic2 = reach2(scene, &self.caustic, neighbours, CAUSTIC_REACH);
+        // Surfaces that light passes straight through cast shadows of their own.
+        if wanted.shadow_photons && !scene.census().straight {
+            let (photons, seed) = (wanted.global_photons.get().into(), settings.photon_seed());
+            self.lit = lit_and_shadowed(scene, sources, photons, seed, cancel)?;
+            self.reach.lit2 = reach2(scene, &self.lit, neighbours, 1.0);
+        }
+        Ok(())
     }
 
     /// Computes irradiance, and where it comes from, at some photons of the global map.
