@@ -17,6 +17,8 @@ pub enum Method {
     /// Progressive photon mapping: hit points once, then photon passes.
     #[default]
     Ppm,
+    /// Stochastic progressive photon mapping: new hit points for each photon pass.
+    Sppm,
     /// Path tracing with shadow rays.
     Path,
     /// Whitted's ray tracing: shadow rays, perfect reflection and refraction.
@@ -27,13 +29,14 @@ pub enum Method {
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 4] = [Self::Ppm, Self::Path, Self::Whitted, Self::PhotonMap];
+    pub const ALL: [Self; 5] = [Self::Ppm, Self::Sppm, Self::Path, Self::Whitted, Self::PhotonMap];
 
     /// The name in files and on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Ppm => "ppm",
+            Self::Sppm => "sppm",
             Self::Path => "path",
             Self::Whitted => "whitted",
             Self::PhotonMap => "photon-map",
@@ -51,6 +54,7 @@ impl Method {
     pub const fn title(self) -> &'static str {
         match self {
             Self::Ppm => "Progressive photon mapping",
+            Self::Sppm => "Stochastic progressive photon mapping",
             Self::Path => "Path tracing",
             Self::Whitted => "Whitted ray tracing",
             Self::PhotonMap => "Photon mapping",
@@ -63,7 +67,7 @@ impl Method {
     pub const fn default_samples(self) -> NonZeroU32 {
         match self {
             Self::Ppm => NonZeroU32::new(4).unwrap(),
-            Self::Path | Self::Whitted | Self::PhotonMap => NonZeroU32::MIN,
+            Self::Sppm | Self::Path | Self::Whitted | Self::PhotonMap => NonZeroU32::MIN,
         }
     }
 
@@ -85,10 +89,16 @@ impl Method {
         self.has_photons()
     }
 
+    /// Whether hit points gather photons in discs that shrink from pass to pass: then radii, α and photons a pass mean something.
+    #[must_use]
+    pub const fn has_discs(self) -> bool {
+        matches!(self, Self::Ppm)
+    }
+
     /// Whether passes have photons.
     #[must_use]
     pub const fn has_photons(self) -> bool {
-        matches!(self, Self::Ppm)
+        matches!(self, Self::Ppm | Self::Sppm)
     }
 }
 

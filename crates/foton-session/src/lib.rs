@@ -41,7 +41,7 @@ mod views;
 pub use clock::StageTimes;
 pub use engine::Engine;
 pub use foton_integrator::{
-    Alpha, ClassError, DirectLight, ErrorEstimate, KeptMaps, Ledger, PathClass, Radii, RadiusFloor,
+    Alpha, ClassError, DirectLight, ErrorEstimate, KeptMaps, Ledger, Method, PathClass, Radii, RadiusFloor,
     RadiusRule, RadiusScale, RenderSettings, SettingChange, Stage,
 };
 pub use interrupt::Interrupt;

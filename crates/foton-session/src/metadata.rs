@@ -84,7 +84,7 @@ pub(crate) fn of(render: &Render, layers: &[LayerKind], scene: &SceneIdentity) -
             method if method.has_photons() => photons(&s.ppm),
             _ => String::new(),
         },
-        if s.method == Method::Ppm {
+        if s.method.has_photons() {
             format!("hit_points_per_sample={} ", s.ppm.hit_points_per_sample)
         } else {
             String::new()

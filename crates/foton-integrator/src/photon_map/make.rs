@@ -10,7 +10,7 @@ use foton_transport::{LobeUse, Stage};
 use rayon::prelude::*;
 
 use super::directions::Directions;
-use super::maps::{Account, LookUp, Maps, Reach};
+use super::maps::{Account, LookUp, Maps};
 use super::place::Place;
 use super::shadow::lit_and_shadowed;
 use super::shoot::{Shot, Wanted};

@@ -117,6 +117,7 @@ impl PhotonMapper {
             uses: self.uses,
             seed: self.settings.seed,
             purpose: Purpose::Eye,
+            pass: None,
         };
         let mut paths = EyePaths::default();
         seen.emission += pass.follow_one(ray, numbers.stream(), &mut paths);

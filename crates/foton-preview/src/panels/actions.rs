@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use foton_edit::{Item, Make};
-use foton_session::engine::{Activity, Command, SceneEdit};
+use foton_session::engine::{Activity, Command, Frame, SceneEdit};
 
 use crate::editing::{Remaking, Renaming};
 use crate::files::{CHECKPOINTS, FileDialog, SCENES};
@@ -39,13 +39,18 @@ pub(super) fn toggle_paths(state: &mut State) {
     state.ask(Command::ShowPaths(state.show_paths));
 }
 
+/// What a frame shows: `ppm, pass 12`.
+pub(super) fn pass_of(frame: &Frame) -> String {
+    format!("{}, pass {}", frame.settings.method.name(), frame.stats.passes)
+}
+
 /// Keeps this picture to compare with, or ends the comparison.
 pub(super) fn toggle_pin(state: &mut State) {
     if state.pinned.take().is_some() {
         return;
     }
     let Some(frame) = &state.frame else { return };
-    let label = format!("pass {}", frame.stats.passes);
+    let label = pass_of(frame);
     state.pinned = frame.picture.clone().map(|picture| Pinned { picture, label, entry: None });
 }
 

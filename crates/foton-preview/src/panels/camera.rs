@@ -82,7 +82,11 @@ fn lens(ui: &mut Ui, state: &mut State) {
         let distance = lens.map_or(0.0, |lens| lens.focus_distance);
         let change = line(ui, focus, NEAREST * size..=FARTHEST * size, distance);
         state.outbox.extend(change.map(|change| turn(Gesture::FocusDistance, change)));
-        let pick = ui.toggle_value(&mut state.editing.focusing, "Focus on a point");
-        pick.on_hover_text("The next click in the picture says what is sharp; Esc leaves it");
+        let pick = egui::Button::new("Focus on a point").selected(state.editing.focusing);
+        let pick =
+            ui.add(pick).on_hover_text("The next click in the picture says what is sharp; Esc leaves it");
+        if pick.clicked() {
+            state.editing.focusing = !state.editing.focusing;
+        }
     });
 }

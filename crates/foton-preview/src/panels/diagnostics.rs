@@ -21,36 +21,48 @@ pub(super) fn show(ui: &mut Ui, state: &State) {
 }
 
 /// Speed, hit points, radii, memory, size.
-fn render(frame: &Frame) -> [Figure; 9] {
+fn render(frame: &Frame) -> Vec<Figure> {
+    let method = frame.settings.method;
     let (n, r) = (&frame.stats, &frame.stats.radii);
     let millions = |rate: f64| format!("{:.2} M", rate / 1e6);
-    [
-        Figure::new(
-            "Render time",
-            format!("{:.1} s", n.elapsed.as_secs_f64()),
-            "Pauses and loading do not count",
-        ),
-        Figure::new("Photons/s", millions(n.photons_per_s), "Over the last two seconds"),
-        Figure::new("Rays/s", millions(n.rays_per_s), "Over the last two seconds"),
-        Figure::new("Hit points", grouped(n.hit_points), "Where eye paths end on surfaces that spread light"),
-        Figure::new(
-            "Unlit hit points",
-            format!("{:.2} %", n.no_photon_share * 100.0),
-            "Hit points that no photon has found yet: unknown, not dark",
-        ),
-        Figure::new("Radius", short(r.median), "Median over all hit points, in world units"),
-        Figure::new(
-            "Radius range",
-            format!("{} \u{2013} {}", short(r.smallest), short(r.largest)),
-            "Smallest and largest radius, in world units",
-        ),
+    let mut figures = vec![Figure::new(
+        "Render time",
+        format!("{:.1} s", n.elapsed.as_secs_f64()),
+        "Pauses and loading do not count",
+    )];
+    if method.has_photons() {
+        figures.push(Figure::new("Photons/s", millions(n.photons_per_s), "Over the last two seconds"));
+    }
+    figures.push(Figure::new("Rays/s", millions(n.rays_per_s), "Over the last two seconds"));
+    if method.has_discs() {
+        figures.extend([
+            Figure::new(
+                "Hit points",
+                grouped(n.hit_points),
+                "Where eye paths end on surfaces that spread light",
+            ),
+            Figure::new(
+                "Unlit hit points",
+                format!("{:.2} %", n.no_photon_share * 100.0),
+                "Hit points that no photon has found yet: unknown, not dark",
+            ),
+            Figure::new("Radius", short(r.median), "Median over all hit points, in world units"),
+            Figure::new(
+                "Radius range",
+                format!("{} \u{2013} {}", short(r.smallest), short(r.largest)),
+                "Smallest and largest radius, in world units",
+            ),
+        ]);
+    }
+    figures.extend([
         Figure::new(
             "Memory",
             format!("{:.0} MiB", n.bytes as f64 / f64::from(1 << 20)),
-            "Scene, hit points and photons",
+            "Scene, pixels, hit points and photons",
         ),
         Figure::new("Image", format!("{} × {}", frame.size[0], frame.size[1]), "In pixels"),
-    ]
+    ]);
+    figures
 }
 
 /// What became of the emitted light.

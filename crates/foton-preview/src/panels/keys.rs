@@ -5,7 +5,7 @@ use foton_edit::{DragMode, Tool};
 use foton_session::engine::{Command, Gesture, SceneEdit};
 
 use super::views::VIEWS;
-use super::{actions, typing};
+use super::{actions, typing, views};
 use crate::state::{Leaving, Placement, State};
 
 /// What a key does.
@@ -83,7 +83,7 @@ pub(super) fn obey(ui: &egui::Ui, state: &mut State) {
         }
     }
     for (key, (_, view)) in DIGITS.into_iter().zip(VIEWS) {
-        if pressed(Modifiers::NONE, key) {
+        if pressed(Modifiers::NONE, key) && views::is_there(view, state) {
             state.choose_view(view);
         }
     }

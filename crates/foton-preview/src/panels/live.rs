@@ -29,8 +29,10 @@ const ERROR_HELP: &str = "Pauses once the error is certainly below: the upper en
 
 pub(super) fn show(ui: &mut Ui, state: &mut State) {
     let Some((settings, rule)) = state.frame.as_ref().map(|f| (f.settings.clone(), f.stop)) else { return };
-    alpha(ui, state, &settings);
-    photons(ui, state, &settings);
+    if settings.method.has_discs() {
+        alpha(ui, state, &settings);
+        photons(ui, state, &settings);
+    }
     stop_rule(ui, state, rule);
 }
 

@@ -50,7 +50,7 @@ mod widgets;
 #[cfg(test)]
 mod tests;
 
-use foton_session::engine::{Command, SceneEdit};
+use foton_session::engine::{Command, SceneEdit, ViewMode};
 
 use crate::files::Outcome;
 use crate::state::{DialogPurpose, State};
@@ -93,6 +93,10 @@ pub(crate) fn ground(visuals: &egui::Visuals) -> egui::Color32 {
 pub(crate) fn show(ui: &mut egui::Ui, state: &mut State) {
     state.places.clear();
     state.tell_look();
+    if !views::is_there(state.view, state) {
+        // The render is by another method now.
+        state.choose_view(ViewMode::Radiance);
+    }
     if ui.input(|i| i.pointer.any_pressed()) {
         state.editing.is_press_spent = egui::Popup::is_any_open(ui.ctx());
     }

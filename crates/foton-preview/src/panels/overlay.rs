@@ -4,6 +4,7 @@ use egui::{Color32, Pos2, Shape, Stroke};
 use foton_edit::Segment;
 use foton_session::engine::{Dot, DrawnPath, Frame};
 
+use super::actions;
 use super::dot_legend;
 use super::film_place::Film;
 use crate::looking::Compare;
@@ -36,13 +37,13 @@ pub(super) fn draw(painter: &egui::Painter, state: &State, frame: &Frame, film: 
         dots(painter, &probe.photons, film, 1.6);
     }
     if let Some(pinned) = state.pinned.as_ref().filter(|_| state.looking.compare == Compare::Wipe) {
-        wipe_labels(painter, film, state.wipe, sides(&pinned.label, frame.stats.passes));
+        wipe_labels(painter, film, state.wipe, sides(&pinned.label, &actions::pass_of(frame)));
     }
 }
 
 /// What the sides of the wipe say: on the left the render as it is now, on the right what is pinned.
-fn sides(pinned: &str, passes: u64) -> [String; 2] {
-    [format!("Now: pass {passes}"), format!("Pinned: {pinned}")]
+fn sides(pinned: &str, now: &str) -> [String; 2] {
+    [format!("Now: {now}"), format!("Pinned: {pinned}")]
 }
 
 /// The words on either side of the wipe's line, to be read over any picture and beside it.
@@ -119,6 +120,7 @@ mod tests {
 
     #[test]
     fn the_wipe_says_which_side_is_pinned() {
-        assert_eq!(sides("pass 16", 18), ["Now: pass 18", "Pinned: pass 16"]);
+        let said = ["Now: path, pass 18", "Pinned: ppm, pass 16"];
+        assert_eq!(sides("ppm, pass 16", "path, pass 18"), said);
     }
 }

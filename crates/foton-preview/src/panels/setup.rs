@@ -4,7 +4,7 @@ use std::num::NonZeroU32;
 
 use egui::Ui;
 use foton_session::engine::{Command, Configuration};
-use foton_session::{DirectLight, RadiusFloor, RadiusRule};
+use foton_session::{DirectLight, Method, RadiusFloor, RadiusRule};
 
 use super::number::{Change, Digits, Number};
 use super::optional::optional;
@@ -19,9 +19,14 @@ pub(super) fn show(ui: &mut Ui, state: &mut State) {
         Some((base, draft)) => rebased(draft, &base, &now),
         None => now.clone(),
     };
-    methods(ui, &mut draft);
+    method(ui, &mut draft);
+    if draft.method.has_discs() {
+        discs(ui, &mut draft);
+    }
     samples(ui, &mut draft);
-    radii(ui, &mut draft, frame.stats.radii.median);
+    if draft.method.has_discs() {
+        radii(ui, &mut draft, frame.stats.radii.median);
+    }
     depth(ui, &mut draft);
     let seed = seed_and_threads(ui, &mut draft);
     state.place("seed", &seed);
@@ -92,6 +97,7 @@ fn changes(now: &Configuration, draft: &Configuration, sensors: &[&str]) -> Vec<
             said.push(text);
         }
     };
+    say(draft.method != now.method, draft.method.title().to_lowercase());
     let automatic = |value: Option<String>| value.unwrap_or_else(|| "automatic".to_owned());
     say(
         draft.direct_light != now.direct_light,
@@ -106,7 +112,11 @@ fn changes(now: &Configuration, draft: &Configuration, sensors: &[&str]) -> Vec<
     );
     say(
         draft.samples_per_pixel != now.samples_per_pixel,
-        format!("{} samples/pixel (collects hit points again)", draft.samples_per_pixel),
+        format!(
+            "{} samples/pixel{}",
+            draft.samples_per_pixel,
+            if draft.method.renews_eye_samples() { " in each pass" } else { " (collects hit points again)" }
+        ),
     );
     say(
         draft.radius != now.radius,
@@ -129,8 +139,27 @@ fn changes(now: &Configuration, draft: &Configuration, sensors: &[&str]) -> Vec<
     said
 }
 
+/// How light is transported.
+fn method(ui: &mut Ui, draft: &mut Configuration) {
+    const HELP: &str = "How light is transported. Settings that a method does not have are not shown";
+    row(ui, "Method", HELP, |ui, label| {
+        let before = draft.method;
+        let list = egui::ComboBox::from_id_salt("method").width(ui.available_width()).truncate();
+        let list = list.selected_text(before.title()).show_ui(ui, |ui| {
+            for method in Method::ALL {
+                ui.selectable_value(&mut draft.method, method, method.title());
+            }
+        });
+        // A number of eye samples that nobody has chosen is that of the method.
+        if draft.method != before && draft.samples_per_pixel == before.default_samples() {
+            draft.samples_per_pixel = draft.method.default_samples();
+        }
+        list.response.labelled_by(label).on_hover_text(HELP);
+    });
+}
+
 /// How direct light is estimated, and how radii shrink.
-fn methods(ui: &mut Ui, draft: &mut Configuration) {
+fn discs(ui: &mut Ui, draft: &mut Configuration) {
     const DIRECT: &str = "How direct light is estimated";
     row(ui, "Direct light", DIRECT, |ui, label| {
         let list = egui::ComboBox::from_id_salt("direct light").width(ui.available_width());
@@ -173,13 +202,16 @@ fn methods(ui: &mut Ui, draft: &mut Configuration) {
 }
 
 fn samples(ui: &mut Ui, draft: &mut Configuration) {
-    const HELP: &str =
+    const OF_ALL: &str =
         "Eye samples per pixel, 1 to 64. More: smoother edges and gloss. Memory and gathering grow with it.";
-    row(ui, "Samples/pixel", HELP, |ui, _| {
+    const OF_A_PASS: &str =
+        "Eye samples per pixel in each pass, 1 to 64. More: longer passes with less noise.";
+    let help = if draft.method.renews_eye_samples() { OF_A_PASS } else { OF_ALL };
+    row(ui, "Samples/pixel", help, |ui, _| {
         let number = Number::new("Samples/pixel", 1.0..=65536.0).digits(Digits::Whole).speed(0.2);
         let value = f64::from(draft.samples_per_pixel.get());
         let ([slider, field], change) = Slider::new("Samples/pixel", 1.0..=64.0).show(ui, number, value);
-        (slider | field).on_hover_text(HELP);
+        (slider | field).on_hover_text(help);
         if let Some(n) = change.and_then(Change::done).and_then(|v| NonZeroU32::new(v as u32)) {
             draft.samples_per_pixel = n;
         }

@@ -82,7 +82,8 @@ fn view(ui: &mut Ui, state: &mut State, room: Room) {
     state.place("view list", &list);
     let is_short = !room.view_labels;
     let photons = Tool { is_on: Some(state.show_photons), is_short, ..Tool::new(Icon::Photons, "Photons") };
-    let photons = photons.show(ui);
+    let has_photons = state.frame.as_ref().is_none_or(|f| f.settings.method.has_photons());
+    let photons = ui.add_enabled_ui(has_photons, |ui| photons.show(ui)).inner;
     state.place("photons", &photons);
     let help = "The last pass's photons as dots (O): direct yellow, caustic white, indirect blue";
     if photons.on_hover_text(help).clicked() {

@@ -27,9 +27,22 @@ pub(super) const fn is_light(view: ViewMode) -> bool {
     matches!(view, ViewMode::Radiance | ViewMode::Classes { .. })
 }
 
+/// Whether the method of the render has such a view.
+pub(super) fn is_there(view: ViewMode, state: &State) -> bool {
+    let has_discs = state.frame.as_ref().is_none_or(|f| f.settings.method.has_discs());
+    let is_of_discs = matches!(
+        view,
+        ViewMode::Radius
+            | ViewMode::PhotonCount
+            | ViewMode::Unknown
+            | ViewMode::Error(ErrorPart::Noise | ErrorPart::Bias)
+    );
+    has_discs || !is_of_discs
+}
+
 /// A line for each view.
 pub(super) fn choices(ui: &mut Ui, state: &mut State) {
-    for (name, view) in VIEWS {
+    for (name, view) in VIEWS.into_iter().filter(|(_, view)| is_there(*view, state)).collect::<Vec<_>>() {
         if ui.selectable_label(state.view == view, name).clicked() {
             state.choose_view(view);
         }

@@ -14,7 +14,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use foton_film::ToneMap;
-use foton_integrator::PpmSettings;
+use foton_integrator::{Method, PpmSettings};
 use foton_session::engine::{Activity, Command, Configuration, Event, Picture, SurfaceNames, ViewMode};
 use foton_session::findings::{self, FindingKind};
 use foton_session::snapshot::{self, Format, Look};
@@ -92,6 +92,21 @@ fn a_configuration_restarts_the_render() {
         ..settings()
     };
     assert_eq!(*image(&after), headless(2, asked, |_, _| ()).render().image());
+}
+
+#[test]
+fn another_method_restarts_the_render_and_the_first_has_its_bits_when_it_is_back() {
+    let (rig, before) = Rig::at_pass(2);
+    let ppm = Configuration::of(&before.settings, before.threads, None);
+    let path = Configuration { method: Method::Path, samples_per_pixel: NonZeroU32::MIN, ..ppm };
+    rig.send(Command::Configure(path));
+    let after = rig.until("another render", |f| f.render != before.render && f.activity == Activity::Done);
+    assert_eq!(after.settings.method, Method::Path);
+    let asked = RenderSettings { method: Method::Path, samples_per_pixel: NonZeroU32::MIN, ..settings() };
+    assert_eq!(*image(&after), headless(2, asked, |_, _| ()).render().image());
+    rig.send(Command::Configure(ppm));
+    let back = rig.until("the first", |f| f.render != after.render && f.activity == Activity::Done);
+    assert_eq!(image(&back), image(&before));
 }
 
 #[test]

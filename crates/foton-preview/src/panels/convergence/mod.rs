@@ -23,7 +23,9 @@ pub(super) fn show(ui: &mut Ui, state: &State) {
         Some(error) => {
             plot::show(ui, state, left::goal(frame));
             figures(state).iter().for_each(|figure| figure.show(ui));
-            bars::noise_and_bias(ui, error);
+            if frame.settings.method.has_discs() {
+                bars::noise_and_bias(ui, error);
+            }
             bars::light_paths(ui, error);
         }
         None => {

@@ -50,7 +50,7 @@ fn the_bar_pauses_steps_restarts_saves_and_opens() {
     click(&mut harness, Role::Button, "ring");
     assert_asked(&mut harness, &Command::Open(Source::BuiltIn("ring".into())));
     click(&mut harness, Role::Button, "Pin");
-    assert!(harness.state().pinned.as_ref().is_some_and(|p| p.label == "pass 12"));
+    assert!(harness.state().pinned.as_ref().is_some_and(|p| p.label == "ppm, pass 12"));
     click(&mut harness, Role::Button, "Unpin");
     assert!(harness.state().pinned.is_none());
     click(&mut harness, Role::Button, "Reset camera");

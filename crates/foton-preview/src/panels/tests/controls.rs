@@ -111,3 +111,60 @@ fn a_draft_keeps_what_was_changed_when_other_settings_change_meanwhile() {
     let now = Configuration::of(&RenderSettings::default(), None, None);
     assert_asked(&mut harness, &Command::Configure(Configuration { seed: 5, threads: Some(3), ..now }));
 }
+
+#[test]
+fn a_method_is_chosen_from_a_list_and_brings_its_own_number_of_samples() {
+    let now = Configuration::of(&RenderSettings::default(), None, None);
+    let mut harness = window(|_| ());
+    choose(&mut harness, "Method", "Path tracing");
+    settle(&mut harness);
+    assert_eq!(asked(&mut harness), [""; 0]);
+    assert!(harness.query_by_label_contains("with path tracing, 1 samples/pixel in each pass.").is_some());
+    for gone in ["Direct light", "Radius reduction"] {
+        assert!(
+            harness.query_by_role_and_label(Role::ComboBox, gone).is_none(),
+            "{gone} of a draft by path tracing"
+        );
+    }
+    click(&mut harness, Role::Button, "Apply and restart");
+    let path = Configuration { method: Method::Path, samples_per_pixel: NonZeroU32::MIN, ..now };
+    assert_asked(&mut harness, &Command::Configure(path));
+    // A number that someone has chosen stays.
+    let samples_per_pixel = NonZeroU32::new(7).expect("above 0");
+    let mut harness = window(|state| {
+        state.frame.as_mut().expect("there").settings.samples_per_pixel = samples_per_pixel;
+    });
+    choose(&mut harness, "Method", "Whitted ray tracing");
+    settle(&mut harness);
+    click(&mut harness, Role::Button, "Apply and restart");
+    let whitted = Configuration { method: Method::Whitted, samples_per_pixel, ..now };
+    assert_asked(&mut harness, &Command::Configure(whitted));
+}
+
+#[test]
+fn what_a_method_does_not_have_is_not_shown() {
+    let mut harness = window(|_| ());
+    click(&mut harness, Role::DisclosureTriangle, "Diagnostics");
+    harness.run_steps(20);
+    let is_there =
+        |harness: &Harness<'_, State>, name: &str| harness.query_all_by_label_contains(name).next().is_some();
+    let of_photons = ["α", "Photons/pass", "Photons/s", "Hit points", "Radius range", "Smallest radius"];
+    for name in of_photons {
+        assert!(is_there(&harness, name), "{name} of photon mapping");
+    }
+    harness.state_mut().choose_view(ViewMode::Radius);
+    settle(&mut harness);
+    harness.state_mut().frame.as_mut().expect("there").settings.method = Method::Path;
+    settle(&mut harness);
+    harness.run_steps(20);
+    for name in of_photons {
+        assert!(!is_there(&harness, name), "{name} of path tracing");
+    }
+    assert_eq!(harness.state().view, ViewMode::Radiance, "radii are gone");
+    harness.key_press(egui::Key::Num3);
+    settle(&mut harness);
+    assert_eq!(harness.state().view, ViewMode::Radiance);
+    for name in ["Rays/s", "Samples/pixel", "Seed", "Stop at error"] {
+        assert!(is_there(&harness, name), "{name}");
+    }
+}

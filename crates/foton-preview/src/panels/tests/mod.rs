@@ -32,7 +32,8 @@ use foton_session::engine::{
     SceneFacts, Selection, SensorFacts, Source, ViewMode,
 };
 use foton_session::{
-    Alpha, DirectLight, Ledger, Radii, RadiusFloor, RadiusRule, RenderSettings, SettingChange, StopRule,
+    Alpha, DirectLight, Ledger, Method, Radii, RadiusFloor, RadiusRule, RenderSettings, SettingChange,
+    StopRule,
 };
 
 use foton_session::snapshot::Look;
