@@ -154,6 +154,7 @@ mod tests {
             filter: Filter::Box { radius: 0.5 },
             near_clip: None,
             far_clip: None,
+            lens: None,
         };
         let material = |front| Material { name: "material".into(), front, back: None, opacity: None };
         let lamp = EmitterKind::Point { position: DVec3::ZERO, intensity: Rgb::WHITE };
