@@ -77,6 +77,12 @@ impl Method {
         !matches!(self, Self::Ppm)
     }
 
+    /// Whether passes see a scene that moves at different times.
+    #[must_use]
+    pub const fn blurs_motion(self) -> bool {
+        self.renews_eye_samples() && !matches!(self, Self::PhotonMap)
+    }
+
     /// Whether light that mirrors and glass throw from points and suns is missing.
     #[must_use]
     pub const fn misses_caustics_of_points(self) -> bool {

@@ -24,6 +24,8 @@ pub enum Purpose {
     Test = 5,
     /// Choices along paths from the camera that meet emitters by themselves.
     Path = 6,
+    /// When passes see a scene that moves.
+    Shutter = 7,
     /// Maps of photons that stay: rounding, and looking around them.
     PhotonMap = 20,
 }

@@ -2,10 +2,12 @@
 
 mod fingerprint;
 mod light;
+mod motion;
 mod parametrisation;
 mod scattering;
 mod surface;
 
+pub(crate) use motion::Moving;
 use std::sync::Arc;
 
 use foton_math::glam::{Mat3, Vec2, Vec3};
@@ -85,6 +87,8 @@ pub struct Scene {
     pub(crate) census: Census,
     /// Bytes of textures and skies.
     pub(crate) picture_bytes: usize,
+    /// `None` where nothing moves.
+    pub(crate) moving: Option<Arc<Moving>>,
 }
 
 impl Scene {

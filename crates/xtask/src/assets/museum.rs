@@ -73,11 +73,11 @@ pub(super) fn vase() -> Profile {
     Profile::start([0.0, 0.0])
         .line([0.2, 0.0])
         .arc([0.2, 0.02], 165.0, 6)
-        .bezier([0.16, 0.08], [0.42, 0.2], [0.4, 0.45], 6)
+        .bezier([0.16, 0.15], [0.4, 0.2], [0.4, 0.45], 6)
         .bezier([0.38, 0.72], [0.13, 0.75], [0.18, 1.05], 6)
         .arc([0.165, 1.06], 170.0, 6)
-        .bezier([0.11, 0.8], [0.34, 0.7], [0.34, 0.45], 6)
-        .bezier([0.34, 0.2], [0.15, 0.12], [0.0, 0.12], 5)
+        .bezier([0.11, 0.8], [0.28, 0.7], [0.28, 0.45], 6)
+        .bezier([0.28, 0.24], [0.15, 0.16], [0.0, 0.16], 5)
 }
 
 /// Menger's sponge of the second level, an edge of 1, on y = 0: a cube of which seven of 27 parts are cut out, and of each that is left
