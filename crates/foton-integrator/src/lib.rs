@@ -22,9 +22,10 @@ mod shutter;
 mod sppm;
 #[cfg(test)]
 mod test_scene;
+mod white;
 mod whitted;
 
-pub use error::{ClassError, ErrorEstimate, TileError, WHITE};
+pub use error::{ClassError, ErrorEstimate, TileError};
 pub use feature::Feature;
 pub use foton_transport::codec::StateError;
 pub use foton_transport::kd_tree::KernelFilter;
@@ -43,3 +44,4 @@ pub use ppm::{
 pub use render::Render;
 pub use report::{PassReport, Start};
 pub use settings::{Method, RenderSettings, SettingChange};
+pub use white::WHITE;
