@@ -13,6 +13,7 @@ mod feature;
 mod layers;
 mod memory;
 mod path;
+mod photon_map;
 mod ppm;
 mod render;
 mod report;
@@ -28,6 +29,7 @@ mod whitted;
 pub use error::{ClassError, ErrorEstimate, TileError};
 pub use feature::Feature;
 pub use foton_transport::codec::StateError;
+pub use foton_transport::kd_tree::KernelFilter;
 pub use foton_transport::photon_map::PathClass;
 pub use foton_transport::{
     Cancel, Cancelled, Halt, Ledger, LightUse, LobeUse, Loss, NotFinite, Quantity, ShouldSuspend, Stage,
@@ -35,6 +37,7 @@ pub use foton_transport::{
 };
 pub use layers::LayerKind;
 pub use memory::MemoryEstimate;
+pub use photon_map::{KeptMaps, MapDisplay, PhotonMapSettings};
 pub use ppm::{
     Alpha, DirectLight, Disc, EyeSamples, PhotonPath, PpmSettings, Radii, RadiusFloor, RadiusRule,
     RadiusScale, Statistics, Step, StoredPhoton, Variants, lobe_use,

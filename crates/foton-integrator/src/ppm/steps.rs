@@ -74,6 +74,7 @@ impl Ppm {
             training: self.guidance.training(self.passes, photons),
             grid: &self.grid,
             stores_direct: !self.has_shadow_rays(),
+            ends_where_light_spreads: false,
             policy: LOBE_POLICY,
             directions: self.hit_points.need_directions(),
             arch: self.arch,

@@ -152,6 +152,9 @@ pub(crate) enum Integrator {
     /// The one that suits the scene, by its camera and surfaces; foton says which and why
     #[value(name = "auto")]
     Auto,
+    /// Two-pass photon mapping: maps of photons that stay, shown by final gathering. Fast, with a bias that passes do not lower
+    #[value(name = "photon-map")]
+    PhotonMapping,
     /// Each of them in turn, for the same time: OUT becomes a contact sheet, and a table says how much they differ
     #[value(name = "all")]
     All,
@@ -171,6 +174,7 @@ impl Integrator {
             Self::StochasticProgressivePhotonMapping => Some(Method::Sppm),
             Self::PathTracing => Some(Method::Path),
             Self::WhittedRayTracing => Some(Method::Whitted),
+            Self::PhotonMapping => Some(Method::PhotonMap),
         }
     }
 }
