@@ -124,9 +124,14 @@ impl RadiusStatistics {
         [self.laplacian * self.laplacian, self.offset.iter().map(|o| o * o).sum()]
     }
 
-    /// R: bias² over half the noise², at most [`MAX_BALANCE`]; 1 while nothing is known. `noise` has the variances of the sums that
-    /// [`RadiusStatistics::squares`] has the squares of.
-    fn balance(&self, noise: [f64; 2]) -> f64 {
+    /// R: bias² over half the noise², at most [`MAX_BALANCE`]; 1 while nothing is known.
+    fn balance(&self) -> f64 {
+        // Over a disc 36 (s − ½)² is 3 on average, and d²/r² a half.
+        self.balance_beside([3.0 * self.variance, 0.5 * self.variance])
+    }
+
+    /// The same where the variances of the sums that [`RadiusStatistics::squares`] has the squares of are known otherwise.
+    fn balance_beside(&self, noise: [f64; 2]) -> f64 {
         if self.light <= 0.0 || self.variance <= 0.0 {
             return 1.0;
         }
@@ -163,14 +168,12 @@ impl RadiusStatistics {
 
     /// The share of new photons to retain, which is `alpha` where bias and noise are in balance.
     pub(crate) fn alpha(&self, alpha: Alpha) -> Alpha {
-        // Over a disc 36 (s − ½)² is 3 on average, and d²/r² a half.
-        self.alpha_beside(alpha, [3.0 * self.variance, 0.5 * self.variance])
+        retained(alpha, self.balance())
     }
 
     /// The same where the variances of what tells bias are known otherwise.
     pub(crate) fn alpha_beside(&self, alpha: Alpha, noise: [f64; 2]) -> Alpha {
-        let a = alpha.get();
-        Alpha::new(a / (a + (1.0 - a) * self.balance(noise))).unwrap_or(alpha)
+        retained(alpha, self.balance_beside(noise))
     }
 
     pub(crate) fn write(&self, out: &mut Writer) {
@@ -189,6 +192,12 @@ impl RadiusStatistics {
             freedom: next()?,
         })
     }
+}
+
+/// The share of new photons to retain where bias² over half the noise² is that.
+fn retained(alpha: Alpha, balance: f64) -> Alpha {
+    let a = alpha.get();
+    Alpha::new(a / (a + (1.0 - a) * balance)).unwrap_or(alpha)
 }
 
 #[cfg(test)]
