@@ -6,7 +6,8 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use foton_integrator::{
-    Alpha, Cancel, DirectLight, LayerKind, PpmSettings, RadiusRule, Render, RenderSettings, SettingChange,
+    Alpha, Cancel, DirectLight, LayerKind, Method, PpmSettings, RadiusRule, Render, RenderSettings,
+    SettingChange,
 };
 use foton_math::glam::DVec3;
 use foton_session::checkpoint::{self, ResumeError};
@@ -76,7 +77,16 @@ fn a_render_that_was_taken_up_has_the_bits_of_one_that_never_stopped() {
             ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..settings.ppm },
             ..settings.clone()
         },
-        RenderSettings { ppm: PpmSettings { radius_rule: RadiusRule::Adaptive, ..settings.ppm }, ..settings },
+        RenderSettings {
+            ppm: PpmSettings { radius_rule: RadiusRule::Adaptive, ..settings.ppm },
+            ..settings.clone()
+        },
+        RenderSettings {
+            method: Method::Sppm,
+            layers: true,
+            ppm: PpmSettings { direct_light: DirectLight::ShadowRays, ..settings.ppm },
+            ..settings
+        },
     ];
     for (i, settings) in others.into_iter().enumerate() {
         let mut whole = start(&settings, 2);
@@ -91,6 +101,10 @@ fn a_render_that_was_taken_up_has_the_bits_of_one_that_never_stopped() {
         checkpoint::resume(&path, &mut taken_up, &identity(), false).expect("taken up");
         assert_eq!((taken_up.elapsed(), taken_up.rays()), (elapsed, rays));
         assert_eq!(taken_up.render().changes(), whole.render().changes());
+        if settings.method == Method::Sppm {
+            // The hit points of the last pass are followed again, to be shown.
+            assert!((0..24 * 24).any(|pixel| !taken_up.render().discs(pixel).is_empty()));
+        }
         advance(&mut taken_up, 4);
         // How many photons start where no disc is may differ, since cells are marked anew; no sum may.
         let (whole, taken_up) = (bits(whole.render()), bits(taken_up.render()));

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use foton_film::Image;
 use foton_integrator::{
-    Alpha, Cancel, DirectLight, LayerKind, PpmSettings, RadiusRule, RadiusScale, Render, RenderSettings,
-    SettingChange, Variants,
+    Alpha, Cancel, DirectLight, LayerKind, Method, PpmSettings, RadiusRule, RadiusScale, Render,
+    RenderSettings, SettingChange, Variants,
 };
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
@@ -76,13 +76,15 @@ fn state(render: &Render) -> (u64, String, String) {
 
 #[test]
 fn one_two_and_seven_threads_give_the_same_bits() {
-    for direct_light in [DirectLight::Photons, DirectLight::ShadowRays] {
+    let lights = [DirectLight::Photons, DirectLight::ShadowRays];
+    let methods = [Method::Ppm, Method::Sppm];
+    for (method, direct_light) in methods.into_iter().flat_map(|method| lights.map(|light| (method, light))) {
         let run = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-            state(&pool.install(|| scene().render(settings(direct_light), 5)))
+            state(&pool.install(|| scene().render(RenderSettings { method, ..settings(direct_light) }, 5)))
         };
         let one = run(1);
-        assert!(one == run(2) && one == run(7), "{direct_light:?}");
+        assert!(one == run(2) && one == run(7), "{method:?}, {direct_light:?}");
     }
 }
 

@@ -3,7 +3,7 @@
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use foton_integrator::{PpmSettings, RenderSettings};
+use foton_integrator::{Method, PpmSettings, RenderSettings};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{Geometry, Mesh};
@@ -52,16 +52,19 @@ fn no_bounce_in_a_million_is_lost() {
 
 #[test]
 fn what_a_short_depth_cuts_off_is_reported_at_its_material() {
-    let long = *open_box().render(settings(), 1).ledger();
-    let render = open_box().max_depth(3).render(settings(), 1);
-    let short = *render.ledger();
-    assert!(short.imbalance().abs() < ONE_BOUNCE, "{short:?}");
-    assert!(long.truncated < 1e-6 * long.emitted);
-    assert!(short.truncated > 0.05 * short.emitted);
-    let losses: Vec<f64> = render.material_losses().iter().map(|l| l.truncated).collect();
-    assert!((losses.iter().sum::<f64>() / short.truncated - 1.0).abs() < 1e-9, "{losses:?}");
-    // Three walls and the glass pass light on; the emitter is black.
-    assert!(losses[..4].iter().all(|&l| l > 0.0) && losses[4] == 0.0, "{losses:?}");
+    for method in [Method::Ppm, Method::Sppm] {
+        let settings = || RenderSettings { method, ..settings() };
+        let long = *open_box().render(settings(), 1).ledger();
+        let render = open_box().max_depth(3).render(settings(), 1);
+        let short = *render.ledger();
+        assert!(short.imbalance().abs() < ONE_BOUNCE, "{short:?}");
+        assert!(long.truncated < 1e-6 * long.emitted);
+        assert!(short.truncated > 0.05 * short.emitted);
+        let losses: Vec<f64> = render.material_losses().iter().map(|l| l.truncated).collect();
+        assert!((losses.iter().sum::<f64>() / short.truncated - 1.0).abs() < 1e-9, "{losses:?}");
+        // Three walls and the glass pass light on; the emitter is black.
+        assert!(losses[..4].iter().all(|&l| l > 0.0) && losses[4] == 0.0, "{losses:?}");
+    }
 }
 
 #[test]

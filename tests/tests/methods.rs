@@ -32,6 +32,7 @@ fn converged(scene: &Arc<Scene>, method: Method, seed: u64) -> Render {
     let photons = number(1 << 16);
     let (samples, passes) = match method {
         Method::Ppm => (number(16), 24),
+        Method::Sppm => (number(4), 24),
         Method::Path | Method::Whitted => (number(8), 24),
     };
     let ppm = PpmSettings { photons_per_pass: photons, first_pass: photons, ..PpmSettings::default() };
@@ -106,14 +107,13 @@ fn methods_agree_in_what_they_converge_to() {
     ] {
         let scene = scene(name);
         let photons = Pair::of(&scene, Method::Ppm);
-        for method in [Method::Path] {
+        for method in [Method::Path, Method::Sppm] {
             let other = Pair::of(&scene, method);
             let all = 0..photons.reflected[0].len();
             let lit = all.clone().filter(|&t| photons.mean(t) > 0.0).count();
             let compared: Vec<usize> = all.filter(|&t| photons.is_smooth(t) && other.is_smooth(t)).collect();
             let sum = |pair: &Pair| compared.iter().map(|&t| pair.mean(t)).sum::<f64>();
             let ratio = sum(&other) / sum(&photons);
-            println!("{name} {}: {ratio:.4} over {} of {lit}", method.name(), compared.len());
             assert!(3 * compared.len() > lit, "{name} {}: {} of {lit}", method.name(), compared.len());
             assert!((ratio - 1.0).abs() < 0.01, "{name} {}: {ratio}", method.name());
         }

@@ -1,6 +1,6 @@
 //! Methods of light transport: progressive photon mapping (`ppm/`), whose eye pass collects hit points once and whose photon passes
-//! refine them for ever after, and methods that estimate each pixel by samples of its own (`sampled/`): path tracing (`path/`) and
-//! Whitted's ray tracing (`whitted/`).
+//! refine them for ever after; stochastic progressive photon mapping (`sppm/`), with new hit points for each photon pass; and methods that
+//! estimate each pixel by samples of its own (`sampled/`): path tracing (`path/`) and Whitted's ray tracing (`whitted/`).
 //!
 //! [`Render`] is a render by any of them. `ppm/algorithm.rs` and `sampled/algorithm.rs` have a method on one screen; each step has a file
 //! of its own. There are no files, windows or clocks here: a caller that wants to time stages is told when they begin.
@@ -17,6 +17,7 @@ mod render;
 mod report;
 mod sampled;
 mod settings;
+mod sppm;
 #[cfg(test)]
 mod test_scene;
 mod whitted;

@@ -16,6 +16,8 @@ pub enum Method {
     /// Progressive photon mapping: hit points once, then photon passes.
     #[default]
     Ppm,
+    /// Stochastic progressive photon mapping: new hit points for each photon pass.
+    Sppm,
     /// Path tracing with shadow rays.
     Path,
     /// Whitted's ray tracing: shadow rays, perfect reflection and refraction.
@@ -24,13 +26,14 @@ pub enum Method {
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 3] = [Self::Ppm, Self::Path, Self::Whitted];
+    pub const ALL: [Self; 4] = [Self::Ppm, Self::Sppm, Self::Path, Self::Whitted];
 
     /// The name in files and on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Ppm => "ppm",
+            Self::Sppm => "sppm",
             Self::Path => "path",
             Self::Whitted => "whitted",
         }
@@ -47,6 +50,7 @@ impl Method {
     pub const fn title(self) -> &'static str {
         match self {
             Self::Ppm => "Progressive photon mapping",
+            Self::Sppm => "Stochastic progressive photon mapping",
             Self::Path => "Path tracing",
             Self::Whitted => "Whitted ray tracing",
         }
@@ -58,7 +62,7 @@ impl Method {
     pub const fn default_samples(self) -> NonZeroU32 {
         match self {
             Self::Ppm => NonZeroU32::new(4).unwrap(),
-            Self::Path | Self::Whitted => NonZeroU32::MIN,
+            Self::Sppm | Self::Path | Self::Whitted => NonZeroU32::MIN,
         }
     }
 
@@ -83,7 +87,7 @@ impl Method {
     /// Whether photons bring light.
     #[must_use]
     pub const fn has_photons(self) -> bool {
-        matches!(self, Self::Ppm)
+        matches!(self, Self::Ppm | Self::Sppm)
     }
 }
 

@@ -54,6 +54,44 @@ pub fn point(index: u32, scramble: [u32; DIMENSIONS]) -> [u32; DIMENSIONS] {
     point
 }
 
+/// An index in another order, in which each 4^k in a row, from a multiple of that on, are the same 4^k: all strata stay, and beside the
+/// points of another sequence they pair up by chance. In one order, what is drawn from the one would follow from the other.
+///
+/// Each digit of the index in base 4 is permuted, by a permutation that the digits above it choose. Nested like that, Owen (1998)
+/// permutes the digits of coordinates. `[OWE98]`
+#[must_use]
+#[inline]
+pub fn reordered(index: u32, order: u32) -> u32 {
+    let mut result = index & (u32::MAX << (2 * DIGITS));
+    for digit in 0..DIGITS {
+        let (value, above) = ((index >> (2 * digit)) & 3, index >> (2 * digit) >> 2);
+        result |= permuted(value, chance(order, digit, above)) << (2 * digit);
+    }
+    result
+}
+
+/// Digits that are permuted: the order of 4⁸ points repeats.
+const DIGITS: u32 = 8;
+
+/// A number that looks like chance, of a digit and those above it. Source: the last steps of MurmurHash3.
+const fn chance(order: u32, digit: u32, above: u32) -> u32 {
+    let mut x = order ^ above.wrapping_mul(0x9e37_79b9) ^ digit.wrapping_mul(0x7feb_352d);
+    x = (x ^ (x >> 16)).wrapping_mul(0x85eb_ca6b);
+    x = (x ^ (x >> 13)).wrapping_mul(0xc2b2_ae35);
+    x ^ (x >> 16)
+}
+
+/// What the `chance`-th of the 24 permutations of four values makes of one.
+fn permuted(value: u32, chance: u32) -> u32 {
+    let mut left = [0, 1, 2, 3];
+    let mut rest = chance % 24;
+    for (i, choices) in (0..3).zip([4u32, 3, 2]) {
+        left.swap(i, i + (rest % choices) as usize);
+        rest /= choices;
+    }
+    left[value as usize]
+}
+
 /// A binary fraction as a number in [0, 1).
 #[must_use]
 #[inline]
@@ -94,6 +132,38 @@ mod tests {
             }
             assert!(found.iter().all(|f| *f), "{across} digits by {down}");
         }
+    }
+
+    #[test]
+    fn another_order_keeps_blocks_together_and_mixes_them() {
+        for order in [1, 77, 0x9e37_79b9, u32::MAX] {
+            for k in [0, 2, 4, 6, 8] {
+                for block in 0..4 {
+                    let all: Vec<u32> = (0..1 << k).map(|i| reordered((block << k) + i, order)).collect();
+                    let mut low: Vec<u32> = all.iter().map(|x| x & ((1 << k) - 1)).collect();
+                    low.sort_unstable();
+                    assert!(low.iter().copied().eq(0..1 << k), "each once");
+                    assert!(all.iter().all(|x| x >> k == all[0] >> k), "in one block");
+                }
+            }
+        }
+        // Pairs of points that two orders make fall into all boxes of the plane of their first coordinates.
+        let mut boxes = [0; 64];
+        for i in 0..4096 {
+            let x = |order| (reordered(i, order).reverse_bits() >> 29) as usize;
+            boxes[x(0x1234_5678) * 8 + x(0x0bad_cafe)] += 1;
+        }
+        assert!(boxes.iter().all(|n| (32..=128).contains(n)), "{boxes:?}");
+    }
+
+    #[test]
+    fn each_permutation_of_four_is_one_of_twenty_four() {
+        let all: std::collections::HashSet<_> =
+            (0..24).map(|n| [0, 1, 2, 3].map(|v| permuted(v, n))).collect();
+        assert_eq!(all.len(), 24);
+        assert!(
+            all.iter().all(|p| p.iter().sum::<u32>() == 6 && p.iter().fold(0, |bits, v| bits | 1 << v) == 15)
+        );
     }
 
     #[test]

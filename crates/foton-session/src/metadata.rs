@@ -1,7 +1,7 @@
 //! What travels with an image: enough to make it again. Nothing of when or where, so that equal renders give equal files.
 
 use foton_film::Metadata;
-use foton_integrator::{LayerKind, Method, PpmSettings, RadiusScale, Render};
+use foton_integrator::{LayerKind, PpmSettings, RadiusScale, Render};
 use foton_scene::Sensor;
 
 /// The scene as metadata names it.
@@ -64,7 +64,7 @@ pub(crate) fn of(render: &Render, layers: &[LayerKind], scene: &SceneIdentity) -
         "integrator={} {}{common} {}layers={}{}",
         s.method.name(),
         if s.method.has_photons() { photons(&s.ppm) } else { String::new() },
-        if s.method == Method::Ppm {
+        if s.method.has_photons() {
             format!("hit_points_per_sample={} ", s.ppm.hit_points_per_sample)
         } else {
             String::new()

@@ -108,6 +108,11 @@ impl Classes {
         )
     }
 
+    /// The variance that photons explain.
+    pub(super) fn noise_of_photons(&self, weights: &Weights) -> f64 {
+        self.noise.iter().sum::<f64>() / (weights.photons * weights.photons).max(f64::MIN_POSITIVE)
+    }
+
     pub(super) fn numbers(&self) -> [f64; 4 * CLASSES] {
         let mut all = [self.rates, self.noise, self.bias, self.bias_photons].into_iter().flatten();
         [(); 4 * CLASSES].map(|()| all.next().unwrap_or(0.0))

@@ -165,7 +165,14 @@ impl Sums {
     /// The mean over pixels of σ² is unbiased whether or not they share photons; how far it can be trusted is not, and follows
     /// from how much whole passes scatter. B̂ is as noisy as √3 σ, so its own variance is taken off its square before anything
     /// else is done. With K = 2/ρ² independent parts, the realised mean of (b + ε)² has variance ρ²(σ⁴ + 2 b² σ²).
-    pub(super) fn estimate(&self, weights: &Weights, scatter: &Scatter) -> Option<ErrorEstimate> {
+    ///
+    /// `concentration` is one over the number of independent estimates that σ² is a mean of.
+    pub(super) fn estimate(
+        &self,
+        weights: &Weights,
+        scatter: &Scatter,
+        concentration: f64,
+    ) -> Option<ErrorEstimate> {
         // Where shadow rays bring all light, photons do not scatter.
         let rho2 = if scatter.is_at_rest() { 0.0 } else { scatter.relative_variance()? };
         let mean = self.light / self.seen;
@@ -177,12 +184,11 @@ impl Sums {
         let direct2 = relative(self.direct_variance);
         let noise2 = photons2 + direct2;
         let (bias2, bias_variance) = (relative(self.bias2).max(0.0), relative(self.bias_variance));
-        let concentration = weights.concentration();
         let of_noise = (1.0 + concentration) * photons2 * photons2 + 2.0 * bias2 * noise2;
         // Pixels' direct light is independent.
         let of_direct = OF_DIRECT / self.direct.known().max(1.0) * direct2 * direct2;
         let of_bias = bias_variance * bias_variance + 2.0 * bias2 * bias_variance;
-        let effective_passes = 1.0 / concentration;
+        let effective_passes = 1.0 / weights.concentration();
         let of_focus = relative(self.focus_variance) / (self.seen * mean * mean);
         let sigma = (rho2 * (of_noise + of_bias) + of_focus + of_direct).sqrt();
         // Student's t in place of the normal's quantile, to first order.

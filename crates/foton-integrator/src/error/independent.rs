@@ -105,7 +105,7 @@ impl Independent {
         if passes > 1.0 && sums.seen > 0.0 {
             self.scatter.add(sums.deviation / sums.seen / (1.0 - 1.0 / passes));
         }
-        self.estimate = sums.estimate(&self.weights, &self.scatter);
+        self.estimate = sums.estimate(&self.weights, &self.scatter, self.weights.concentration());
     }
 
     /// The figure after the last pass.

@@ -25,10 +25,11 @@ pub(crate) use independent::{Independent, PassPixel};
 pub(crate) use pass::{Pass, PassFacts};
 
 use crate::ppm::{Direct, HitPoints, Noise, Radiance};
+use crate::sppm::Renewal;
 use classes::Classes;
 use estimate::Sums;
 use foton_transport::photon_map::LANES;
-use moments::{Moments, Scatter, Shares, Weights};
+use moments::{Halves, Moments, Scatter, Shares, Weights};
 
 /// Pixels along the side of a tile.
 const TILE: usize = 8;
@@ -72,10 +73,13 @@ pub(crate) struct ErrorSums {
     /// Of this pass.
     moment_slots: Vec<SlotMoments>,
     pixels: Vec<Pixel>,
+    /// Σ ± aⱼ by pixel, where passes take turns with two sequences of eye samples; else empty.
+    differences: Vec<f64>,
     tiles: Vec<Tile>,
     width: usize,
     samples: f64,
     weights: Weights,
+    halves: Halves,
     scatter: Scatter,
     classes: Classes,
     /// What discs may hide, and the variance of that, when they were last summed.
@@ -84,7 +88,8 @@ pub(crate) struct ErrorSums {
 }
 
 impl ErrorSums {
-    pub(crate) fn new(hit_points: &HitPoints, width: u32, samples: u32) -> Self {
+    /// `renewed`: whether passes have new eye samples.
+    pub(crate) fn new(hit_points: &HitPoints, width: u32, samples: u32, renewed: bool) -> Self {
         let (width, pixels) = (width as usize, hit_points.pixel_start.len() - 1);
         let height = pixels.div_ceil(width.max(1));
         let mut tiles = vec![Tile::default(); width.div_ceil(TILE) * height.div_ceil(TILE)];
@@ -96,10 +101,12 @@ impl ErrorSums {
         Self {
             moment_slots: vec![SlotMoments::default(); hit_points.packets.len() * LANES],
             pixels: vec![Pixel::default(); pixels],
+            differences: vec![0.0; if renewed { pixels } else { 0 }],
             tiles,
             width,
             samples: f64::from(samples),
             weights: Weights::default(),
+            halves: Halves::default(),
             scatter: Scatter::default(),
             classes: Classes::default(),
             foci: [0.0; 2],
@@ -110,6 +117,12 @@ impl ErrorSums {
     /// Where the gather puts each slot's moment.
     pub(crate) fn moment_slots(&mut self) -> &mut [SlotMoments] {
         &mut self.moment_slots
+    }
+
+    /// Makes room for the moments of new hit points.
+    pub(crate) fn make_room_for(&mut self, hit_points: &HitPoints) {
+        self.moment_slots.clear();
+        self.moment_slots.resize(hit_points.packets.len() * LANES, SlotMoments::default());
     }
 
     /// The figure after the last pass.
@@ -159,25 +172,48 @@ impl ErrorSums {
 
     /// Standard deviation and bias of each pixel's luminance. The bias is a root mean square over the 5 × 5 pixels around it,
     /// since a single pixel's is hardly known.
-    pub(crate) fn planes(&self, radiance: &Radiance, direct: Option<&Direct>) -> (Vec<f32>, Vec<f32>) {
+    pub(crate) fn planes(
+        &self,
+        radiance: &Radiance,
+        direct: Option<&Direct>,
+        renewal: Option<&Renewal>,
+    ) -> (Vec<f32>, Vec<f32>) {
         let shares = self.weights.shares();
         let direct_variances = direct.map_or_else(Vec::new, |direct| self.direct_variances(direct));
+        let mean = |index: usize| {
+            let seen = renewal.map_or(0.0, |renewal| renewal.seen.luminance_sums(index).into_iter().sum());
+            (radiance.luminance_sum(index) + seen) * shares.per_photon
+        };
         let of = |(index, pixel): (usize, &Pixel)| {
             let mut sums = Sums::default();
-            pixel.sum_up(radiance.luminance_sum(index) * shares.per_photon, &shares, &mut sums);
+            pixel.sum_up(mean(index), pixel.variance(mean(index), &shares), &shares, &mut sums);
             (sums.variance + direct_variances.get(index).unwrap_or(&0.0), sums.bias2)
         };
-        let (variance, bias2): (Vec<f64>, Vec<f64>) = self.pixels.iter().enumerate().map(of).unzip();
+        let (mut variance, bias2): (Vec<f64>, Vec<f64>) = self.pixels.iter().enumerate().map(of).unzip();
+        if !self.differences.is_empty() {
+            // Passes scatter by more than their mean is noisy, about as much more in pixels that are near each other.
+            let of = |(index, difference): (usize, &f64)| self.halves.variance(mean(index), *difference);
+            let true_ones = self.smoothed(&self.differences.iter().enumerate().map(of).collect::<Vec<_>>());
+            let scattered = self.smoothed(&variance);
+            for ((variance, truth), scattered) in variance.iter_mut().zip(true_ones).zip(scattered) {
+                *variance *= truth / scattered.max(f64::MIN_POSITIVE);
+            }
+        }
+        let root = |values: Vec<f64>| values.into_iter().map(|v| v.max(0.0).sqrt() as f32).collect();
+        (root(variance), root(self.smoothed(&bias2)))
+    }
+
+    /// Means over the pixels around each.
+    fn smoothed(&self, values: &[f64]) -> Vec<f64> {
         let (width, height) = (self.width, self.pixels.len().div_ceil(self.width.max(1)));
         let smooth = |index: usize| {
             let (x, y) = (index % width, index / width);
             let rows = y.saturating_sub(SMOOTHED)..=(y + SMOOTHED).min(height - 1);
             let columns = x.saturating_sub(SMOOTHED)..(x + SMOOTHED + 1).min(width);
             let count = (rows.clone().count() * columns.len()) as f64;
-            let sum: f64 = rows.map(|y| bias2[y * width..][columns.clone()].iter().sum::<f64>()).sum();
-            (sum / count).max(0.0).sqrt() as f32
+            rows.map(|y| values[y * width..][columns.clone()].iter().sum::<f64>()).sum::<f64>() / count
         };
-        (variance.iter().map(|v| v.sqrt() as f32).collect(), (0..bias2.len()).map(smooth).collect())
+        (0..values.len()).map(smooth).collect()
     }
 
     /// That of direct light by pixel: a mean over the tile's, since a single pixel's is hardly known.
@@ -200,23 +236,31 @@ impl ErrorSums {
     /// Bytes held.
     pub(crate) const fn bytes(&self) -> usize {
         Self::BYTES_PER_HIT_POINT * self.moment_slots.len()
-            + Self::BYTES_PER_PIXEL * self.pixels.len()
+            + Self::bytes_per_pixel(!self.differences.is_empty()) * self.pixels.len()
             + size_of::<Tile>() * self.tiles.len()
     }
 
     /// Bytes held per hit point.
     pub(crate) const BYTES_PER_HIT_POINT: usize = size_of::<SlotMoments>();
-    /// Bytes held per pixel, without the tiles' two.
-    pub(crate) const BYTES_PER_PIXEL: usize = size_of::<Pixel>();
+    /// Bytes held per pixel, without the tiles' two; `renewed` as in [`ErrorSums::new`].
+    pub(crate) const fn bytes_per_pixel(renewed: bool) -> usize {
+        size_of::<Pixel>() + if renewed { size_of::<f64>() } else { 0 }
+    }
 }
 
 impl Pixel {
-    fn sum_up(&self, mean: f64, shares: &Shares, sums: &mut Sums) {
+    /// That of the mean, from how much passes scatter.
+    fn variance(&self, mean: f64, shares: &Shares) -> f64 {
+        shares.variance(mean, self.squares, self.cross)
+    }
+
+    /// Adds a pixel of that reflected luminance, and that variance of all it sees.
+    fn sum_up(&self, mean: f64, variance: f64, shares: &Shares, sums: &mut Sums) {
         let bias = self.bias * shares.per_photon;
         let bias_variance = shares.variance(bias, f64::from(self.bias_squares), f64::from(self.bias_cross));
         sums.seen += 1.0;
         sums.light += mean;
-        sums.variance += shares.variance(mean, self.squares, self.cross);
+        sums.variance += variance;
         sums.bias2 += bias * bias - bias_variance;
         sums.bias_variance += bias_variance;
     }

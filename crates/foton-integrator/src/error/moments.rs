@@ -58,6 +58,49 @@ impl Shares {
     }
 }
 
+/// The photons of the passes of each of two sequences, in which the eye samples and shadow rays of a pass are points (see
+/// `camera_paths/pixel_samples.rs`). Each sequence is stratified, so its passes scatter by more than their mean is noisy; but the two are
+/// independent, and so the difference of their means tells the noise of both.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Halves {
+    photons: [f64; 2],
+    /// The sequence of the last pass.
+    last: u64,
+}
+
+impl Halves {
+    pub(super) const fn numbers(&self) -> [f64; 2] {
+        self.photons
+    }
+
+    pub(super) const fn of(photons: [f64; 2]) -> Self {
+        Self { photons, last: 0 }
+    }
+
+    /// Takes a pass of `photons` that follows so many others.
+    pub(crate) fn add(&mut self, passes: u64, photons: f64) {
+        self.last = passes % 2;
+        self.photons[self.last as usize] += photons;
+    }
+
+    /// What the last pass counts by in the difference.
+    pub(crate) const fn sign(&self) -> f64 {
+        if self.last == 0 { 1.0 } else { -1.0 }
+    }
+
+    /// Var L from L and Σ ± aⱼ, as well as one difference tells. Unbiased if Var xⱼ ∝ 1/nⱼ, and for sequences of equally many photons.
+    pub(crate) fn variance(&self, mean: f64, difference: f64) -> f64 {
+        let [first, second] = self.photons;
+        if first == 0.0 || second == 0.0 {
+            return 0.0;
+        }
+        // With σ²/n the variance of a mean over n photons, that of the difference of two is σ² (1/a + 1/b).
+        let sum = mean * (first + second);
+        let off = 0.5 * ((sum + difference) / first - (sum - difference) / second);
+        off * off * first * second / ((first + second) * (first + second))
+    }
+}
+
 /// What a mean over passes and its variance need.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Moments {

@@ -4,9 +4,11 @@ use rayon::prelude::*;
 
 use super::classes::Question;
 use super::estimate::{ErrorEstimate, Sums};
-use super::moments::{Shares, Weights};
+use super::moments::{Halves, Shares, Weights};
 use super::{ErrorSums, Pixel, SlotMoments, TILE, Tile};
+use crate::ppm::adaptive::RadiusStatistics;
 use crate::ppm::{Direct, HitPoints, Irradiance, Noise, Radiance};
+use crate::sppm::Renewal;
 
 /// A pass that has been added to the image.
 pub(crate) struct Pass<'a, const LAYERS: usize> {
@@ -15,6 +17,8 @@ pub(crate) struct Pass<'a, const LAYERS: usize> {
     pub(crate) radiance: &'a Radiance,
     /// Direct light by shadow rays, with what it has just got; `None` where photons bring it.
     pub(crate) direct: Option<&'a Direct>,
+    /// Where hit points were of this pass alone: what pixels keep, with what has just been added.
+    pub(crate) renewal: Option<&'a Renewal>,
     pub(crate) facts: PassFacts,
 }
 
@@ -34,6 +38,7 @@ pub(crate) struct PassFacts {
 /// What the pixels of a tile add to it in a pass.
 #[derive(Clone, Copy, Default)]
 struct OfTile {
+    pixels: u32,
     light: f64,
     bias: f64,
     focus2: f64,
@@ -43,6 +48,7 @@ struct OfTile {
 
 /// What a pixel's own pass says.
 struct Addend {
+    /// Of its photons and, where eye samples are new in each pass, all else that those saw.
     light: f64,
     bias: f64,
     /// How far squared light of all passes may be above what discs see (see `RadiusStatistics::focus`).
@@ -64,15 +70,11 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
         let range = hit_points.pixel_start[pixel] as usize..hit_points.pixel_start[pixel + 1] as usize;
         let (mut bias, mut answer, mut focus, mut focus_variance) = (0.0, 0.0, 0.0, 0.0);
         for (&slot, &weight) in hit_points.slot_of[range.clone()].iter().zip(&hit_points.weights[range]) {
-            if sums_foci
-                && let radius_statistics = &hit_points.radius_statistics_slots[slot as usize]
-                && let excess = radius_statistics.focus()
-                && excess > 0.0
-            {
-                // One sample in 1 + excess is as bright as the focus: its square has this mean and about this variance.
-                let square = (f64::from(weight.luminance()) * radius_statistics.light()).powi(2) * excess;
-                focus += square;
-                focus_variance += square * square * (1.0 + excess);
+            if sums_foci && self.renewal.is_none() {
+                let radius_statistics = &hit_points.radius_statistics_slots[slot as usize];
+                let square = hidden(radius_statistics, f64::from(weight.luminance()));
+                focus += square[0];
+                focus_variance += square[1];
             }
             let irradiance = self.irradiance_slots[slot as usize][0];
             let luminance = irradiance.luminance();
@@ -85,14 +87,19 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
                     f64::from(seen * if self.facts.question.noise { of_class.sqrt() } else { of_class });
             }
         }
-        let light = self.radiance.last[pixel];
+        if let Some(renewal) = self.renewal.filter(|_| sums_foci) {
+            [focus, focus_variance] =
+                renewal.pixels.radius_statistics(pixel).map_or([0.0; 2], |sums| hidden(sums, 1.0));
+        }
+        let light = f64::from(self.radiance.last[pixel].luminance());
+        let seen = self.renewal.map_or(0.0, |renewal| renewal.seen.last(pixel) * self.facts.photons as f64);
         answer *= per_sample;
         if self.facts.question.noise {
             answer *= answer;
         }
         let per_sample2 = per_sample * per_sample;
         let (focus, focus_variance) = (focus * per_sample2, focus_variance * per_sample2 * per_sample2);
-        Addend { light: f64::from(light.luminance()), bias: bias * per_sample, focus, focus_variance, answer }
+        Addend { light: light + seen, bias: bias * per_sample, focus, focus_variance, answer }
     }
 
     /// Luminance per emitted photon that a pixel would gain if each of its hit points without a photon found one.
@@ -103,17 +110,29 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
             let statistics = &hit_points.statistics_slots[hit_points.slot_of[h] as usize];
             let area = std::f64::consts::PI * statistics.radius2();
             let specular = hit_points.gloss(hit_points.slot_of[h] as usize).is_some_and(|g| g.specular);
-            (statistics.is_unknown() && !specular)
-                .then(|| f64::from(hit_points.weights[h].luminance()) / area)
+            let is_unknown =
+                self.renewal.map_or(statistics.is_unknown(), |renewal| renewal.pixels.is_unknown(pixel));
+            (is_unknown && !specular).then(|| f64::from(hit_points.weights[h].luminance()) / area)
         });
         unknown.sum::<f64>() * self.facts.power / samples
     }
+}
+
+/// The square of what a disc may hide, and the variance of that: one sample in 1 + excess is as bright as the focus.
+fn hidden(radius_statistics: &RadiusStatistics, weight: f64) -> [f64; 2] {
+    let excess = radius_statistics.focus();
+    if excess <= 0.0 {
+        return [0.0; 2];
+    }
+    let square = (weight * radius_statistics.light()).powi(2) * excess;
+    [square, square * square * (1.0 + excess)]
 }
 
 /// The factors of a pass that are the same for all pixels.
 struct Scales {
     weights: Weights,
     shares: Shares,
+    halves: Halves,
     samples: f64,
     photons: f64,
     per_sample: f64,
@@ -127,7 +146,7 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
     fn add_to_tiles(
         &self,
         (first, width): (usize, usize),
-        pixels: &mut [Pixel],
+        (pixels, differences): (&mut [Pixel], &mut [f64]),
         tiles: &mut [Tile],
         moment_slots: &[SlotMoments],
         scales: &Scales,
@@ -136,16 +155,27 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
         let mut addends = vec![OfTile::default(); tiles.len()];
         for (i, pixel) in pixels.iter_mut().enumerate() {
             let index = first + i;
-            if self.hit_points.pixel_start[index] == self.hit_points.pixel_start[index + 1] {
+            if self.renewal.is_none() && self.hit_points.of_pixel(index).is_empty() {
                 continue;
             }
             let addend = self.addend(index, moment_slots, scales.per_sample);
-            self.add_to_pixel(index, pixel, &addend, scales, &mut sums, &mut addends[i % width / TILE]);
+            let difference = differences.get_mut(i).map(|difference| {
+                *difference += scales.halves.sign() * addend.light;
+                *difference
+            });
+            let of_tile = &mut addends[i % width / TILE];
+            of_tile.light += addend.light;
+            // A pixel that sees emitters alone may see something reflect in a later pass.
+            if self.renewal.is_none_or(|renewal| renewal.pixels.is_seen(index)) {
+                self.add_to_pixel(index, (pixel, difference), &addend, scales, &mut sums, of_tile);
+            } else {
+                pixel.add(&addend, scales.photons);
+            }
         }
         for (tile, of_tile) in tiles.iter_mut().zip(addends) {
             tile.light.add(of_tile.light, scales.photons);
             tile.bias.add(of_tile.bias, scales.photons);
-            tile.unknown = of_tile.unknown;
+            (tile.pixels, tile.unknown) = (of_tile.pixels, of_tile.unknown);
             sums.add_direct(&of_tile.direct);
             if self.sums_foci() {
                 tile.focus2 = of_tile.focus2;
@@ -158,7 +188,7 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
     fn add_to_pixel(
         &self,
         index: usize,
-        pixel: &mut Pixel,
+        (pixel, difference): (&mut Pixel, Option<f64>),
         addend: &Addend,
         scales: &Scales,
         sums: &mut Sums,
@@ -172,8 +202,17 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
         };
         sums.answer += if answer.is_finite() { answer } else { 0.0 };
         pixel.add(addend, scales.photons);
-        let mean = self.radiance.luminance_sum(index) * shares.per_photon;
-        pixel.sum_up(mean, shares, sums);
+        let by_photons = self.radiance.luminance_sum(index) * shares.per_photon;
+        let [seen, reflected] = self.renewal.map_or([0.0; 2], |renewal| {
+            let [emission, direct] = renewal.seen.luminance_sums(index).map(|sum| sum * shares.per_photon);
+            [emission + direct, direct]
+        });
+        let mean = by_photons + seen;
+        let variance = match difference {
+            Some(difference) => scales.halves.variance(mean, difference),
+            None => pixel.variance(mean, shares),
+        };
+        pixel.sum_up(by_photons + reflected, variance, shares, sums);
         let focus2 = addend.focus * shares.per_photon * shares.per_photon;
         sums.focus2 += focus2;
         sums.focus_variance += addend.focus_variance * shares.per_photon.powi(4);
@@ -186,14 +225,14 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
         }
         // Where photons can add nothing, what rays do not find is dark.
         let mut is_unknown = all <= 0.0 && (direct.is_none() || self.facts.power > 0.0);
-        if is_unknown || direct.is_some() {
+        if is_unknown || direct.is_some() || self.renewal.is_some() {
             // Shadow rays say nothing about indirect light.
             let one_photon = self.one_photon(index, scales.samples) / weights.photons;
             is_unknown |= one_photon > all;
             sums.unknown2 += one_photon.powi(2);
         }
         sums.unknown += f64::from(u8::from(is_unknown));
-        of_tile.light += addend.light;
+        of_tile.pixels += 1;
         of_tile.bias += addend.bias;
         of_tile.focus2 += focus2;
         of_tile.unknown += u32::from(is_unknown);
@@ -206,6 +245,7 @@ impl ErrorSums {
         let photons = pass.facts.photons as f64;
         let before = self.weights.photons;
         self.weights.add(photons);
+        self.halves.add(pass.facts.before, photons);
         let mut sums = self.add_to_pixels(pass, before);
         sums.close_direct();
         if pass.sums_foci() {
@@ -218,11 +258,16 @@ impl ErrorSums {
             self.scatter.add(photons * sums.deviation / sums.seen / (1.0 - share));
         }
         self.classes.add(pass.facts.question, sums.answer, photons, before);
-        self.estimate = sums.estimate(&self.weights, &self.scatter).map(|whole| {
+        let concentration = if pass.renewal.is_some() { 1.0 } else { self.weights.concentration() };
+        self.estimate = sums.estimate(&self.weights, &self.scatter, concentration).map(|whole| {
             let squares = (whole.noise * whole.noise, whole.bias * whole.bias);
             let bias2 = sums.bias2.max(0.0);
             let trust = if bias2 > 0.0 { bias2 / (bias2 + sums.bias_variance) } else { 0.0 };
-            let direct = pass.direct.map(|_| sums.direct_variance);
+            let mut direct = pass.direct.map(|_| sums.direct_variance);
+            if pass.renewal.is_some_and(|renewal| renewal.lights.is_some()) {
+                // What photons do not explain: shadow rays, and what differs from eye sample to eye sample.
+                direct = Some((sums.variance - self.classes.noise_of_photons(&self.weights)).max(0.0));
+            }
             ErrorEstimate { classes: self.classes.split(squares, trust, direct, &self.weights), ..whole }
         });
     }
@@ -234,6 +279,7 @@ impl ErrorSums {
         let scales = Scales {
             weights,
             shares: weights.shares(),
+            halves: self.halves,
             samples,
             photons,
             per_sample: 1.0 / samples,
@@ -242,7 +288,10 @@ impl ErrorSums {
         };
         let moment_slots = &self.moment_slots;
         let bands = self.pixels.par_chunks_mut(TILE * width);
+        let mut differences: Vec<&mut [f64]> = self.differences.chunks_mut(TILE * width).collect();
+        differences.resize_with(bands.len(), Default::default);
         let sums: Vec<Sums> = bands
+            .zip(differences)
             .zip(self.tiles.par_chunks_mut(width.div_ceil(TILE)))
             .enumerate()
             .map(|(band, (pixels, tiles))| {

@@ -4,7 +4,7 @@ use foton_transport::codec::{Reader, StateError, Writer};
 
 use super::classes::{ClassError, Classes};
 use super::estimate::ErrorEstimate;
-use super::moments::{Moments, Scatter, Weights};
+use super::moments::{Halves, Moments, Scatter, Weights};
 use super::{ErrorSums, Pixel, Tile};
 
 impl ErrorSums {
@@ -18,6 +18,11 @@ impl ErrorSums {
         let mut put = |numbers: &[f64]| numbers.iter().for_each(|&n| out.f64(n));
         for p in &self.pixels {
             put(&[p.squares, p.cross, p.bias, p.bias_squares.into(), p.bias_cross.into()]);
+        }
+        if !self.differences.is_empty() {
+            put(&self.halves.numbers());
+            put(&self.differences);
+            self.tiles.iter().for_each(|t| put(&[t.pixels.into()]));
         }
         for t in &self.tiles {
             put(&t.light.numbers());
@@ -36,6 +41,16 @@ impl ErrorSums {
             let [squares, cross, bias, bias_squares, bias_cross] = numbers(input)?;
             let (bias_squares, bias_cross) = (bias_squares as f32, bias_cross as f32);
             *pixel = Pixel { squares, cross, bias, bias_squares, bias_cross };
+        }
+        if !self.differences.is_empty() {
+            self.halves = Halves::of(numbers(input)?);
+            for difference in &mut self.differences {
+                [*difference] = numbers(input)?;
+            }
+            for tile in &mut self.tiles {
+                let [pixels] = numbers(input)?;
+                tile.pixels = pixels as u32;
+            }
         }
         for tile in &mut self.tiles {
             let (light, bias) = (Moments::of(numbers(input)?), Moments::of(numbers(input)?));

@@ -92,6 +92,16 @@ impl RadiusStatistics {
         }
     }
 
+    /// Adds what another has found, whose light counts by a weight: as if all of it had been found in one disc.
+    pub(crate) fn add_weighted(&mut self, other: &Self, weight: f64) {
+        self.light += weight * other.light;
+        self.variance += weight * weight * other.variance;
+        self.laplacian += weight * other.laplacian;
+        self.offset.iter_mut().zip(other.offset).for_each(|(sum, offset)| *sum += weight * offset);
+        self.spread += other.spread;
+        self.freedom += other.freedom;
+    }
+
     /// R: bias² over half the noise², at most [`MAX_BALANCE`]; 1 while nothing is known.
     fn balance(&self) -> f64 {
         if self.light <= 0.0 || self.variance <= 0.0 {

@@ -1,7 +1,10 @@
-//! Progressive photon mapping: `[PPM08]` with the running mean of every pass's own estimate.
+//! Progressive photon mapping: `[PPM08]` with the running mean of every pass's own estimate; and `[SPPM09]`, where each pass begins with
+//! eye samples of its own (`crate::sppm`).
 
+use std::num::NonZeroU32;
 use std::sync::Arc;
 
+use foton_math::Rgb;
 use foton_scene::{Scene, Sources};
 use foton_transport::light_paths::MAX_PHOTONS;
 use foton_transport::photon_map::{Chunk, Grid, PhotonMap};
@@ -20,21 +23,24 @@ use super::under_way::{Once, UnderWay};
 use crate::changes::Changes;
 use crate::error::ErrorSums;
 use crate::report::{PassReport, Start};
-use crate::settings::{RenderSettings, SettingChange};
+use crate::settings::{Method, RenderSettings, SettingChange};
+use crate::sppm::Renewal;
 
 /// A render under way.
 pub(crate) struct Ppm {
-    pub(super) scene: Arc<Scene>,
+    pub(crate) scene: Arc<Scene>,
     pub(super) sources: Sources,
     pub(super) guidance: Guidance,
-    pub(super) settings: RenderSettings,
-    pub(super) hit_points: HitPoints,
-    pub(super) shapes: Vec<u32>,
-    pub(super) light: Light,
-    /// Direct light by shadow rays; `None` where photons bring it.
+    pub(crate) settings: RenderSettings,
+    pub(crate) hit_points: HitPoints,
+    pub(crate) shapes: Vec<u32>,
+    pub(crate) light: Light,
+    /// What pixels keep where each pass has hit points of its own; `None` where those of the start stay.
+    pub(crate) renewal: Option<Box<Renewal>>,
+    /// Direct light by shadow rays at hit points that stay.
     pub(super) direct: Option<Direct>,
-    pub(super) error: Option<ErrorSums>,
-    pub(super) grid: Grid,
+    pub(crate) error: Option<ErrorSums>,
+    pub(crate) grid: Grid,
     pub(super) marked_radius2: f64,
     pub(super) chunks: Vec<Chunk>,
     pub(super) map: PhotonMap,
@@ -46,8 +52,8 @@ pub(crate) struct Ppm {
     pub(super) ledger: Ledger,
     pub(super) lights: Vec<LightUse>,
     pub(super) losses: Vec<Loss>,
-    pub(super) passes: u64,
-    pub(super) photons_emitted: u64,
+    pub(crate) passes: u64,
+    pub(crate) photons_emitted: u64,
     pub(super) last_photons: u64,
     pub(super) changes: Changes,
     /// Changes that wait for the end of the pass under way.
@@ -85,7 +91,7 @@ impl Ppm {
         let shapes = paths.shapes;
         // What was found is most of the memory at this point, and not needed any more.
         drop((paths.hit_points, paths.gloss));
-        Self::over(scene, settings, shapes, laid_out, cancel)
+        Self::over(scene, settings, shapes, (laid_out, 1.0), cancel)
     }
 
     /// The same over the first `samples` of each pixel alone: to be looked at while the others are followed, with other `settings` of
@@ -104,25 +110,35 @@ impl Ppm {
         eye.follow(samples, cancel, tell)?;
         watch(Stage::Layout);
         let laid_out = LaidOut::new(eye, &settings, widened, cancel)?;
-        Self::over(Arc::clone(&eye.scene), settings, eye.paths.shapes.clone(), laid_out, cancel)
+        // Passes of new samples have as many of them.
+        let samples_per_pixel = NonZeroU32::new(eye.followed()).unwrap_or(settings.samples_per_pixel);
+        let settings = RenderSettings { samples_per_pixel, ..settings };
+        Self::over(Arc::clone(&eye.scene), settings, eye.paths.shapes.clone(), (laid_out, widened), cancel)
     }
 
     fn over(
         scene: Arc<Scene>,
         mut settings: RenderSettings,
         shapes: Vec<u32>,
-        laid_out: LaidOut,
+        (laid_out, widened): (LaidOut, f32),
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
-        let LaidOut { hit_points, sources, guidance, samples, emission, start, not_finite } = laid_out;
+        let LaidOut { hit_points, sources, guidance, samples, mut emission, start, .. } = laid_out;
         cancel.check()?;
         let grid = Grid::new(&hit_points.packets, cancel)?;
         begin_small(&mut settings.ppm, &hit_points.packets, &grid);
         cancel.check()?;
         let width = scene.sensors()[settings.sensor].width;
-        let direct =
-            by_shadow_rays(&scene, &settings).then(|| Direct::new(&scene, &settings, &hit_points, samples));
-        let error = settings.error.then(|| ErrorSums::new(&hit_points, width, samples));
+        let shadow_rays = by_shadow_rays(&scene, &settings);
+        let renewal = (settings.method == Method::Sppm).then(|| {
+            let none = vec![Rgb::BLACK; emission.len()];
+            let (emission, first) = (std::mem::replace(&mut emission, none), laid_out.first_radius2);
+            let moments = !hit_points.radius_statistics_slots.is_empty();
+            Box::new(Renewal::new((&scene, shadow_rays), emission, (first, widened), moments))
+        });
+        let turns = renewal.is_none() && shadow_rays;
+        let direct = turns.then(|| Direct::new(&scene, &settings, &hit_points, samples));
+        let error = settings.error.then(|| ErrorSums::new(&hit_points, width, samples, renewal.is_some()));
         cancel.check()?;
         Ok(Self {
             lights: vec![LightUse::default(); scene.emitters().len()],
@@ -131,6 +147,7 @@ impl Ppm {
             sources,
             guidance,
             light: Light::new(emission, &hit_points, samples, settings.layers),
+            renewal,
             direct,
             settings,
             hit_points,
@@ -154,13 +171,13 @@ impl Ppm {
             start,
             cameras: Vec::new(),
             strict: false,
-            not_finite,
+            not_finite: laid_out.not_finite,
             arch: Arch::new(),
         })
     }
 
-    /// One pass: photons from the emitters, sorted into a map, gathered by every hit point, which is then refined, batch by batch; then
-    /// added to the image. Where a pass was suspended, this goes on with it; how often that happens changes no bit.
+    /// One pass: eye samples, where each pass has new ones; photons from the emitters, sorted into a map, gathered by every hit point,
+    /// which is then refined, batch by batch; then added to the image. Where a pass was suspended, this goes on with it; how often that happens changes no bit.
     ///
     /// # Errors
     /// When cancelled while photons are traced; the pass then has not happened. When suspended. After
@@ -179,6 +196,7 @@ impl Ppm {
             Err(halt) => {
                 self.under_way = matches!(halt, Halt::Suspended(_)).then_some(pass);
                 if self.under_way.is_none() {
+                    self.forget_hit_points();
                     self.take_deferred_changes();
                 }
                 Err(halt)
@@ -194,6 +212,7 @@ impl Ppm {
         cancel: &Cancel,
         should_suspend: ShouldSuspend<'_>,
     ) -> Result<(), Halt> {
+        self.renew_hit_points(pass, watch, cancel, should_suspend)?;
         while let Some(batch) = pass.batch() {
             self.emit_and_trace(batch, pass, watch, cancel, should_suspend)?;
             self.build_map(pass, watch, cancel)?;

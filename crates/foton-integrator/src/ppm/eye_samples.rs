@@ -12,7 +12,7 @@ use foton_transport::camera_paths::{EyePass, EyePaths, FirstRadius, Gloss, HitPo
 use foton_transport::{Cancel, Cancelled};
 
 use super::lobes::{LOBE_POLICY, lobe_use};
-use crate::settings::RenderSettings;
+use crate::settings::{Method, RenderSettings};
 
 /// The eye samples of a render, as far as they have been followed.
 pub struct EyeSamples {
@@ -67,7 +67,8 @@ impl EyeSamples {
         };
         let earlier = std::mem::take(&mut self.paths);
         let max_depth = self.settings.max_depth_in(&self.scene);
-        let pass = eye_pass(&self.scene, &self.settings, max_depth, Purpose::Eye);
+        let pass = (self.settings.method == Method::Sppm).then_some(0);
+        let pass = EyePass { pass, ..eye_pass(&self.scene, &self.settings, max_depth, Purpose::Eye) };
         self.paths = pass.run(earlier, samples, cancel, &share)?;
         Ok(())
     }
@@ -92,17 +93,20 @@ impl EyeSamples {
 }
 
 /// The eye pass of a render with such settings.
-pub(super) fn eye_pass<'a>(
+pub(crate) fn eye_pass<'a>(
     scene: &'a Scene,
     settings: &RenderSettings,
     max_depth: u32,
     purpose: Purpose,
 ) -> EyePass<'a> {
-    let (scale, floor) = (settings.ppm.radius_scale.get(), settings.ppm.radius_floor.get());
+    let scale = settings.ppm.radius_scale.get();
+    // Samples that are new in each pass leave no gaps that discs would have to bridge.
+    let floor = if settings.method == Method::Sppm { 0.0 } else { settings.ppm.radius_floor.get() };
     EyePass {
         scene,
         sensor: settings.sensor,
         samples_per_pixel: settings.samples_per_pixel,
+        pass: None,
         hit_points_per_sample: settings.ppm.hit_points_per_sample,
         radius: FirstRadius::new(scene, settings.ppm.radius, scale, floor, settings.samples_per_pixel.get()),
         max_depth,

@@ -1,7 +1,5 @@
 //! What a render models, and why: each part is in the passes only if the scene or the settings ask for it.
 
-use std::num::NonZeroU32;
-
 use foton_scene::{Census, Emitter, Scene};
 use foton_transport::LobeUse;
 use foton_transport::camera_paths::Gloss;
@@ -15,13 +13,15 @@ use super::settings::{DirectLight, RadiusRule};
 use crate::error::ErrorSums;
 use crate::feature::Feature;
 use crate::settings::RenderSettings;
+use crate::sppm::Renewal;
 
 /// All parts that can be left out, with whether they are.
 pub(crate) fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
     let (census, lobes) = (scene.census(), lobe_use(scene));
     let aims = scene.emitters().iter().any(Emitter::aims_at_casters);
-    let parts = eye_paths(census, lobes, settings.ppm.hit_points_per_sample)
+    let parts = eye_paths(census, lobes, settings)
         .into_iter()
+        .chain(new_eye_samples(settings))
         .chain(surfaces(census, lobes))
         .chain(emitters(census, aims));
     let emits = census.emitters > 0;
@@ -29,7 +29,20 @@ pub(crate) fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature>
     parts.chain(shared).chain(asked_for(settings)).collect()
 }
 
-fn eye_paths(census: &Census, lobes: LobeUse, hit_points_per_sample: NonZeroU32) -> [Feature; 5] {
+/// Only of a method that has them: whether it does is no finding about the scene.
+fn new_eye_samples(settings: &RenderSettings) -> Option<Feature> {
+    let adapts = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;
+    let feature = Feature::new(
+        "new eye samples in each pass",
+        settings.method.renews_eye_samples(),
+        ["the method is stochastic progressive photon mapping", ""],
+        "an eye pass before each photon pass",
+    );
+    feature.on.then(|| feature.with_bytes(size_of::<f32>(), Renewal::bytes_per_pixel(adapts)))
+}
+
+fn eye_paths(census: &Census, lobes: LobeUse, settings: &RenderSettings) -> [Feature; 5] {
+    let hit_points_per_sample = settings.ppm.hit_points_per_sample;
     [
         Feature::new(
             "followed paths",
@@ -50,7 +63,11 @@ fn eye_paths(census: &Census, lobes: LobeUse, hit_points_per_sample: NonZeroU32)
                 "lobes of roughness up to 0.1 count as specular, each sampled once per eye sample",
                 "no specular lobe is rough",
             ],
-            "noise that one eye pass freezes: more --spp lowers it",
+            if settings.method.renews_eye_samples() {
+                "noise that falls from pass to pass"
+            } else {
+                "noise that one eye pass freezes: more --spp lowers it"
+            },
         ),
         Feature::new(
             "looking at lights from narrow gloss",
@@ -141,7 +158,9 @@ fn shadow_rays(scene: &Scene, settings: &RenderSettings) -> Feature {
     };
     let feature =
         Feature::new("shadow rays", by_shadow_rays(scene, settings), reasons, "about a quarter of a pass");
-    feature.with_bytes(size_of::<ShadowOrigin>(), Direct::BYTES_PER_PIXEL)
+    // Where eye samples are new in each pass, direct light is summed with all that they see.
+    let of_pixel = if settings.method.renews_eye_samples() { 0 } else { Direct::BYTES_PER_PIXEL };
+    feature.with_bytes(size_of::<ShadowOrigin>(), of_pixel)
 }
 
 fn guidance(emits: bool, settings: &RenderSettings) -> Feature {
@@ -178,6 +197,9 @@ fn asked_for(settings: &RenderSettings) -> [Feature; 3] {
             ["the error is asked for", "the error is not asked for"],
             "two moments of each photon that counts, squares of each pass",
         )
-        .with_bytes(ErrorSums::BYTES_PER_HIT_POINT, ErrorSums::BYTES_PER_PIXEL),
+        .with_bytes(
+            ErrorSums::BYTES_PER_HIT_POINT,
+            ErrorSums::bytes_per_pixel(settings.method.renews_eye_samples()),
+        ),
     ]
 }

@@ -48,7 +48,14 @@ impl Ppm {
     /// The spread of radii as it is now.
     #[must_use]
     pub(crate) fn radii(&self) -> Radii {
-        let mut radius2: Vec<f64> = self.hit_points.statistics().map(Statistics::radius2).collect();
+        let mut radius2: Vec<f64> = match &self.renewal {
+            None => self.hit_points.statistics().map(Statistics::radius2).collect(),
+            // Of pixels: hit points come and go, also while a pass is under way.
+            Some(renewal) => {
+                let seen = (0..self.shapes.len()).filter(|&pixel| renewal.pixels.is_seen(pixel));
+                seen.map(|pixel| renewal.pixels.mean_radius(pixel).powi(2)).collect()
+            }
+        };
         if radius2.is_empty() {
             return Radii::default();
         }
@@ -67,17 +74,18 @@ impl Ppm {
     /// the image has none.
     #[must_use]
     pub(crate) fn discs(&self, pixel: usize) -> Vec<Disc> {
-        let hit_points = &self.hit_points;
-        let Some(range) = hit_points.pixel_start.get(pixel..pixel + 2) else { return Vec::new() };
-        let slots = &hit_points.slot_of[range[0] as usize..range[1] as usize];
-        slots.iter().map(|&slot| self.disc(slot as usize)).collect()
+        if pixel >= self.shapes.len() {
+            return Vec::new();
+        }
+        self.hit_points.of_pixel(pixel).map(|h| self.disc(pixel, h)).collect()
     }
 
-    fn disc(&self, slot: usize) -> Disc {
+    fn disc(&self, pixel: usize, h: usize) -> Disc {
+        let slot = self.hit_points.slot_of[h] as usize;
         let normalisation = self.scene.normalisation();
         let packet = &self.hit_points.packets[slot / LANES];
         let vector = |rows: &[[f32; LANES]; 3]| Vec3::from_array(rows.map(|row| row[slot % LANES]));
-        let statistics = &self.hit_points.statistics_slots[slot];
+        let statistics = self.statistics(pixel, h);
         Disc {
             position: normalisation.world_point(vector(&packet.position)),
             normal: vector(&packet.normal).as_dvec3().normalize_or_zero(),
@@ -119,6 +127,10 @@ impl Ppm {
     #[must_use]
     pub(crate) fn mean_radii(&self) -> Vec<f32> {
         let world = self.scene.normalisation().world_length(1.0);
+        if let Some(renewal) = &self.renewal {
+            let of = |pixel| (renewal.pixels.mean_radius(pixel) * world) as f32;
+            return (0..self.shapes.len()).map(of).collect();
+        }
         self.per_pixel(|statistics| {
             let n = statistics.len().max(1) as f64;
             (statistics.iter().map(|s| s.radius2().sqrt()).sum::<f64>() / n * world) as f32
@@ -128,6 +140,10 @@ impl Ppm {
     /// Photons found by each pixel's hit points in all passes.
     #[must_use]
     pub(crate) fn photons_found(&self) -> Vec<u32> {
+        if let Some(renewal) = &self.renewal {
+            let of = |pixel| u32::try_from(renewal.pixels.photons_found(pixel)).unwrap_or(u32::MAX);
+            return (0..self.shapes.len()).map(of).collect();
+        }
         self.per_pixel(|statistics| {
             let found = statistics.iter().map(Statistics::photons_found).sum::<u64>();
             u32::try_from(found).unwrap_or(u32::MAX)
@@ -137,6 +153,10 @@ impl Ppm {
     /// Per pixel, the share of its hit points that have found no photon in any pass: unknown, not dark.
     #[must_use]
     pub(crate) fn unknown_share(&self) -> Vec<f32> {
+        if let Some(renewal) = &self.renewal {
+            let of = |pixel| f32::from(u8::from(renewal.pixels.is_unknown(pixel)));
+            return (0..self.shapes.len()).map(of).collect();
+        }
         self.per_pixel(|statistics| {
             let unknown = statistics.iter().filter(|s| s.is_unknown()).count();
             unknown as f32 / statistics.len().max(1) as f32

@@ -2,8 +2,8 @@
 
 use foton_math::Rgb;
 use foton_math::glam::Vec3;
-use foton_scene::Sources;
-use foton_transport::camera_paths::HitPoint;
+use foton_scene::{Scene, Sources};
+use foton_transport::camera_paths::{EyePaths, HitPoint};
 use foton_transport::{Cancel, Cancelled, NotFinite};
 
 use super::direct::by_shadow_rays;
@@ -13,7 +13,7 @@ use super::hit_points::HitPoints;
 use super::lobes::lobe_use;
 use super::settings::RadiusRule;
 use crate::report::Start;
-use crate::settings::RenderSettings;
+use crate::settings::{Method, RenderSettings};
 
 /// About this many hit points stand for all of them.
 pub(super) const MAX_PROBED: usize = 4096;
@@ -29,6 +29,8 @@ pub(super) struct LaidOut {
     pub(super) emission: Vec<Rgb>,
     pub(super) start: Start,
     pub(super) not_finite: Option<NotFinite>,
+    /// Of the hit points in sample order, where pixels have to know them.
+    pub(super) first_radius2: Vec<f32>,
 }
 
 impl LaidOut {
@@ -40,15 +42,10 @@ impl LaidOut {
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
         let EyeSamples { scene, paths, .. } = eye;
-        let shadow_rays = by_shadow_rays(scene, settings);
-        let normals = lobe_use(scene).shading_normals;
-        let (found, gloss) = (&paths.hit_points, &paths.gloss);
-        let mut hit_points = HitPoints::new(found, gloss, paths.pixel_start(), normals, shadow_rays, cancel)?;
+        let found = &paths.hit_points;
+        let mut hit_points = lay_out(scene, settings, paths, cancel)?;
         if widened != 1.0 {
             hit_points = hit_points.widened(widened);
-        }
-        if settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive {
-            hit_points = hit_points.with_radius_statistics();
         }
         let sources = scene.sources(&discs(found));
         Ok(Self {
@@ -62,9 +59,29 @@ impl LaidOut {
                 dropped: paths.dropped,
             },
             not_finite: paths.left_out.map(|left_out| NotFinite::new(scene, 0, left_out)),
+            first_radius2: if settings.method == Method::Sppm {
+                found.iter().map(|h| h.radius2).collect()
+            } else {
+                Vec::new()
+            },
             hit_points,
         })
     }
+}
+
+/// Lays out hit points for a render with such settings.
+pub(crate) fn lay_out(
+    scene: &Scene,
+    settings: &RenderSettings,
+    paths: &EyePaths,
+    cancel: &Cancel,
+) -> Result<HitPoints, Cancelled> {
+    let shadow_rays = by_shadow_rays(scene, settings);
+    let normals = lobe_use(scene).shading_normals;
+    let start = paths.pixel_start();
+    let hit_points = HitPoints::new(&paths.hit_points, &paths.gloss, start, normals, shadow_rays, cancel)?;
+    let moments = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;
+    Ok(if moments { hit_points.with_radius_statistics() } else { hit_points })
 }
 
 /// First discs that stand for all, by which photons are aimed.

@@ -9,6 +9,7 @@ use super::direct::Direct;
 use super::hit_points::{HitPoints, Irradiance};
 use super::radiance::Radiance;
 use crate::error::{self, ErrorSums, PassFacts};
+use crate::sppm::Renewal;
 
 /// Light of one pass at the hit points, and of all passes in the pixels.
 pub(crate) struct Sums<const LAYERS: usize> {
@@ -37,6 +38,11 @@ impl<const LAYERS: usize> Sums<LAYERS> {
         }
     }
 
+    fn make_room_for(&mut self, hit_points: &HitPoints) {
+        self.irradiance_slots.clear();
+        self.irradiance_slots.resize(hit_points.packets.len() * LANES, [Rgb::BLACK; LAYERS]);
+    }
+
     fn bytes(&self) -> usize {
         self.irradiance_slots.len() * size_of::<Irradiance<LAYERS>>() + self.radiance.bytes()
     }
@@ -61,6 +67,11 @@ impl Light {
         }
     }
 
+    /// Makes room for the light of new hit points.
+    pub(crate) fn make_room_for(&mut self, hit_points: &HitPoints) {
+        each!(self, s => s.make_room_for(hit_points));
+    }
+
     /// Adds the pass of so many photons to the pixels; says what was left out because it was not finite.
     pub(crate) fn add_pass(&mut self, hit_points: &HitPoints, photons: u64) -> Omissions {
         each!(self, s => s.radiance.add(hit_points, &s.irradiance_slots, photons))
@@ -71,7 +82,7 @@ impl Light {
         &self,
         error: &mut ErrorSums,
         hit_points: &HitPoints,
-        direct: Option<&Direct>,
+        (direct, renewal): (Option<&Direct>, Option<&Renewal>),
         facts: PassFacts,
     ) {
         each!(self, s => error.add(&error::Pass {
@@ -79,13 +90,18 @@ impl Light {
             irradiance_slots: &s.irradiance_slots,
             radiance: &s.radiance,
             direct,
+            renewal,
             facts,
         }));
     }
 
     /// Noise and bias by pixel.
-    pub(crate) fn error_planes(&self, error: &ErrorSums, direct: Option<&Direct>) -> (Vec<f32>, Vec<f32>) {
-        each!(self, s => error.planes(&s.radiance, direct))
+    pub(crate) fn error_planes(
+        &self,
+        error: &ErrorSums,
+        (direct, renewal): (Option<&Direct>, Option<&Renewal>),
+    ) -> (Vec<f32>, Vec<f32>) {
+        each!(self, s => error.planes(&s.radiance, direct, renewal))
     }
 
     /// All radiance after `photons`, emission included.

@@ -19,6 +19,7 @@ use super::statistics::Statistics;
 use crate::error::ErrorSums;
 use crate::memory::{FILL, MemoryEstimate};
 use crate::settings::RenderSettings;
+use crate::sppm::Renewal;
 
 /// Photons stored per photon emitted, a bound for closed scenes of high albedo: measured 2.5 to 3.5.
 const STORED_PER_EMITTED: f64 = 4.0;
@@ -51,24 +52,30 @@ pub(crate) fn memory(scene: &Scene, settings: &RenderSettings, threads: usize) -
         + if shaded { 3 * size_of::<f32>() } else { 0 };
     let slot = slot as f64 + layers * size_of::<Irradiance<1>>() as f64;
     let per_pixel = Radiance::BYTES_PER_PIXEL + if settings.layers { Radiance::BYTES_BY_CLASS } else { 0 };
-    let per_pixel = per_pixel + if shadow { Direct::BYTES_PER_PIXEL } else { 0 };
-    let per_pixel = per_pixel + if settings.error { ErrorSums::BYTES_PER_PIXEL } else { 0 };
+    let renews = settings.method.renews_eye_samples();
+    let per_pixel = per_pixel
+        + if renews { Renewal::bytes_per_pixel(adapts) } else { 0 }
+        + if shadow && !renews { Direct::BYTES_PER_PIXEL } else { 0 }
+        + if settings.error { ErrorSums::bytes_per_pixel(renews) } else { 0 };
     let photon = 2.0 * size_of::<Photon>() as f64 + size_of::<u32>() as f64;
     let pass = settings.ppm.photons_per_pass.get().into();
     let batches = Batch::all(pass, MAX_PHOTONS);
     let batch = batches.map(|b| b.photons(pass)).max().unwrap_or(0);
     let guidance = if settings.ppm.guided { Guidance::max_bytes(pass, scene.emitters().len()) } else { 0 };
     let slot = slot + if batch < pass { EarlierBatches::bytes_per_slot(adapts) as f64 } else { 0.0 };
+    let hit_point_bytes = hit_points * (slot / FILL + (size_of::<u32>() + size_of::<Rgb>()) as f64)
+        + glossy * size_of::<Option<Gloss>>() as f64 / FILL;
+    // Found hit points twice while chunks are joined, or once beside the points that are being grouped.
+    let layout_bytes = 2.0 * (hit_points * size_of::<HitPoint>() as f64 + glossy * size_of::<Gloss>() as f64);
     MemoryEstimate {
         hit_points,
         pixels: pixels as f64,
         scene_bytes: scene.bytes() as f64,
-        hit_point_bytes: hit_points * (slot / FILL + (size_of::<u32>() + size_of::<Rgb>()) as f64)
-            + glossy * size_of::<Option<Gloss>>() as f64 / FILL,
+        // Where each pass lays hit points out, those of the pass before stay until then, and so does room for photons.
+        hit_point_bytes: if renews { 2.0 * hit_point_bytes + layout_bytes } else { hit_point_bytes },
         pixel_bytes: pixels as f64 * (per_pixel + 2 * size_of::<u32>() + size_of::<Rgb>()) as f64,
         photon_bytes: batch as f64 * STORED_PER_EMITTED * photon
             + (PhotonMap::counter_bytes(batch, MAX_CELLS, threads) + guidance) as f64,
-        // Found hit points twice while chunks are joined, or once beside the points that are being grouped.
-        layout_bytes: 2.0 * (hit_points * size_of::<HitPoint>() as f64 + glossy * size_of::<Gloss>() as f64),
+        layout_bytes: if renews { 0.0 } else { layout_bytes },
     }
 }

@@ -1,16 +1,16 @@
 //! Progressive photon mapping. `algorithm.rs` is the method on one screen; each step has a file of its own.
 
-mod adaptive;
+pub(crate) mod adaptive;
 mod algorithm;
 mod counts;
-mod direct;
-mod eye_samples;
+pub(crate) mod direct;
+pub(crate) mod eye_samples;
 mod features;
 mod gather;
 mod guidance;
-mod hit_points;
+pub(crate) mod hit_points;
 mod inspect;
-mod laid_out;
+pub(crate) mod laid_out;
 mod lanes;
 mod light;
 mod lobes;
@@ -25,13 +25,13 @@ mod schedule;
 pub(crate) mod settings;
 mod slots;
 mod state;
-mod statistics;
+pub(crate) mod statistics;
 mod steps;
 mod sweep;
 mod tally;
 #[cfg(test)]
 mod tests;
-mod under_way;
+pub(crate) mod under_way;
 mod variants;
 
 pub(crate) use algorithm::Ppm;

@@ -8,6 +8,7 @@ use super::algorithm::Ppm;
 use super::statistics::Statistics;
 use crate::error::{ErrorEstimate, TileError};
 use crate::layers::LayerKind;
+use crate::sppm::Renewal;
 
 impl Ppm {
     /// Image size in pixels.
@@ -26,22 +27,38 @@ impl Ppm {
     pub(crate) fn image(&self) -> Image {
         let mut pixels = self.light.total(self.photons_emitted);
         self.add_direct(&mut pixels);
+        pixels.iter_mut().enumerate().for_each(|(pixel, light)| *light += self.seen_emission(pixel));
         self.as_image(pixels)
     }
 
     /// Adds what shadow rays have brought.
     fn add_direct(&self, pixels: &mut [Rgb]) {
-        if let Some(direct) = &self.direct {
-            pixels.iter_mut().enumerate().for_each(|(pixel, light)| *light += direct.radiance(pixel));
+        if self.has_shadow_rays() {
+            pixels.iter_mut().enumerate().for_each(|(pixel, light)| *light += self.direct_radiance(pixel));
         }
+    }
+
+    /// What shadow rays have brought to a pixel.
+    fn direct_radiance(&self, pixel: usize) -> Rgb {
+        let renewed = |renewal: &Renewal| renewal.seen.direct(pixel, self.photons_emitted);
+        let of_renewal = || self.renewal.as_deref().map_or(Rgb::BLACK, renewed);
+        self.direct.as_ref().map_or_else(of_renewal, |direct| direct.radiance(pixel))
+    }
+
+    /// Radiance of emitters that a pixel sees directly or by specular bounces, where that is not in its light from the start.
+    fn seen_emission(&self, pixel: usize) -> Rgb {
+        self.renewal
+            .as_deref()
+            .map_or(Rgb::BLACK, |renewal| renewal.seen.emission(pixel, self.photons_emitted))
     }
 
     /// Radiance of one pixel as it stands; black beyond the image.
     #[must_use]
     pub(crate) fn radiance(&self, pixel: usize) -> Rgb {
         let mut light = self.light.pixel(pixel, self.photons_emitted);
-        if let Some(direct) = self.direct.as_ref().filter(|_| pixel < self.shapes.len()) {
-            light += direct.radiance(pixel);
+        if pixel < self.shapes.len() {
+            light += self.direct_radiance(pixel);
+            light += self.seen_emission(pixel);
         }
         light
     }
@@ -61,6 +78,13 @@ impl Ppm {
         let scale = 1.0 / self.last_photons.max(1) as f64;
         let pixels = self.light.last_pass().into_iter().map(|l| l * scale as f32);
         self.as_image(pixels.collect())
+    }
+
+    /// The statistics of a pixel's hit point in sample order.
+    pub(super) fn statistics(&self, pixel: usize, h: usize) -> Statistics {
+        let hit_points = &self.hit_points;
+        let of_slot = || hit_points.statistics_slots[hit_points.slot_of[h] as usize];
+        self.renewal.as_deref().map_or_else(of_slot, |renewal| renewal.statistics(hit_points, pixel, h))
     }
 
     pub(super) fn per_pixel<T>(&self, f: impl Fn(&[Statistics]) -> T) -> Vec<T> {
@@ -105,6 +129,9 @@ impl Ppm {
             }
             LayerKind::Caustic => class(PathClass::Caustic)?,
             LayerKind::Indirect => class(PathClass::Indirect)?,
+            LayerKind::Emission if self.renewal.is_some() => {
+                (0..self.shapes.len()).map(|pixel| self.seen_emission(pixel)).collect()
+            }
             LayerKind::Emission => self.light.emission().to_vec(),
             _ => return None,
         };
@@ -139,7 +166,8 @@ impl Ppm {
     /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`RenderSettings::error`](crate::RenderSettings::error).
     #[must_use]
     pub(crate) fn error_plane(&self, kind: LayerKind) -> Option<Vec<f32>> {
-        let (noise, bias) = self.light.error_planes(self.error.as_ref()?, self.direct.as_ref());
+        let apart = (self.direct.as_ref(), self.renewal.as_deref());
+        let (noise, bias) = self.light.error_planes(self.error.as_ref()?, apart);
         match kind {
             LayerKind::ErrorNoise => Some(noise),
             LayerKind::ErrorBias => Some(bias),

@@ -65,8 +65,16 @@ impl Ppm {
             return false;
         }
         self.under_way = None;
+        self.forget_hit_points();
         self.take_deferred_changes();
         true
+    }
+
+    /// The pass under way has not happened: the next one counts anew at its hit points, where each has some of its own.
+    pub(super) fn forget_hit_points(&mut self) {
+        if let Some(renewal) = &mut self.renewal {
+            renewal.discard();
+        }
     }
 
     /// Logs what held for a pass alone.
@@ -101,7 +109,7 @@ impl Ppm {
 
     /// Whether the pass under way has refined hit points: they are then not as the last whole pass left them.
     pub(crate) fn has_refined(&self) -> bool {
-        self.under_way.as_ref().is_some_and(|pass| pass.has_refined())
+        self.renewal.is_none() && self.under_way.as_ref().is_some_and(|pass| pass.has_refined())
     }
 
     /// Passes so far.
@@ -119,7 +127,10 @@ impl Ppm {
     /// Whether direct light comes by shadow rays.
     #[must_use]
     pub(crate) const fn has_shadow_rays(&self) -> bool {
-        self.direct.is_some()
+        match &self.renewal {
+            Some(renewal) => renewal.lights.is_some(),
+            None => self.direct.is_some(),
+        }
     }
 
     /// The sensors whose renders share its photons, it included.
@@ -178,6 +189,10 @@ impl Ppm {
             + self.hit_points.bytes()
             + self.light.bytes()
             + self.direct.as_ref().map_or(0, Direct::bytes)
+            + self
+                .renewal
+                .as_ref()
+                .map_or(0, |r| r.bytes(!self.hit_points.radius_statistics_slots.is_empty()))
             + self.error.as_ref().map_or(0, ErrorSums::bytes)
             + self.grid.bytes()
             + self.guidance.bytes()

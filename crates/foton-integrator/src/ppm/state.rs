@@ -53,10 +53,15 @@ impl Ppm {
             out.f64(loss.truncated);
             out.u64(loss.dropped);
         }
-        let statistics = &self.hit_points.statistics_slots;
-        out.u64(statistics.len() as u64);
-        statistics.iter().for_each(|s| s.write(&mut out));
-        self.hit_points.radius_statistics_slots.iter().for_each(|e| e.write(&mut out));
+        if let Some(renewal) = &self.renewal {
+            out.u64(self.shapes.len() as u64);
+            renewal.write(&mut out);
+        } else {
+            let statistics = &self.hit_points.statistics_slots;
+            out.u64(statistics.len() as u64);
+            statistics.iter().for_each(|s| s.write(&mut out));
+            self.hit_points.radius_statistics_slots.iter().for_each(|e| e.write(&mut out));
+        }
         self.light.write(&mut out);
         if let Some(direct) = &self.direct {
             direct.write(&mut out);
@@ -86,7 +91,12 @@ impl Ppm {
         self.settings.ppm.alpha = alpha;
         self.settings.ppm.photons_per_pass = photons;
         self.restore_accounts(&mut input)?;
-        self.restore_hit_points(&mut input)?;
+        if let Some(renewal) = &mut self.renewal {
+            input.expect(self.shapes.len())?;
+            renewal.read(&mut input)?;
+        } else {
+            self.restore_hit_points(&mut input)?;
+        }
         self.light.read(&mut input)?;
         if let Some(direct) = &mut self.direct {
             direct.read(&mut input)?;
@@ -99,7 +109,11 @@ impl Ppm {
         self.guidance.read(&mut input, self.scene.emitters().len())?;
         self.light.read_classes(&mut input)?;
         input.finish()?;
-        self.mark_all_cells();
+        if self.renewal.is_some() {
+            self.lay_out_last();
+        } else {
+            self.mark_all_cells();
+        }
         Ok(())
     }
 

@@ -30,6 +30,11 @@ impl Statistics {
         Self { accumulated: 0.0, radius2: radius2 as f64, found: 0 }
     }
 
+    /// Of a hit point that has gathered in one pass alone, with what its pixel knows.
+    pub(crate) const fn of_display(radius2: f64, found: u64) -> Self {
+        Self { accumulated: 0.0, radius2, found }
+    }
+
     /// r² in square scene units.
     #[must_use]
     pub const fn radius2(&self) -> f64 {

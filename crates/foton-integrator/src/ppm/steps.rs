@@ -24,7 +24,7 @@ const MARK_AGAIN: f64 = 0.7;
 
 impl Ppm {
     /// An error where a value was left out that must not be: this one, or one before it.
-    pub(super) fn halt_at(&self, left_out: Option<LeftOut>) -> Result<(), Halt> {
+    pub(crate) fn halt_at(&self, left_out: Option<LeftOut>) -> Result<(), Halt> {
         if !self.strict {
             return Ok(());
         }
@@ -37,12 +37,9 @@ impl Ppm {
         let once = std::mem::take(&mut self.once);
         let scheduled = self.settings.ppm.photons_after(self.passes);
         let photons = u64::from(once.photons.unwrap_or(scheduled).get());
-        let slots = self.hit_points.statistics_slots.len();
-        let adapts = !self.hit_points.radius_statistics_slots.is_empty();
         self.guidance.begin_pass();
         let batches: Vec<Batch> = Batch::all(photons, self.max_in_batch).collect();
-        self.earlier =
-            if batches.len() > 1 { EarlierBatches::of(slots, adapts) } else { EarlierBatches::default() };
+        self.make_room_for_batches(batches.len() > 1);
         let counts = Counts {
             ledger: self.ledger,
             lights: self.lights.clone(),
@@ -56,9 +53,17 @@ impl Ppm {
         UnderWay::new(counts, self.settings.ppm.alpha, batches, once)
     }
 
+    /// Makes room for what the batches of a pass leave for the last one, if it has several.
+    pub(crate) fn make_room_for_batches(&mut self, has_several: bool) {
+        let slots = self.hit_points.statistics_slots.len();
+        let adapts = !self.hit_points.radius_statistics_slots.is_empty();
+        self.earlier =
+            if has_several { EarlierBatches::of(slots, adapts) } else { EarlierBatches::default() };
+    }
+
     /// Whether photons can add light to surfaces: not where only shadow rays light them.
     fn photons_add(&self) -> bool {
-        self.settings.max_depth_in(&self.scene) > if self.direct.is_some() { 2 } else { 1 }
+        self.settings.max_depth_in(&self.scene) > if self.has_shadow_rays() { 2 } else { 1 }
     }
 
     pub(super) fn photon_pass(&self, photons: u64, batch: Batch) -> PhotonPass<'_> {
@@ -68,7 +73,7 @@ impl Ppm {
             cells: self.guidance.cells(),
             training: self.guidance.training(self.passes, photons),
             grid: &self.grid,
-            stores_direct: self.direct.is_none(),
+            stores_direct: !self.has_shadow_rays(),
             policy: LOBE_POLICY,
             directions: self.hit_points.need_directions(),
             arch: self.arch,
@@ -141,10 +146,12 @@ impl Ppm {
     ) -> Result<(), Suspended> {
         watch(Stage::Gather);
         let (alpha, before) = (pass.alpha, self.photons_emitted);
+        let common = self.settings.ppm.radius_rule.common(alpha, before, pass.counts.photons);
         let rule = Rule {
             alpha,
             adapts: self.settings.ppm.radius_rule == RadiusRule::Adaptive,
-            common: self.settings.ppm.radius_rule.common(alpha, before, pass.counts.photons),
+            // Hit points of a single pass only count: their pixels' radii shrink once it is whole.
+            common: if self.renewal.is_some() { Some(1.0) } else { common },
             batch,
             question: Question::after(self.passes),
             arch: self.arch,
@@ -176,12 +183,19 @@ impl Ppm {
         watch: &mut dyn FnMut(Stage),
         should_suspend: ShouldSuspend<'_>,
     ) -> Result<(), Suspended> {
-        let Some(direct) = self.direct.as_ref().filter(|_| !pass.is_lit) else { return Ok(()) };
+        if pass.is_lit || !self.has_shadow_rays() {
+            return Ok(());
+        }
         watch(Stage::ShadowRays);
-        let seed = self.settings.photon_seed();
-        let lighting = Lighting { scene: &self.scene, hit_points: &self.hit_points, seed, set: 0 };
-        let by_block = ByBlock { done: &mut pass.lit, should_suspend };
-        lighting.light(direct, &direct.turns(pass.counts.rays), by_block);
+        if let Some(renewal) = &self.renewal {
+            self.light_hit_points(renewal, pass, should_suspend)?;
+        } else if let Some(direct) = &self.direct {
+            let (scene, hit_points, samples) = (&*self.scene, &self.hit_points, direct.samples);
+            let (lights, seed) = (&direct.lights, self.settings.photon_seed());
+            let lighting = Lighting { scene, hit_points, lights, samples, seed };
+            let by_block = ByBlock { done: &mut pass.lit, should_suspend };
+            lighting.light(&direct.order, &direct.turns(pass.counts.rays), by_block);
+        }
         if pass.lit.iter().any(Option::is_none) {
             return Err(Suspended);
         }
@@ -194,9 +208,10 @@ impl Ppm {
     }
 
     /// Adds a pass to the image, its error to the error, and what it counted to the render's own.
-    pub(super) fn accumulate(&mut self, pass: UnderWay, watch: &mut dyn FnMut(Stage)) -> PassReport {
+    pub(super) fn accumulate(&mut self, mut pass: UnderWay, watch: &mut dyn FnMut(Stage)) -> PassReport {
         watch(Stage::Radiance);
         self.note_exceptions(&pass);
+        let unknown_pixels = self.add_to_renewal(&mut pass);
         let mut counts = pass.counts;
         counts.leave_out(self.light.add_pass(&self.hit_points, counts.photons));
         if let Some(direct) = &mut self.direct {
@@ -213,7 +228,8 @@ impl Ppm {
         if let Some(error) = &mut self.error {
             let facts =
                 PassFacts { photons, power, question: Question::after(self.passes), before: self.passes };
-            self.light.add_error(error, &self.hit_points, self.direct.as_ref(), facts);
+            let apart = (self.direct.as_ref(), self.renewal.as_deref());
+            self.light.add_error(error, &self.hit_points, apart, facts);
         }
         self.guidance.learn(self.passes, &self.sources);
         self.last_photons = photons;
@@ -227,7 +243,8 @@ impl Ppm {
             rays,
             candidates: tally.candidates,
             accepted: tally.accepted,
-            no_photon_share: tally.unknown as f64 / (self.start.hit_points as f64).max(1.0),
+            no_photon_share: unknown_pixels
+                .unwrap_or(tally.unknown as f64 / self.hit_points.len().max(1) as f64),
             floored: tally.floored,
         }
     }
@@ -249,7 +266,9 @@ impl Ppm {
 
     /// Photons that no disc can reach any more need not be stored: marks cells again once discs are clearly smaller.
     fn mark_cells(&mut self, tally: &Tally) {
-        if self.marked_radius2.is_infinite() {
+        if self.renewal.is_some() {
+            // Cells are marked for the hit points of each pass.
+        } else if self.marked_radius2.is_infinite() {
             self.marked_radius2 = tally.radius2;
         } else if tally.radius2 < MARK_AGAIN * self.marked_radius2 {
             self.grid.mark(&self.hit_points.packets);

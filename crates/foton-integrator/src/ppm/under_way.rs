@@ -33,12 +33,14 @@ pub(crate) struct Once {
 
 /// A pass under way.
 pub(crate) struct UnderWay {
-    pub(super) counts: Counts,
+    pub(crate) counts: Counts,
+    /// Whether hit points are those of the pass, where each has new ones.
+    pub(crate) has_hit_points: bool,
     /// Photons that the pass was to have, of which batches are parts; those that it has are fewer where it is cut short.
     planned: u64,
     photons_once: Option<NonZeroU32>,
     /// That of the whole pass: a change takes effect with the next one.
-    pub(super) alpha: Alpha,
+    pub(crate) alpha: Alpha,
     batches: Vec<Batch>,
     /// Batches that are done.
     done: usize,
@@ -46,7 +48,7 @@ pub(crate) struct UnderWay {
     /// By block of packets, of those that have gathered the batch.
     pub(super) tallies: Vec<Option<Tally>>,
     /// By block of pixels, of those that shadow rays have lit.
-    pub(super) lit: Vec<Option<Lit>>,
+    pub(crate) lit: Vec<Option<Lit>>,
     /// Whether shadow rays are done.
     pub(super) is_lit: bool,
 }
@@ -58,6 +60,7 @@ impl UnderWay {
             planned: counts.photons,
             photons_once: once.photons,
             counts,
+            has_hit_points: false,
             alpha,
             batches,
             done: 0,
@@ -104,6 +107,11 @@ impl UnderWay {
         let is_cut = self.batches.last().is_some_and(|batch| batch.is_closing());
         let batches = u32::try_from(self.batches.len() - 1).ok().and_then(NonZeroU32::new);
         Once { photons: self.photons_once, batches: batches.filter(|_| is_cut) }
+    }
+
+    /// Whether it has more than one batch.
+    pub(crate) const fn has_several_batches(&self) -> bool {
+        self.batches.len() > 1
     }
 
     /// The batch that is to be worked on; `None` once all are done.

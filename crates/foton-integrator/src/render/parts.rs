@@ -13,7 +13,7 @@ impl Render {
     #[must_use]
     pub fn estimate_memory(scene: &Scene, settings: &RenderSettings, threads: usize) -> MemoryEstimate {
         match settings.method {
-            Method::Ppm => ppm::memory(scene, settings, threads),
+            Method::Ppm | Method::Sppm => ppm::memory(scene, settings, threads),
             Method::Path | Method::Whitted => sampled::memory(scene, settings),
         }
     }
@@ -22,7 +22,7 @@ impl Render {
     #[must_use]
     pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
         match settings.method {
-            Method::Ppm => ppm::features(scene, settings),
+            Method::Ppm | Method::Sppm => ppm::features(scene, settings),
             Method::Path | Method::Whitted => sampled::features(settings),
         }
     }

@@ -24,7 +24,7 @@ impl Estimator {
     ) -> Result<Option<Self>, Cancelled> {
         cancel.check()?;
         Ok(match settings.method {
-            Method::Ppm => None,
+            Method::Ppm | Method::Sppm => None,
             Method::Path => Some(Self::Path(PathTracer::new(scene, settings))),
             Method::Whitted => Some(Self::Whitted(Whitted::new(scene, settings))),
         })

@@ -1,4 +1,5 @@
 //! The eye pass: from the sensor through mirrors, glass and narrow gloss to the surfaces that spread light, each sample once.
+//! Methods that follow new samples in each pass have an eye pass for each.
 //!
 //! At each surface a hit point gathers light for the lobes that spread it, and the path goes on by the specular ones. Where there
 //! are several of those, it splits, weighted by Fresnel, while its weight and depth are worth it and the sample's share of hit
@@ -42,6 +43,21 @@ pub struct EyePaths {
 }
 
 impl EyePaths {
+    /// Adds what was found in the pixels after these.
+    pub fn append(&mut self, part: Self) {
+        let before = self.gloss.len() as u32;
+        self.hit_points.extend(
+            part.hit_points.into_iter().map(|h| HitPoint { gloss: h.gloss.map(|g| g + before), ..h }),
+        );
+        self.gloss.extend(part.gloss);
+        self.counts.extend(part.counts);
+        self.emission.extend(part.emission);
+        self.shapes.extend(part.shapes);
+        self.rays += part.rays;
+        self.dropped += part.dropped;
+        self.left_out = self.left_out.or(part.left_out);
+    }
+
     /// Mean emitted light that each pixel sees directly or by specular bounces.
     pub fn mean_emission(&self) -> Vec<Rgb> {
         self.emission.iter().map(|&sum| sum / self.samples as f32).collect()
@@ -68,6 +84,8 @@ pub struct EyePass<'a> {
     pub sensor: usize,
     /// Eye samples a pixel.
     pub samples_per_pixel: NonZeroU32,
+    /// How many passes were before this one, where each follows new samples.
+    pub pass: Option<u64>,
     /// Hit points that one eye sample may make by splitting at glass.
     pub hit_points_per_sample: NonZeroU32,
     /// The first radius of each hit point, and the smallest.

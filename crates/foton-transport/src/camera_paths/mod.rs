@@ -11,5 +11,5 @@ mod walk;
 
 pub use eye_pass::{EyePass, EyePaths, NO_SHAPE};
 pub use hit_point::{Gloss, HitPoint};
-pub use pixel_samples::{PixelSamples, Shuffled};
+pub use pixel_samples::PixelSamples;
 pub use radius::FirstRadius;

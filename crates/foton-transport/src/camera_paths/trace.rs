@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use super::earlier::Earlier;
 use super::eye_pass::{EyePass, EyePaths};
-use super::pixel_samples::PixelSamples;
-use super::walk::{SamplePoints, Walk};
+use super::pixel_samples::OfPixel;
+use super::walk::Walk;
 use crate::not_finite::{self, LeftOut, Quantity};
 
 /// Pixels of one task.
@@ -47,18 +47,7 @@ impl EyePass<'_> {
         all.hit_points.reserve_exact(parts.iter().map(|p| p.hit_points.len()).sum());
         for part in parts {
             cancel.check()?;
-            let before = all.gloss.len() as u32;
-            all.hit_points.extend(part.hit_points.into_iter().map(|mut h| {
-                h.gloss = h.gloss.map(|g| g + before);
-                h
-            }));
-            all.gloss.extend(part.gloss);
-            all.counts.extend(part.counts);
-            all.emission.extend(part.emission);
-            all.shapes.extend(part.shapes);
-            all.rays += part.rays;
-            all.dropped += part.dropped;
-            all.left_out = all.left_out.or(part.left_out);
+            all.append(part);
         }
         Ok(all)
     }
@@ -83,23 +72,15 @@ impl EyePass<'_> {
         for pixel in pixels {
             let before = paths.hit_points.len();
             let mut emission = earlier.append_to(&mut paths, pixel as usize);
-            let mut scramble = Stream::new(self.seed, self.purpose, 0, u64::from(pixel));
-            let places = PixelSamples::new(&mut scramble);
-            let facets = PixelSamples::new(&mut scramble);
-            let emitters = PixelSamples::new(&mut scramble);
-            let lens = PixelSamples::shuffled(&mut scramble);
+            let of_pass = self.samples_per_pixel.get();
+            let of_pixel = OfPixel::new((self.seed, self.purpose), pixel, self.pass, of_pass);
             for sample in earlier.samples()..samples {
                 if cancel.is_requested() {
                     return paths;
                 }
-                let index = u64::from(pixel) * u64::from(self.samples_per_pixel.get()) + u64::from(sample);
-                let points = SamplePoints {
-                    place: places.point(sample),
-                    lens: lens.point(sample),
-                    facet: facets.point(sample),
-                    emitter: emitters.point(sample),
-                };
-                let stream = Stream::new(self.seed, self.purpose, 1, index);
+                let index = u64::from(pixel) * u64::from(of_pass) + u64::from(sample);
+                let points = of_pixel.points(sample);
+                let stream = Stream::new(self.seed, self.purpose, of_pixel.stream_pass(), index);
                 let sum = emission
                     + Walk::new(self, stream, &points, sample == 0, &mut paths, &mut branches).follow(
                         pixel,

@@ -9,6 +9,7 @@ use foton_scene::{LobeFlags, LobeSample, Scattering, Surface, Transport};
 use super::eye_pass::{EyePass, EyePaths};
 use super::highlights::{EmitterDraw, Glossy};
 use super::hit_point::{Gloss, HitPoint};
+use super::pixel_samples::SamplePoints;
 use super::radius::{footprint, on_surface, slab2};
 use crate::lobes::LobeSplit;
 use crate::not_finite::{self, LeftOut, Quantity};
@@ -63,18 +64,6 @@ pub(super) struct Walk<'a, 'b> {
     emission: Rgb,
     /// Ends that this sample may have: hit points stored, and branches under way.
     leaves: u32,
-}
-
-/// Points of the unit square, stratified over the samples of a pixel.
-pub(super) struct SamplePoints {
-    /// Where in the pixel.
-    pub(super) place: Vec2,
-    /// Where on the lens; anywhere where there is none.
-    pub(super) lens: Vec2,
-    /// For the first rough specular lobe.
-    pub(super) facet: Vec2,
-    /// For the point on an area emitter that is sampled from there.
-    pub(super) emitter: Vec2,
 }
 
 impl<'a, 'b> Walk<'a, 'b> {

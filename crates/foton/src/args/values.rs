@@ -140,6 +140,9 @@ pub(crate) enum Integrator {
     /// Progressive photon mapping
     #[value(name = "ppm")]
     ProgressivePhotonMapping,
+    /// Stochastic progressive photon mapping: new eye samples in each pass, so that edges, gloss and reflections converge too
+    #[value(name = "sppm")]
+    StochasticProgressivePhotonMapping,
     /// Path tracing with shadow rays: hardly any bias, but it misses light that mirrors and glass cast from small emitters
     #[value(name = "path")]
     PathTracing,
@@ -157,6 +160,7 @@ impl Integrator {
         match self {
             Self::All => None,
             Self::ProgressivePhotonMapping => Some(Method::Ppm),
+            Self::StochasticProgressivePhotonMapping => Some(Method::Sppm),
             Self::PathTracing => Some(Method::Path),
             Self::WhittedRayTracing => Some(Method::Whitted),
         }

@@ -10,11 +10,13 @@
 
 mod choice;
 mod lighting;
+mod lit;
 mod noise;
 mod order;
 mod sums;
 
 pub(crate) use choice::by_shadow_rays;
 pub(crate) use lighting::Lighting;
+pub(crate) use lit::Lit;
 pub(crate) use noise::Noise;
-pub(crate) use sums::{Direct, Lit};
+pub(crate) use sums::Direct;

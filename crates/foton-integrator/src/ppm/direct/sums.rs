@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use foton_math::Rgb;
 use foton_scene::Scene;
-use foton_transport::Omissions;
 use foton_transport::codec::{Reader, StateError, Writer};
 use foton_transport::direct_light::Lights;
 
 use super::choice::noise;
+use super::lit::Lit;
 use super::noise::{Known, Noise};
 use super::order::Order;
 use crate::ppm::hit_points::HitPoints;
@@ -29,24 +29,14 @@ const NOISY: f64 = 0.1;
 /// A pass lights a pixel this often at most.
 const MAX_VISITS: u64 = 16;
 
-/// What a block of places has come to.
-pub(crate) struct Lit {
-    /// Radiance by place, without what is the same each time.
-    pub(super) light: Vec<Rgb>,
-    /// What is, where it had not been found yet.
-    pub(super) fixed: Vec<Rgb>,
-    pub(crate) rays: u64,
-    pub(crate) omissions: Omissions,
-}
-
 /// Sums over the visits to all pixels.
 pub(crate) struct Direct {
-    pub(super) lights: Lights,
+    pub(crate) lights: Lights,
     /// Eye samples a pixel.
-    pub(super) samples: f32,
+    pub(crate) samples: u32,
     /// Rays over what the rest of a pass costs.
     share: f64,
-    pub(super) order: Order,
+    pub(crate) order: Order,
     /// Places that have been lit, in the order of turns.
     lit: u64,
     /// Of points, spots and suns, per pixel: the same each time.
@@ -84,7 +74,7 @@ impl Direct {
         Self {
             rays_per_place: hit_points * f64::from(lights.rays()) / order.places() as f64,
             lights,
-            samples: samples as f32,
+            samples,
             share: LARGEST_SHARE * (noise / NOISY).sqrt().clamp(0.1, 1.0),
             order,
             lit: 0,

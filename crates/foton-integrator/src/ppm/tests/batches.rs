@@ -11,7 +11,7 @@ use crate::layers::LayerKind;
 use crate::ppm::settings::{DirectLight, PpmSettings, RadiusRule};
 use crate::ppm::{EyeSamples, Ppm};
 use crate::report::PassReport;
-use crate::settings::RenderSettings;
+use crate::settings::{Method, RenderSettings};
 use crate::test_scene::scene;
 
 const PHOTONS: u32 = 30_000;
@@ -101,12 +101,20 @@ fn radii_that_adapt_do_so_by_all_batches_of_a_pass() {
 
 #[test]
 fn batches_give_the_same_bits_on_any_number_of_threads() {
-    for direct_light in [DirectLight::Photons, DirectLight::ShadowRays] {
+    for (method, direct_light) in [
+        (Method::Ppm, DirectLight::Photons),
+        (Method::Ppm, DirectLight::ShadowRays),
+        (Method::Sppm, DirectLight::ShadowRays),
+    ] {
         let run = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
             pool.install(|| {
                 let mut ppm = start(
-                    RenderSettings { ppm: PpmSettings { direct_light, ..settings().ppm }, ..settings() },
+                    RenderSettings {
+                        method,
+                        ppm: PpmSettings { direct_light, ..settings().ppm },
+                        ..settings()
+                    },
                     MAX,
                 );
                 for _ in 0..3 {
@@ -116,31 +124,34 @@ fn batches_give_the_same_bits_on_any_number_of_threads() {
             })
         };
         let one = run(1);
-        assert!(one == run(2) && one == run(7), "{direct_light:?}");
+        assert!(one == run(2) && one == run(7), "{method:?}, {direct_light:?}");
     }
 }
 
 #[test]
 fn a_pass_that_is_cancelled_between_its_batches_has_not_happened() {
-    let mut ppm = start(settings(), MAX);
-    advance(&mut ppm);
-    let before = state(&ppm);
-    let cancel = Cancel::default();
-    let mut traced = 0;
-    let mut watch = |stage| {
-        traced += u32::from(stage == Stage::Trace);
-        if traced == 3 {
-            cancel.request();
+    for method in [Method::Ppm, Method::Sppm] {
+        let settings = RenderSettings { method, ..settings() };
+        let mut ppm = start(settings.clone(), MAX);
+        advance(&mut ppm);
+        let before = state(&ppm);
+        let cancel = Cancel::default();
+        let mut traced = 0;
+        let mut watch = |stage| {
+            traced += u32::from(stage == Stage::Trace);
+            if traced == 3 {
+                cancel.request();
+            }
+        };
+        assert!(ppm.advance(&mut watch, &cancel, &|| false).is_err());
+        assert!(traced == 3 && before == state(&ppm));
+        advance(&mut ppm);
+        let mut straight = start(settings, MAX);
+        for _ in 0..2 {
+            advance(&mut straight);
         }
-    };
-    assert!(ppm.advance(&mut watch, &cancel, &|| false).is_err());
-    assert!(traced == 3 && before == state(&ppm));
-    advance(&mut ppm);
-    let mut straight = start(settings(), MAX);
-    for _ in 0..2 {
-        advance(&mut straight);
+        assert!(state(&ppm) == state(&straight));
     }
-    assert!(state(&ppm) == state(&straight));
 }
 
 /// The eye pass, laying hit points out and marking cells.

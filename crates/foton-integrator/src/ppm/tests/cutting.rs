@@ -10,14 +10,14 @@ use crate::layers::LayerKind;
 use crate::ppm::settings::{DirectLight, PpmSettings, RadiusRule};
 use crate::ppm::{EyeSamples, Ppm};
 use crate::report::PassReport;
-use crate::settings::{RenderSettings, SettingChange};
+use crate::settings::{Method, RenderSettings, SettingChange};
 use crate::test_scene::scene;
 
 /// Three batches of several chunks.
 const PHOTONS: u32 = 60_000;
 const MAX: u64 = 20_100;
 
-fn start(direct_light: DirectLight, radius_rule: RadiusRule) -> Ppm {
+fn start(method: Method, direct_light: DirectLight, radius_rule: RadiusRule) -> Ppm {
     let photons = NonZeroU32::new(PHOTONS).expect("above 0");
     let ppm = PpmSettings {
         photons_per_pass: photons,
@@ -27,6 +27,7 @@ fn start(direct_light: DirectLight, radius_rule: RadiusRule) -> Ppm {
         ..PpmSettings::default()
     };
     let settings = RenderSettings {
+        method,
         layers: true,
         error: true,
         samples_per_pixel: NonZeroU32::new(9).expect("above 0"),
@@ -60,12 +61,14 @@ fn cut(batches: u32) -> SettingChange {
 
 #[test]
 fn a_pass_that_is_cut_anywhere_is_one_that_was_planned_to_end_there() {
-    for (light, rule) in
-        [(DirectLight::Photons, RadiusRule::Adaptive), (DirectLight::ShadowRays, RadiusRule::Global)]
-    {
+    for (method, light, rule) in [
+        (Method::Ppm, DirectLight::Photons, RadiusRule::Adaptive),
+        (Method::Ppm, DirectLight::ShadowRays, RadiusRule::Global),
+        (Method::Sppm, DirectLight::ShadowRays, RadiusRule::Adaptive),
+    ] {
         let planned: Vec<_> = (1..3)
             .map(|batches| {
-                let mut ppm = start(light, rule);
+                let mut ppm = start(method, light, rule);
                 advance(&mut ppm);
                 ppm.change(cut(batches));
                 let report = advance(&mut ppm);
@@ -76,7 +79,7 @@ fn a_pass_that_is_cut_anywhere_is_one_that_was_planned_to_end_there() {
             .collect();
         let mut ends = [0; 3];
         for questions in (0..200).step_by(7) {
-            let mut ppm = start(light, rule);
+            let mut ppm = start(method, light, rule);
             advance(&mut ppm);
             if !suspend_after(&mut ppm, questions) {
                 break;
@@ -90,7 +93,7 @@ fn a_pass_that_is_cut_anywhere_is_one_that_was_planned_to_end_there() {
             };
             ends[batches - 1] += 1;
             if let Some((after, next, after_next)) = planned.get(batches - 1) {
-                assert!(state(&ppm) == *after, "{light:?}, after {questions} questions");
+                assert!(state(&ppm) == *after, "{method:?}, {light:?}, after {questions}");
                 assert!(advance(&mut ppm) == *next && state(&ppm) == *after_next, "the passes that follow");
             }
         }
@@ -101,7 +104,7 @@ fn a_pass_that_is_cut_anywhere_is_one_that_was_planned_to_end_there() {
 #[test]
 fn a_batch_whose_photons_are_on_their_way_is_finished_or_left_out() {
     let ends = [false, true].map(|drops| {
-        let mut ppm = start(DirectLight::Photons, RadiusRule::Adaptive);
+        let mut ppm = start(Method::Ppm, DirectLight::Photons, RadiusRule::Adaptive);
         let mut questions = 0;
         while {
             assert!(suspend_after(&mut ppm, 1));
@@ -118,25 +121,27 @@ fn a_batch_whose_photons_are_on_their_way_is_finished_or_left_out() {
 #[test]
 fn a_pass_that_is_cut_is_as_bright_and_its_power_balances() {
     let mean = |ppm: &Ppm| ppm.image().pixels.iter().map(|p| f64::from(p.luminance())).sum::<f64>();
-    let [mut whole, mut parts] = [0; 2].map(|_| start(DirectLight::Photons, RadiusRule::Local));
-    for pass in 0..8 {
-        advance(&mut whole);
-        parts.change(cut(1 + pass % 2));
-        advance(&mut parts);
+    for method in [Method::Ppm, Method::Sppm] {
+        let [mut whole, mut parts] = [0; 2].map(|_| start(method, DirectLight::Photons, RadiusRule::Local));
+        for pass in 0..8 {
+            advance(&mut whole);
+            parts.change(cut(1 + pass % 2));
+            advance(&mut parts);
+        }
+        assert_eq!(parts.photons_emitted(), 4 * (20_000 + 40_000));
+        let (a, b) = (mean(&whole), mean(&parts));
+        assert!((b / a - 1.0).abs() < 0.01, "{a} {b}");
+        assert!(parts.ledger().imbalance().abs() < 1e-6);
+        let a_photon = |ppm: &Ppm| ppm.ledger().emitted / ppm.photons_emitted() as f64;
+        assert!((a_photon(&parts) / a_photon(&whole) - 1.0).abs() < 1e-3);
+        let [many, few] = [&whole, &parts].map(|ppm| ppm.error().expect("known").noise);
+        assert!(few > many && few < 2.0 * many, "half the photons: {many} {few}");
     }
-    assert_eq!(parts.photons_emitted(), 4 * (20_000 + 40_000));
-    let (a, b) = (mean(&whole), mean(&parts));
-    assert!((b / a - 1.0).abs() < 0.01, "{a} {b}");
-    assert!(parts.ledger().imbalance().abs() < 1e-6);
-    let a_photon = |ppm: &Ppm| ppm.ledger().emitted / ppm.photons_emitted() as f64;
-    assert!((a_photon(&parts) / a_photon(&whole) - 1.0).abs() < 1e-3);
-    let [many, few] = [&whole, &parts].map(|ppm| ppm.error().expect("known").noise);
-    assert!(few > many && few < 2.0 * many, "half the photons: {many} {few}");
 }
 
 #[test]
 fn a_pass_of_one_batch_is_not_cut() {
-    let mut ppm = start(DirectLight::Photons, RadiusRule::Adaptive).with_batches_of(u64::MAX);
+    let mut ppm = start(Method::Ppm, DirectLight::Photons, RadiusRule::Adaptive).with_batches_of(u64::MAX);
     assert!(suspend_after(&mut ppm, 2));
     ppm.cut_pass(true);
     assert_eq!(advance(&mut ppm).photons_in_pass, u64::from(PHOTONS));
@@ -145,21 +150,23 @@ fn a_pass_of_one_batch_is_not_cut() {
 
 #[test]
 fn a_pass_that_is_given_up_has_not_happened() {
-    let mut ppm = start(DirectLight::Photons, RadiusRule::Adaptive);
-    advance(&mut ppm);
-    let before = state(&ppm);
-    assert!(!ppm.discard_pass(), "there is none");
-    assert!(suspend_after(&mut ppm, 12) && ppm.discard_pass());
-    assert!(state(&ppm) == before);
-    let mut straight = start(DirectLight::Photons, RadiusRule::Adaptive);
-    advance(&mut straight);
-    assert_eq!(advance(&mut ppm), advance(&mut straight));
-    assert!(state(&ppm) == state(&straight));
+    for method in [Method::Ppm, Method::Sppm] {
+        let mut ppm = start(method, DirectLight::Photons, RadiusRule::Adaptive);
+        advance(&mut ppm);
+        let before = state(&ppm);
+        assert!(!ppm.discard_pass(), "there is none");
+        assert!(suspend_after(&mut ppm, 12) && ppm.discard_pass());
+        assert!(state(&ppm) == before);
+        let mut straight = start(method, DirectLight::Photons, RadiusRule::Adaptive);
+        advance(&mut straight);
+        assert_eq!(advance(&mut ppm), advance(&mut straight));
+        assert!(state(&ppm) == state(&straight));
+    }
 }
 
 #[test]
 fn a_pass_of_photons_of_its_own_is_logged_and_the_next_is_as_ever() {
-    let mut ppm = start(DirectLight::Photons, RadiusRule::Adaptive);
+    let mut ppm = start(Method::Ppm, DirectLight::Photons, RadiusRule::Adaptive);
     let once = SettingChange::PhotonsOnce(NonZeroU32::new(5_000).expect("above 0"));
     ppm.change(once);
     assert_eq!(ppm.next_batch(), 5_000);
@@ -167,7 +174,7 @@ fn a_pass_of_photons_of_its_own_is_logged_and_the_next_is_as_ever() {
     assert_eq!(ppm.changes(), [(0, once)]);
     assert_eq!(ppm.next_batch(), 20_000);
     assert_eq!(advance(&mut ppm).photons_in_pass, u64::from(PHOTONS));
-    let mut restored = start(DirectLight::Photons, RadiusRule::Adaptive);
+    let mut restored = start(Method::Ppm, DirectLight::Photons, RadiusRule::Adaptive);
     restored.restore(&ppm.save()).expect("its own state");
     assert_eq!(restored.changes(), [(0, once)]);
 }
