@@ -1,137 +1,115 @@
-"""foton, Mitsuba 3 and LuxCore on one scene for the same wall time: `cargo xtask versus [--seconds N]` runs this folder.
+"""foton's methods, Mitsuba 3 and LuxCore on the same scenes for the same processor time: `cargo xtask versus [SECONDS]` runs this folder.
 
-Each program renders the benchmark box alone on the machine. Errors are against the mean of long runs of foton with other seeds and other eye samples, whose own noise is quoted. Mitsuba's kernels are
-compiled before its time begins; LuxCore's balls are made of triangles.
+Errors are against the mean of long runs of foton with other seeds, whose own noise is quoted; each follows new eye samples in each pass,
+so that antialiasing counts. Mitsuba's kernels are compiled before its time begins. LuxCore's balls are made of triangles, and it is
+given only those scenes that can be told in its words as they are.
 """
 
 import argparse
 import json
-import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "conformance"))
 
-import mitsuba  # noqa: E402
+from errors import Judge  # noqa: E402
 from foton import Foton, read_image  # noqa: E402
-from mitsuba_side import choose_variant  # noqa: E402
 from pictures import write_strip  # noqa: E402
+from plots import write_plots  # noqa: E402
+from programs import by_foton, by_luxcore, by_mitsuba  # noqa: E402
 from scenes import prepare  # noqa: E402
-from taking_apart import take_apart  # noqa: E402
+from taking_apart import NotHanded  # noqa: E402
 
-SIZE = 256
+SIZE = 192
 MAX_DEPTH = 20
-SPP = 4
-REFERENCE_SEEDS = 8
-# The bright spot below the glass ball, in pixels of the image: x, y, width, height.
-SPOT = (180, 205, 55, 30)
-# Pixels that see the lamp, and their neighbours, say more of filters than of light.
-LAMP = 5.0
+SCENES = "box-spheres,cornell-diffuse,cornell-spheres,glass-and-ring,ring,pool"
+METHODS = {
+    "foton ppm": ["--integrator", "ppm"],
+    "foton sppm": ["--integrator", "sppm"],
+    "foton path": ["--integrator", "path"],
+}
+# The reference takes the method that converges in everything.
+REFERENCE = METHODS["foton sppm"]
+REFERENCE_SEEDS = [101, 102, 103, 104]
 
 
 def main():
-    """Renders, prints the table, writes pictures."""
+    """Renders scene by scene, prints a table, writes pictures and plots."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--foton", type=Path, required=True, help="the program")
     parser.add_argument("--repository", type=Path, required=True, help="where assets/ is")
-    parser.add_argument("--out", type=Path, required=True, help="folder for pictures and the cached reference")
+    parser.add_argument("--out", type=Path, required=True, help="folder for pictures and the cached references")
     parser.add_argument("--luxcore", type=Path, help="a Python that has pyluxcore")
-    parser.add_argument("--seconds", type=float, default=30.0, help="wall time of each program")
-    parser.add_argument("--reference-seconds", type=float, default=300.0, help="wall time of the reference, all seeds together")
+    parser.add_argument("--scenes", default=SCENES, help="of assets/, or beside the repository in shared/scenes/")
+    parser.add_argument("--seconds", type=float, default=30.0, help="processor time of each program")
+    parser.add_argument("--reference-seconds", type=float, help="processor time of a reference, all seeds together [20 times --seconds]")
     options = parser.parse_args()
+    options.reference_seconds = options.reference_seconds or 20 * options.seconds
     options.out.mkdir(parents=True, exist_ok=True)
     foton = Foton(options.foton, options.out / "work")
-    scene = prepare(options.repository / "assets/box-spheres/scene.xml", foton.folder, SIZE, MAX_DEPTH)
-
-    reference, noise = long_run(foton, scene, options)
-    images = {"foton": timed(foton, scene, options.seconds, 1), "Mitsuba path": path_traced(scene, options.seconds)}
     if options.luxcore is None:
         print("LuxCore: pyluxcore is not installed")
-    else:
-        images["LuxCore BIDIRVM"] = by_luxcore(options, scene)
-    show(images, reference, noise, options)
+
+    print(f"{SIZE}×{SIZE}, {options.seconds:g} processor seconds each; error of luminance over the mean, emitters and the brightest 0.5 % left out\n", flush=True)
+    plots, rows = [], {}
+    for name in options.scenes.split(","):
+        scene = prepare(find(options.repository, name), foton.folder, SIZE, MAX_DEPTH)
+        print(name, flush=True)
+        runs = long_runs(foton, name, scene, options)
+        judge = Judge(runs, seen_emitters(foton, scene))
+        courses = render_all(foton, scene, options)
+        curves = {who: [(at, judge.error(image)) for at, image in course] for who, course in courses.items()}
+        last = {who: course[-1][1] for who, course in courses.items()}
+        for who, image in last.items():
+            print(f"  {who:16} {curves[who][-1][1]:8.2%}   mean {judge.deviation(image):+.2%}", flush=True)
+        print(f"  {'the reference':16} {judge.noise:8.2%}   (its noise)", flush=True)
+        rows[name] = {"curves": curves, "noise_of_reference": judge.noise}
+        plots.append((name, curves))
+        write_strip(options.out / f"{name}.png", [runs.mean(axis=0), *last.values()])
+        print(f"  pictures, from the left: the reference, {', '.join(last)}: {options.out / name}.png", flush=True)
+        (options.out / "versus.json").write_text(json.dumps({"seconds": options.seconds, "scenes": rows}, indent=1))
+        write_plots(options.out / "versus.svg", plots)
+    print(f"\nerrors over time: {options.out / 'versus.svg'}")
 
 
-def timed(foton, scene, seconds, seed):
-    """What foton has after so many seconds from the start of its eye pass."""
-    image = foton.folder / f"versus-s{seed}.exr"
-    spent = ["--time", f"{seconds}s", "--seed", seed, "--spp", SPP]
-    foton.run("render", scene, "-o", image, "--direct", "shadow-rays", *spent)
+def find(repository, name):
+    """The scene's file."""
+    places = [repository / "assets" / name, repository.resolve().parent / "shared" / "scenes" / name]
+    [*found] = [place / "scene.xml" for place in places if (place / "scene.xml").exists()]
+    if not found:
+        raise SystemExit(f"{name}: no such scene")
+    return found[0]
+
+
+def seen_emitters(foton, scene):
+    """What is seen of emitters directly."""
+    image = foton.folder / "emitters.exr"
+    foton.run("render", scene, "-o", image, "--integrator", "path", "--max-depth", 1, "--passes", 16)
     return read_image(image)
 
 
-def long_run(foton, scene, options):
-    """(mean image, its standard error a pixel) over seeds."""
-    cached = options.out / f"reference-{options.reference_seconds:.0f}s.npy"
+def long_runs(foton, name, scene, options):
+    """An image a seed."""
+    cached = options.out / f"reference-{name}-{options.reference_seconds:.0f}s.npy"
     if not cached.exists():
-        seconds = options.reference_seconds / REFERENCE_SEEDS
-        print(f"reference: {REFERENCE_SEEDS} seeds of {seconds:.0f} s", flush=True)
-        np.save(cached, np.stack([timed(foton, scene, seconds, 100 + seed) for seed in range(REFERENCE_SEEDS)]))
-    runs = np.load(cached)
-    return runs.mean(axis=0), runs.std(axis=0, ddof=1) / np.sqrt(len(runs))
+        seconds = options.reference_seconds / len(REFERENCE_SEEDS)
+        print(f"  reference: {len(REFERENCE_SEEDS)} seeds of {seconds:.0f} s", flush=True)
+        np.save(cached, np.stack([by_foton(foton, scene, seconds, seed, REFERENCE)[-1][1] for seed in REFERENCE_SEEDS]))
+    return np.load(cached)
 
 
-def path_traced(scene, seconds):
-    """Mitsuba's path tracer, 16 samples a pixel at a time."""
-    mitsuba.set_variant(choose_variant())
-    loaded = mitsuba.load_file(str(scene), integrator="path")
-    render = lambda seed: np.array(mitsuba.render(loaded, seed=seed, spp=16), dtype=np.float64)[..., :3]  # noqa: E731
-    render(0)
-    begin, sum_, count = time.monotonic(), 0.0, 0
-    while time.monotonic() - begin < seconds:
-        count += 1
-        sum_ = sum_ + render(count)
-    print(f"Mitsuba path: {16 * count} samples a pixel", flush=True)
-    return sum_ / count
-
-
-def by_luxcore(options, scene):
-    """LuxCore in a process of its own."""
-    parts, image = options.out / "work" / "scene.npz", options.out / "work" / "luxcore.npy"
-    take_apart(scene, (SIZE, SIZE), MAX_DEPTH, parts)
-    script = Path(__file__).resolve().parent / "luxcore_side.py"
-    command = [str(options.luxcore), str(script), str(parts), str(options.seconds), str(image)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise SystemExit(f"LuxCore failed:\n{done.stdout}{done.stderr}")
-    print("\n".join(line for line in done.stdout.splitlines() if line.startswith("LuxCore: ")), flush=True)
-    return np.load(image).astype(np.float64)
-
-
-def show(images, reference, noise, options):
-    """The table and the pictures."""
-    luminance = lambda image: image @ np.array([0.2126, 0.7152, 0.0722])  # noqa: E731
-    truth = luminance(reference)
-    x, y, width, height = SPOT
-    spot = np.zeros_like(truth, dtype=bool)
-    spot[y : y + height, x : x + width] = True
-    lit = ~grown(truth > LAMP, 2)
-    rms = lambda values: float(np.sqrt(np.mean(np.square(values))))  # noqa: E731
-    print(f"\nbox-spheres, {SIZE}×{SIZE}, {options.seconds:.0f} s each; luminance")
-    print(f"{'':18} {'mean':>8} {'RMSE':>9} {'RMSE in the spot':>17} {'median error elsewhere':>23}")
-    rows = {}
-    for name, image in images.items():
-        error = luminance(image) - truth
-        row = [luminance(image)[lit].mean() / truth[lit].mean() - 1, rms(error[lit]), rms(error[spot])]
-        row.append(float(np.median(np.abs(error[lit & ~spot]))))
-        rows[name] = row
-        print(f"{name:18} {row[0]:>+8.2%} {row[1]:>9.4f} {row[2]:>17.4f} {row[3]:>23.4f}")
-    own = luminance(noise)
-    print(f"{'the reference':18} {'':8} {rms(own[lit]):>9.4f} {rms(own[spot]):>17.4f} {np.median(own[lit]):>23.4f}  (its noise)")
-    (options.out / "versus.json").write_text(json.dumps({"seconds": options.seconds, "rows": rows}, indent=1))
-    write_strip(options.out / "versus.png", [reference, *images.values()])
-    print(f"pictures, from the left: the reference, {', '.join(images)}: {options.out / 'versus.png'}")
-
-
-def grown(mask, pixels):
-    """The mask and what lies within some pixels of it."""
-    for _ in range(pixels):
-        padded = np.pad(mask, 1)
-        mask = mask | padded[2:, 1:-1] | padded[:-2, 1:-1] | padded[1:-1, 2:] | padded[1:-1, :-2]
-    return mask
+def render_all(foton, scene, options):
+    """{program: [(seconds, image)]}."""
+    courses = {who: by_foton(foton, scene, options.seconds, 1, words) for who, words in METHODS.items()}
+    courses["Mitsuba path"] = by_mitsuba(scene, options.seconds)
+    if options.luxcore is not None:
+        try:
+            courses["LuxCore BIDIRVM"] = by_luxcore(options.luxcore, foton.folder, scene, (SIZE, SIZE, MAX_DEPTH), options.seconds)
+        except NotHanded as why:
+            print(f"  LuxCore: {why}", flush=True)
+    return courses
 
 
 if __name__ == "__main__":

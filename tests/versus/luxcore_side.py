@@ -1,7 +1,7 @@
-"""LuxCore's part, run by the Python that has it: `luxcore_side.py SCENE.npz SECONDS OUT.npy`.
+"""LuxCore's part, run by the Python that has it: `luxcore_side.py SCENE.npz SECONDS OUT.npz`.
 
 Renders what `__main__.py` took apart with BIDIRVMCPU, bidirectional path tracing with vertex merging, which photon mapping is a part
-of, and writes the linear image as (height, width, 3) float32.
+of, and writes linear images as (height, width, 3) float32, with the processor seconds after which each was there.
 """
 
 import json
@@ -42,18 +42,31 @@ def main():
     config = pyluxcore.RenderConfig(properties(settings), scene)
     session = pyluxcore.RenderSession(config)
     session.Start()
-    begin = time.monotonic()
-    while time.monotonic() - begin < seconds:
-        time.sleep(min(0.5, max(0.0, seconds - (time.monotonic() - begin))))
+    begin, found, due = time.process_time(), {}, seconds / 32
+    while True:
+        time.sleep(0.05)
+        spent = time.process_time() - begin
+        if spent < due:
+            continue
         session.UpdateStats()
+        found[spent] = image(session, width, height)
+        due = min(max(2 * due, spent), seconds)
+        if spent >= seconds:
+            break
     rate = session.GetStats().Get("stats.renderengine.total.samplesec").GetFloat()
     # Pairs of an eye path and a light path; what the machine is worth, beside figures from another.
     print(f"LuxCore: {rate / 1e3:.1f} k path pairs/s", flush=True)
     session.Stop()
+    images = {f"image{i}": pixels for i, pixels in enumerate(found.values())}
+    np.savez(out, seconds=np.array(list(found)), **images)
+
+
+def image(session, width, height):
+    """What the film has."""
     pixels = np.zeros(width * height * 3, dtype=np.float32)
     session.GetFilm().GetOutputFloat(pyluxcore.FilmOutputType.RGB, pixels)
     # Its rows begin at the bottom.
-    np.save(out, pixels.reshape(height, width, 3)[::-1])
+    return pixels.reshape(height, width, 3)[::-1].copy()
 
 
 def properties(values):

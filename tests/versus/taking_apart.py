@@ -1,7 +1,7 @@
 """A scene that Mitsuba has read, as meshes and numbers that other programs can be given.
 
-Knows what the benchmark scenes hold: matt, glass and mirror surfaces, lamps, a pinhole. Anything else ends the comparison with its
-name, for a scene that is only nearly the same would prove nothing.
+Knows matt, glass and mirror surfaces, lamps that are surfaces, a pinhole. Anything else is refused by its name, for a scene that is only
+nearly the same would prove nothing.
 """
 
 import json
@@ -13,16 +13,22 @@ import numpy as np
 AROUND = 512
 
 
-def take_apart(prepared, size, max_depth, path):
-    """Writes the prepared scene to `path` (.npz): arrays for each mesh, the rest as JSON."""
+class NotHanded(Exception):
+    """What of a scene cannot be told in LuxCore's words."""
+
+
+def take_apart(prepared, size, path):
+    """Writes the prepared scene to `path` (.npz): arrays for each mesh, the rest as JSON. `size` is (width, height, depth)."""
     mitsuba.set_variant("scalar_rgb")
     scene = mitsuba.load_file(str(prepared))
+    if len(scene.emitters()) != sum(shape.is_emitter() for shape in scene.shapes()):
+        raise NotHanded("no way to hand emitters over that are no surfaces")
     arrays, shapes = {}, []
     for i, shape in enumerate(scene.shapes()):
         positions, faces, normals = mesh(shape)
         arrays |= {f"positions{i}": positions, f"faces{i}": faces, f"normals{i}": normals}
         shapes.append(material(shape))
-    described = {"size": list(size), "max_depth": max_depth, "shapes": shapes, "camera": camera(scene.sensors()[0])}
+    described = {"size": list(size[:2]), "max_depth": size[2], "shapes": shapes, "camera": camera(scene.sensors()[0])}
     np.savez(path, description=np.array(json.dumps(described)), **arrays)
 
 
@@ -40,7 +46,7 @@ def mesh(shape):
         return moved(corners, to_world), faces, np.zeros((0, 3), dtype=np.float32)
     if kind == "Sphere":
         return ball(to_world)
-    raise SystemExit(f"{shape.id()}: no way to hand a {kind} to LuxCore")
+    raise NotHanded(f"{shape.id()}: no way to hand a {kind} over")
 
 
 def ball(to_world):
@@ -79,7 +85,7 @@ def material(shape):
     elif "SmoothConductor" in text:
         kind, parameters = "mirror", {"kr": rgb("specular_reflectance.value")}
     else:
-        raise SystemExit(f"{shape.id()}: no way to hand this material to LuxCore:\n{text}")
+        raise NotHanded(f"{shape.id()}: no way to hand this material over: {text.split('[')[0]}")
     emitter = shape.emitter()
     radiance = None
     if emitter is not None:
@@ -94,6 +100,6 @@ def camera(sensor):
     origin, forward, up = m[:3, 3], m[:3, 2], m[:3, 1]
     size = sensor.film().size()
     if int(size[0]) != int(size[1]):
-        raise SystemExit("only square films can be compared")
+        raise NotHanded("only square films can be compared")
     fov = float(np.array(values["x_fov"]).ravel()[0])
     return {"origin": origin.tolist(), "target": (origin + forward).tolist(), "up": up.tolist(), "fov": fov}

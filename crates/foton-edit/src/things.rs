@@ -86,6 +86,7 @@ pub(crate) fn duplicate(
     let copy = match target {
         Target::Shape(i) => {
             description.shapes.push(description.shapes[i].clone());
+            description.motion.copy_shape(i, description.shapes.len() - 1);
             Target::Shape(description.shapes.len() - 1)
         }
         Target::Emitter(i) => {
@@ -98,6 +99,7 @@ pub(crate) fn duplicate(
         }
         Target::Sensor(i) => {
             description.sensors.push(description.sensors[i].clone());
+            description.motion.copy_sensor(i, description.sensors.len() - 1);
             Target::Sensor(description.sensors.len() - 1)
         }
     };
@@ -119,6 +121,11 @@ pub(crate) fn delete(description: &mut SceneDescription, target: Target) -> Resu
         Target::Emitter(i) => drop(description.emitters.remove(i)),
         Target::Sensor(_) if description.sensors.len() == 1 => return Err(EditError::LastCamera),
         Target::Sensor(i) => drop(description.sensors.remove(i)),
+    }
+    match target {
+        Target::Shape(i) => description.motion.remove_shape(i),
+        Target::Sensor(i) => description.motion.remove_sensor(i),
+        Target::Emitter(_) => {}
     }
     if let Some((hidden, gone)) = hidden_mut(&mut description.hidden, target) {
         *hidden = hidden.iter().filter(|i| **i != gone).map(|i| if *i > gone { i - 1 } else { *i }).collect();

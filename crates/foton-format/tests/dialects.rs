@@ -50,6 +50,52 @@ fn a_lens_of_an_old_file_is_read_by_its_old_names() {
 }
 
 #[test]
+fn what_moves_in_an_old_file_is_read_with_the_shutter() {
+    let animation = |at: [f64; 2]| {
+        let transform = |time, x| format!("<transform time='{time}'><translate x='{x}'/></transform>");
+        format!("<animation name='toWorld'>{}{}</animation>", transform(1, at[1]), transform(0, at[0]))
+    };
+    let opened = read_version(
+        "0.6.0",
+        &format!(
+            "<shape type='cube'/><shape type='sphere'>{}</shape><sensor type='perspective'>{}<float name='shutterOpen' value='0.25'/>\
+             <float name='shutterClose' value='0.5'/></sensor>",
+            animation([2.0, 4.0]),
+            animation([1.0, 0.0])
+        ),
+    );
+    let description = opened.description;
+    assert_eq!(description.shapes[1].to_world.translation.x, 2.0, "as it is at the first keyframe");
+    assert_eq!(description.at(0.5).shapes[1].to_world.translation.x, 3.0);
+    assert_eq!(description.at(0.5).sensors[1].to_world.translation.x, 0.5);
+    assert_eq!((description.motion.shutter(1), description.motion.shutter(0)), ([0.25, 0.5], [0.0; 2]));
+    assert!(description.motion.blurs(1) && !description.motion.blurs(0));
+}
+
+#[test]
+fn what_is_no_motion_is_refused_at_its_place() {
+    let sphere = |inside: &str| {
+        format!("<shape type='sphere'><animation name='to_world'>{inside}</animation></shape>")
+    };
+    let turn = "<transform time='0'><translate x='1'/></transform>";
+    for (inside, why) in [
+        (String::new(), "an <animation> needs a <transform time="),
+        ("<translate x='1'/>".into(), "an <animation> holds <transform time="),
+        ("<transform><translate x='1'/></transform>".into(), "<transform> needs the attribute \"time\""),
+        (format!("{turn}{turn}"), "times that differ"),
+        (format!("{turn}<transform time='1'><scale x='-1'/></transform>"), "neither shear nor mirror"),
+        (format!("{turn}<transform time='1'><scale x='2'/></transform>"), "scaled evenly on all of its way"),
+    ] {
+        let xml = format!("<scene version='3.0.0'><sensor type='perspective'/>\n{}</scene>", sphere(&inside));
+        let error = read_str("s.xml", &xml, &files, &Options::default()).expect_err("no motion").to_string();
+        assert!(error.contains(why) && error.contains("s.xml:2:"), "{inside}: {error}");
+    }
+    let late = "<scene version='3.0.0'><sensor type='perspective'><float name='shutter_open' value='1'/><float name='shutter_close' value='0.5'/></sensor></scene>";
+    let error = read_str("s.xml", late, &files, &Options::default()).expect_err("closed").to_string();
+    assert!(error.contains("a shutter closes before it opens"), "{error}");
+}
+
+#[test]
 fn names_of_old_files_are_renewed() {
     let opened = read_version(
         "0.5.0",

@@ -17,12 +17,13 @@ mod render;
 mod report;
 mod sampled;
 mod settings;
+mod shutter;
 mod sppm;
 #[cfg(test)]
 mod test_scene;
 mod whitted;
 
-pub use error::{ClassError, ErrorEstimate, TileError};
+pub use error::{ClassError, ErrorEstimate, TileError, WHITE};
 pub use feature::Feature;
 pub use foton_transport::codec::StateError;
 pub use foton_transport::photon_map::PathClass;

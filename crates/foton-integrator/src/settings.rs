@@ -72,6 +72,12 @@ impl Method {
         !matches!(self, Self::Ppm)
     }
 
+    /// Whether passes see a scene that moves at different times.
+    #[must_use]
+    pub const fn blurs_motion(self) -> bool {
+        self.renews_eye_samples()
+    }
+
     /// Whether it finds all light in any scene, sooner or later.
     #[must_use]
     pub const fn finds_all_light(self) -> bool {

@@ -24,6 +24,8 @@ pub enum Purpose {
     Test = 5,
     /// Choices along paths from the camera that meet emitters by themselves.
     Path = 6,
+    /// When passes see a scene that moves.
+    Shutter = 7,
 }
 
 /// The increment of SplitMix64: 2^64 divided by the golden ratio, odd.

@@ -27,9 +27,11 @@ mod pair;
 pub mod plot;
 mod sheet;
 pub mod sweep;
+mod white;
 
 pub use flip::{Flip, PIXELS_PER_DEGREE};
 pub use heat::{heat, scale_top, viridis};
 pub use pair::{Channels, CompareError, NonFinite, Pair};
 pub use sheet::{Panel, contact_sheet};
 pub use sweep::processor_time;
+pub use white::without_bright_emitters;

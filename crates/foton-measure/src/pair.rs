@@ -96,13 +96,17 @@ impl<'a> Pair<'a> {
         Channels { rgb: mean_square.rgb.map(f64::sqrt), all: mean_square.all.sqrt() }
     }
 
-    /// Root mean square difference of luminance over the mean luminance of the reference, both without the brightest 0.5 % of its pixels:
-    /// emitters that are seen would otherwise outweigh all that they light.
+    /// Root mean square difference of luminance over the mean luminance of the reference, over the pixels that `counts` and without the
+    /// brightest 0.5 % of those, in which a few may hold most of it. NaN where none counts.
     #[must_use]
-    pub fn trimmed_rmse(&self) -> f64 {
+    pub fn trimmed_rmse(&self, counts: impl Fn(usize) -> bool) -> f64 {
         const BRIGHTEST: f64 = 0.005;
-        let mut pixels: Vec<[f64; 2]> =
-            self.finite().map(|(x, y)| [x, y].map(|c| f64::from(c.luminance()))).collect();
+        let luminance = |c: &Rgb| f64::from(c.luminance());
+        let all = self.a.pixels.iter().zip(&self.b.pixels).enumerate();
+        let mut pixels: Vec<[f64; 2]> = all
+            .filter(|(pixel, (x, y))| counts(*pixel) && x.is_finite() && y.is_finite())
+            .map(|(_, (x, y))| [luminance(x), luminance(y)])
+            .collect();
         pixels.sort_by(|a, b| a[1].total_cmp(&b[1]));
         pixels.truncate(pixels.len() - (pixels.len() as f64 * BRIGHTEST) as usize);
         let count = pixels.len() as f64;

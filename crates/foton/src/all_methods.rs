@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use foton_film::{Image, Metadata, read_exr_within, write_exr, write_png};
-use foton_integrator::{Method, RenderSettings};
-use foton_measure::{Pair, Panel, contact_sheet};
+use foton_integrator::{LayerKind, Method, RenderSettings};
+use foton_measure::{Pair, Panel, contact_sheet, without_bright_emitters};
 use foton_scene::Scene;
 use foton_session::snapshot::Format;
 use foton_session::{Interrupt, SceneIdentity, Session, Shown, StopCause, StopRule};
@@ -23,6 +23,8 @@ use crate::writing::Content;
 struct Outcome {
     method: Method,
     image: Image,
+    /// What is seen of emitters.
+    emission: Option<Image>,
     passes: u64,
     seconds: f64,
     /// Its own estimate.
@@ -91,6 +93,7 @@ fn by(
     Ok(Some(Outcome {
         method,
         image: render.image(),
+        emission: render.colour_layer(LayerKind::Emission),
         passes: render.passes(),
         seconds: session.elapsed().as_secs_f64(),
         error: render.error().map(|error| error.total),
@@ -112,6 +115,9 @@ fn differences(outcomes: &[Outcome], reference: Option<&Image>) -> Result<Vec<Op
     let Some(truth) = reference.or_else(|| best.map(|i| &outcomes[i].image)) else {
         return Ok(vec![None; outcomes.len()]);
     };
+    let emission = outcomes.iter().find_map(|outcome| outcome.emission.as_ref());
+    let emission = emission.filter(|emission| emission.pixels.len() == truth.pixels.len());
+    let counts = emission.map(|emission| without_bright_emitters(emission, truth));
     let of = |(i, outcome): (usize, &Outcome)| {
         if best == Some(i) {
             return Ok(None);
@@ -121,7 +127,7 @@ fn differences(outcomes: &[Outcome], reference: Option<&Image>) -> Result<Vec<Op
             b: "the reference".to_owned(),
             cause,
         })?;
-        Ok(Some(pair.trimmed_rmse()))
+        Ok(Some(pair.trimmed_rmse(|pixel| counts.as_ref().is_none_or(|counts| counts[pixel]))))
     };
     outcomes.iter().enumerate().map(of).collect()
 }

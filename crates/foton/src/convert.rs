@@ -3,6 +3,7 @@
 use foton_film::check_writable;
 use foton_integrator::Cancel;
 use foton_scene::Scene;
+use foton_scene::description::{Motion, SceneDescription};
 
 use crate::args::Convert;
 use crate::console::{Console, Failure};
@@ -17,11 +18,16 @@ pub(crate) fn run(args: &Convert, console: &Console) -> Result<(), Failure> {
     for finding in &opened.warnings {
         console.diagnostic(finding);
     }
+    if !opened.description.motion.is_still() {
+        console.warning("what moves is written as it is at its first keyframe: Mitsuba 3 has no motion");
+    }
     // What cannot be rendered is not worth writing; building also checks every index.
     refuse_to_build(&opened.description, None)?;
     let scene = args.scene.display().to_string();
     Scene::build(&opened.description).map_err(|cause| Failure::of_build(&opened, &scene, &cause))?;
-    foton_format::write_scene(&opened.description, &args.output, &opened.files)?;
+    // Mitsuba 3 would refuse the file.
+    let still = SceneDescription { motion: Motion::default(), ..opened.description };
+    foton_format::write_scene(&still, &args.output, &opened.files)?;
     console.line(&format!("wrote {}", args.output.display()));
     Ok(())
 }

@@ -104,8 +104,19 @@ fn bsdfs() -> impl Iterator<Item = &'static str> {
 }
 
 /// Tags of single values.
-pub(crate) const VALUE_TAGS: &[&str] =
-    &["boolean", "integer", "float", "string", "point", "vector", "spectrum", "rgb", "srgb", "transform"];
+pub(crate) const VALUE_TAGS: &[&str] = &[
+    "boolean",
+    "integer",
+    "float",
+    "string",
+    "point",
+    "vector",
+    "spectrum",
+    "rgb",
+    "srgb",
+    "transform",
+    "animation",
+];
 
 /// Tags of nested plugins.
 pub(crate) const OBJECT_TAGS: &[&str] = &[

@@ -13,7 +13,7 @@ use super::moments::{Moments, Scatter, Weights};
 use super::{TILE, state};
 
 /// White, over the mean reflected luminance: that of middle grey is a fifth of it.
-const WHITE: f64 = 5.0;
+pub const WHITE: f64 = 5.0;
 
 /// What a pass found at a pixel, in luminance (W/m²/sr).
 #[derive(Clone, Copy, Debug)]

@@ -13,6 +13,7 @@ use foton_transport::{Cancel, Cancelled};
 
 use super::lobes::{LOBE_POLICY, lobe_use};
 use crate::settings::{Method, RenderSettings};
+use crate::shutter::at_pass;
 
 /// The eye samples of a render, as far as they have been followed.
 pub struct EyeSamples {
@@ -65,9 +66,12 @@ impl EyeSamples {
         let share = |of_these: f64| {
             tell((f64::from(before) + of_these * f64::from(samples - before)) / f64::from(all));
         };
+        let pass = (self.settings.method == Method::Sppm).then_some(0);
+        if let (Some(first), 0) = (pass, before) {
+            self.scene = at_pass(&self.scene, &self.settings, first, cancel)?;
+        }
         let earlier = std::mem::take(&mut self.paths);
         let max_depth = self.settings.max_depth_in(&self.scene);
-        let pass = (self.settings.method == Method::Sppm).then_some(0);
         let pass = EyePass { pass, ..eye_pass(&self.scene, &self.settings, max_depth, Purpose::Eye) };
         self.paths = pass.run(earlier, samples, cancel, &share)?;
         Ok(())

@@ -11,11 +11,14 @@ use super::sums::PixelSums;
 use crate::by_block::ByBlock;
 use crate::report::{PassReport, Start};
 use crate::settings::RenderSettings;
+use crate::shutter::at_pass;
 use rayon::prelude::*;
 
 /// A render under way.
 pub(crate) struct Sampled {
     pub(super) scene: Arc<Scene>,
+    /// The same at the time of the pass under way.
+    now: Arc<Scene>,
     pub(super) settings: RenderSettings,
     pub(super) estimator: Estimator,
     pub(super) sums: PixelSums,
@@ -45,6 +48,7 @@ impl Sampled {
         let size = (sensor.width, sensor.height);
         Ok(Some(Self {
             sums: PixelSums::new(size, settings.layers, settings.error),
+            now: Arc::clone(&scene),
             scene,
             settings,
             estimator,
@@ -70,6 +74,9 @@ impl Sampled {
     ) -> Result<PassReport, Halt> {
         self.halt_at(None)?;
         watch(Stage::EyePass);
+        if self.under_way.is_empty() {
+            self.open_shutter(watch, cancel)?;
+        }
         self.follow_samples(cancel, should_suspend);
         if cancel.is_requested() {
             self.under_way.clear();
@@ -82,11 +89,24 @@ impl Sampled {
         self.accumulate()
     }
 
+    /// Brings everything to where it is in this pass: all of it sees a single time, and passes are stratified over the shutter's.
+    fn open_shutter(&mut self, watch: &mut dyn FnMut(Stage), cancel: &Cancel) -> Result<(), Cancelled> {
+        let (scene, settings) = (&self.scene, &self.settings);
+        if !scene.blurs(settings.sensor) || !self.estimator.follows_motion() {
+            return Ok(());
+        }
+        let now = at_pass(scene, settings, self.passes, cancel)?;
+        if let Some(estimator) = Estimator::new(&now, settings, watch, cancel)? {
+            (self.now, self.estimator) = (now, estimator);
+        }
+        Ok(())
+    }
+
     /// Follows the samples of blocks that have not been followed yet.
     fn follow_samples(&mut self, cancel: &Cancel, should_suspend: ShouldSuspend<'_>) {
         let pixels = self.pixels();
         let sampling = Sampling {
-            scene: &self.scene,
+            scene: &self.now,
             settings: &self.settings,
             estimator: &self.estimator,
             before: self.passes,

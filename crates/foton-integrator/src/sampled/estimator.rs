@@ -30,6 +30,13 @@ impl Estimator {
         })
     }
 
+    /// Whether it is made anew for each pass in which things are elsewhere.
+    pub(super) const fn follows_motion(&self) -> bool {
+        match self {
+            Self::Path(_) | Self::Whitted(_) => true,
+        }
+    }
+
     /// Follows an eye sample.
     pub(super) fn follow(&self, scene: &Scene, sample: EyeSample, seen: &mut Seen) {
         match self {

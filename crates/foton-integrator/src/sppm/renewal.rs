@@ -1,13 +1,14 @@
 //! What a render keeps beside its passes where each of them has new eye samples.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use foton_math::Rgb;
 use foton_scene::Scene;
 use foton_transport::camera_paths::EyePaths;
 use foton_transport::codec::{Reader, StateError, Writer};
 use foton_transport::direct_light::Lights;
-use foton_transport::{Cancel, Halt, ShouldSuspend};
+use foton_transport::{Cancel, Cancelled, Halt, ShouldSuspend};
 
 use super::pixels::{Pixels, Shrinkage};
 use super::samples::{Samples, radius2};
@@ -16,6 +17,7 @@ use crate::ppm::direct::{Lighting, Lit};
 use crate::ppm::hit_points::HitPoints;
 use crate::ppm::statistics::Statistics;
 use crate::settings::RenderSettings;
+use crate::shutter::at_pass;
 
 /// Pixels that one task lights.
 pub(super) const LIT_BLOCK: usize = 256;
@@ -50,6 +52,24 @@ impl Renewal {
             lights: shadow_rays.then(|| Lights::new(scene)),
             is_fresh: true,
         }
+    }
+
+    /// Brings everything that moves to where it is in the pass after so many others, unless samples of it have been followed already.
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub(super) fn open_shutter(
+        &mut self,
+        (scene, settings, pass): (&mut Arc<Scene>, &RenderSettings, u64),
+        cancel: &Cancel,
+    ) -> Result<(), Cancelled> {
+        if scene.blurs(settings.sensor) && !self.samples.is_begun() {
+            *scene = at_pass(scene, settings, pass, cancel)?;
+            if let Some(lights) = &mut self.lights {
+                *lights = Lights::new(scene);
+            }
+        }
+        Ok(())
     }
 
     /// Follows the samples of the pass after so many others.

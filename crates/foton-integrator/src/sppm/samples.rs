@@ -72,6 +72,11 @@ impl Samples {
         Ok((paths, first_radius2))
     }
 
+    /// Whether some samples of a pass have been followed, and the pass goes on.
+    pub(super) fn is_begun(&self) -> bool {
+        self.bands.iter().any(Option::is_some)
+    }
+
     /// Gives up what has been followed.
     pub(super) fn clear(&mut self) {
         self.bands.clear();

@@ -27,6 +27,7 @@ impl Ppm {
         let Some(renewal) = self.renewal.as_mut().filter(|_| !pass.has_hit_points) else { return Ok(()) };
         if !renewal.is_fresh {
             watch(Stage::EyePass);
+            renewal.open_shutter((&mut self.scene, &self.settings, self.passes), cancel)?;
             let of = (&*self.scene, &self.settings, self.passes);
             let (paths, first_radius2) = renewal.follow(of, cancel, should_suspend)?;
             watch(Stage::Layout);
@@ -98,8 +99,11 @@ impl Ppm {
     pub(crate) fn lay_out_last(&mut self) {
         let Some(renewal) = self.renewal.as_mut() else { return };
         let (last, cancel) = (self.passes.saturating_sub(1), Cancel::default());
+        // Neither of the two that may break this off is asked for.
+        if renewal.open_shutter((&mut self.scene, &self.settings, last), &cancel).is_err() {
+            return;
+        }
         let of = (&*self.scene, &self.settings, last);
-        // Neither is asked for.
         let Ok((paths, first_radius2)) = renewal.follow(of, &cancel, &|| false) else { return };
         let _ = self.lay_out_anew(paths, first_radius2, &cancel);
         if let Some(renewal) = &mut self.renewal {

@@ -184,6 +184,7 @@ impl Gathered {
             max_depth: None,
             census: self.census,
             picture_bytes: 0,
+            moving: None,
         })
     }
 }

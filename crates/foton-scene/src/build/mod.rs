@@ -13,13 +13,13 @@ mod patches;
 use std::sync::Arc;
 
 use foton_math::Aabb;
-use foton_math::glam::Vec3;
+use foton_math::glam::{DVec3, Vec3};
 
 use crate::coincident::Coincidences;
 use crate::description::{Colour, Material, SceneDescription, SensorDescription, ShapeDescription};
 use crate::emitter::{Aim, Area, Emitter, Kind};
 use crate::normalise::Normalisation;
-use crate::scene::{Part, Scene, Shape};
+use crate::scene::{Moving, Part, Scene, Shape};
 use crate::sensor::Sensor;
 use crate::texture::Sampler;
 use checks::{
@@ -51,10 +51,30 @@ impl Scene {
         description: &SceneDescription,
         options: &BuildOptions<'_>,
     ) -> Result<Self, BuildError> {
+        if description.motion.is_still() {
+            return Self::build_still(description, world_bounds(description)?, options);
+        }
+        let mut bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for time in description.motion.times() {
+            let (min, max) = world_bounds(&description.at(time))?;
+            bounds = (bounds.0.min(min), bounds.1.max(max));
+        }
+        // Whoever does not ask for another time sees what the first camera's shutter sees first.
+        let [open, _] = description.motion.shutter(0);
+        let scene = Self::build_still(&description.at(open), bounds, options)?;
+        let moving = Moving { description: description.clone(), bounds };
+        Ok(Self { moving: Some(Arc::new(moving)), ..scene })
+    }
+
+    /// The same of a description in which nothing moves; all that ever is lies between `min` and `max`.
+    pub(crate) fn build_still(
+        description: &SceneDescription,
+        (min, max): (DVec3, DVec3),
+        options: &BuildOptions<'_>,
+    ) -> Result<Self, BuildError> {
         options.cancel.check()?;
         check_described_emitters(description)?;
         check_textures(description)?;
-        let (min, max) = world_bounds(description)?;
         let normalisation = Normalisation::for_bounds(min, max);
         check_sensors(&description.sensors, &normalisation)?;
         let gauge = options.step(BuildStep::Shapes, description.primitives());
@@ -141,8 +161,9 @@ impl Scene {
     /// When a sensor makes no sense; see [`BuildError`].
     pub fn with_sensors(&self, sensors: &[SensorDescription]) -> Result<Self, BuildError> {
         check_sensors(sensors, &self.normalisation)?;
+        let moving = self.moving_with(sensors);
         let sensors = sensors.iter().map(|s| Sensor::new(s, &self.normalisation)).collect();
-        Ok(Self { sensors, ..self.clone() })
+        Ok(Self { sensors, moving, ..self.clone() })
     }
 }
 

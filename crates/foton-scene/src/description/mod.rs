@@ -6,6 +6,7 @@
 mod emitter;
 mod hidden;
 mod material;
+mod motion;
 mod sensor;
 mod shape;
 mod texture;
@@ -17,6 +18,7 @@ pub use crate::bsdf::{
 pub use emitter::{EmitterDescription, EmitterKind};
 pub use hidden::Hidden;
 pub use material::Material;
+pub use motion::{Keyframes, Motion};
 pub use sensor::{Crop, Filter, FovAxis, Lens, SensorDescription};
 pub use shape::{Geometry, Mesh, ShapeDescription};
 pub use texture::{Bitmap, Colour, Texture, TextureKind, Wrap};
@@ -38,4 +40,6 @@ pub struct SceneDescription {
     pub max_depth: Option<u32>,
     /// What is left out of the scene.
     pub hidden: Hidden,
+    /// What moves.
+    pub motion: Motion,
 }

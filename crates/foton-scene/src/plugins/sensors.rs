@@ -50,9 +50,15 @@ pub const FOCUS_DISTANCE: Parameter = Parameter::number("focus_distance", 1e4, (
 
 const SHIFT_X: Parameter = Parameter::unsupported("principal_point_offset_x");
 const SHIFT_Y: Parameter = Parameter::unsupported("principal_point_offset_y");
-const SHUTTER: &str = "Nothing moves while the shutter is open.";
-const SHUTTER_OPEN: Parameter = Parameter::ignored("shutter_open", SHUTTER);
-const SHUTTER_CLOSE: Parameter = Parameter::ignored("shutter_close", SHUTTER);
+
+/// When a camera begins to see.
+pub const SHUTTER_OPEN: Parameter = Parameter::number("shutter_open", 0.0, (f64::MIN, f64::MAX))
+    .help("When the shutter opens, in the time of `<animation>`.");
+
+/// When a camera ends to see.
+pub const SHUTTER_CLOSE: Parameter = Parameter::number("shutter_close", 0.0, (f64::MIN, f64::MAX))
+    .help("When the shutter closes: what moves until then is blurred.")
+    .default_text("`shutter_open`");
 
 /// A camera with a pinhole.
 pub const PERSPECTIVE: Plugin = Plugin {

@@ -1,10 +1,12 @@
 //! The scene as rays meet it. It does not change while it renders: an edit makes the next scene.
 
 mod light;
+mod motion;
 mod parametrisation;
 mod scattering;
 mod surface;
 
+pub(crate) use motion::Moving;
 use std::sync::Arc;
 
 use foton_math::glam::{Mat3, Vec2, Vec3};
@@ -84,6 +86,8 @@ pub struct Scene {
     pub(crate) census: Census,
     /// Bytes of textures and skies.
     pub(crate) picture_bytes: usize,
+    /// `None` where nothing moves.
+    pub(crate) moving: Option<Arc<Moving>>,
 }
 
 impl Scene {

@@ -28,6 +28,8 @@ pub enum FindingKind {
     NarrowCaustics,
     /// The method finds no light on some paths of the scene.
     LightMissed,
+    /// The method shows no motion blur.
+    MotionFrozen,
     /// The first radius is larger than the scene.
     RadiusBeyondScene,
     /// Few photons of an emitter reach what is seen.

@@ -53,6 +53,11 @@ fn of_method(scene: &Scene, settings: &RenderSettings, names: &SettingNames) -> 
         );
         findings.push(Finding::new(FindingKind::LightMissed, None, text));
     }
+    if scene.blurs(settings.sensor) && !method.blurs_motion() {
+        let text =
+            "what moves is seen as it is when the shutter opens: this method follows its eye samples once";
+        findings.push(Finding::new(FindingKind::MotionFrozen, None, text));
+    }
     if !method.renews_eye_samples() && lobes.specular_gloss {
         let text = format!(
             "gloss of roughness up to 0.1 is followed in directions chosen once: its noise stays; {} lowers it",

@@ -5,8 +5,11 @@
 
 use std::path::PathBuf;
 
+use foton_film::Image;
+use foton_measure::{Pair, without_bright_emitters};
+
 use super::course::course;
-use super::curve::{Curve, errors};
+use super::curve::{Curve, MEASURES};
 use super::options::{Options, Program};
 use super::reference::Reference;
 use super::scenes::SceneFile;
@@ -41,7 +44,7 @@ struct Wishes {
 fn run(arguments: &[String]) -> Result<(), String> {
     let wishes = parse(arguments)?;
     println!(
-        "{} pixels wide, {} seeds; root mean square of luminance over the mean, both without the brightest 0.5 % of pixels\n",
+        "{} pixels wide, {} seeds; root mean square of luminance over the mean, without bright emitters and the brightest 0.5 % of the rest\n",
         wishes.width, wishes.seeds
     );
     let names: Vec<String> = wishes
@@ -58,12 +61,14 @@ fn run(arguments: &[String]) -> Result<(), String> {
         };
         let reference =
             Reference::load_or_render(&scene, &wishes.options(&wishes.reference, wishes.reference_seconds))?;
+        let counts = without_bright_emitters(&emitters(&wishes, &scene)?, &reference.image);
         let mut cells = Vec::new();
         for (method, words) in &wishes.methods {
-            let curve = curve(&wishes, &scene, &reference, method, words)?;
+            let curve = curve(&wishes, &scene, (&reference.image, &counts), method, words)?;
             cells.extend(wishes.seconds.iter().map(|s| format!("{:.4}", curve.at(*s, 0))));
         }
-        println!("| {} | {} | {:.4} |", scene.name, cells.join(" | "), reference.noise()[0]);
+        let noise = reference.noise_where(|run, image| error(run, image, &counts));
+        println!("| {} | {} | {noise:.4} |", scene.name, cells.join(" | "));
     }
     Ok(())
 }
@@ -72,7 +77,7 @@ fn run(arguments: &[String]) -> Result<(), String> {
 fn curve(
     wishes: &Wishes,
     scene: &SceneFile,
-    reference: &Reference,
+    (reference, counts): (&Image, &[bool]),
     method: &str,
     words: &[String],
 ) -> Result<Curve, String> {
@@ -81,11 +86,24 @@ fn curve(
     let mut curves = Vec::new();
     for seed in 1..=wishes.seeds {
         let points = course(&options.base, scene, &options, seed, 1.05 * longest)?;
-        let errors = |(seconds, image)| (seconds, errors(&image, &reference.image));
+        let errors =
+            |(seconds, image): (f64, Image)| (seconds, [error(&image, reference, counts); MEASURES.len()]);
         curves.push(Curve(points.into_iter().map(errors).collect()));
         eprintln!("{}, {method}, seed {seed}: {}", scene.name, curves[curves.len() - 1]);
     }
     Ok(Curve::of_all(&curves))
+}
+
+fn error(image: &Image, reference: &Image, counts: &[bool]) -> f64 {
+    Pair::new(image, reference).map_or(f64::NAN, |pair| pair.trimmed_rmse(|pixel| counts[pixel]))
+}
+
+/// What is seen of emitters, directly.
+fn emitters(wishes: &Wishes, scene: &SceneFile) -> Result<Image, String> {
+    let words = ["--integrator", "path", "--max-depth", "1"].map(str::to_owned);
+    let options = wishes.options(&words, 1.0);
+    let points = course(&options.base, scene, &options, 1, 1.0)?;
+    points.into_iter().last().map(|(_, image)| image).ok_or_else(|| "no image".to_owned())
 }
 
 impl Wishes {

@@ -1,6 +1,7 @@
 //! A scene file to a description: `reader.rs` walks it, and each kind of plugin has a file.
 
-pub(crate) mod attributes;
+mod animation;
+mod attributes;
 pub(crate) mod bsdfs;
 pub(crate) mod colours;
 pub(crate) mod emitters;

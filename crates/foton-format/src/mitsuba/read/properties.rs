@@ -7,6 +7,7 @@ use std::collections::HashSet;
 
 use foton_input::{quoted, shown};
 use foton_math::glam::{DAffine3, DVec3};
+use foton_scene::description::Keyframes;
 use foton_scene::parameter::{Kind, Parameter};
 
 use crate::diagnostic::{Place, Report};
@@ -14,7 +15,7 @@ use crate::mitsuba::document::{Document, Element, NodeId};
 use crate::mitsuba::names::{OBJECT_TAGS, VALUE_TAGS};
 use crate::mitsuba::read::attributes::{check_attributes, parse_attribute};
 use crate::mitsuba::read::ids::Ids;
-use crate::{mitsuba::read::transform, mitsuba::read::values};
+use crate::mitsuba::read::{animation, transform, values};
 
 /// The contents of one plugin's element.
 pub(crate) struct Properties<'a> {
@@ -101,7 +102,7 @@ impl<'a> Properties<'a> {
             }
         } else if VALUE_TAGS.contains(&tag) {
             let complete = match tag {
-                "transform" => check_attributes(element, &["name"], &[], report),
+                "transform" | "animation" => check_attributes(element, &["name"], &[], report),
                 "spectrum" => check_attributes(element, &["name"], &["value", "filename"], report),
                 "point" | "vector" if element.attribute("value").is_none() => {
                     check_attributes(element, &["name", "x", "y", "z"], &[], report)
@@ -109,7 +110,7 @@ impl<'a> Properties<'a> {
                 _ => check_attributes(element, &["name", "value"], &[], report),
             };
             if let Some((_, inner)) = self.document.elements_in(node).next()
-                && tag != "transform"
+                && !["transform", "animation"].contains(&tag)
             {
                 report.error(inner.place, format!("<{}> cannot stand inside <{tag}>", shown(&inner.name)));
             }
@@ -211,6 +212,22 @@ impl<'a> Properties<'a> {
         let (node, element) = self.take(name, &["transform"], report)?;
         let value = transform::read(self.document, node, report)?;
         Some(Located { value, place: element.place })
+    }
+
+    /// A transform that can be undone, with what it becomes where an `<animation>` says so. The transform is then its first.
+    pub(crate) fn placement(
+        &mut self,
+        name: &'static str,
+        report: &mut Report,
+    ) -> Option<(Located<DAffine3>, Option<Keyframes>)> {
+        let (node, element) = self.take(name, &["transform", "animation"], report)?;
+        let place = element.place;
+        if element.name == "transform" {
+            let value = transform::read(self.document, node, report)?;
+            return Some((Located { value, place }, None));
+        }
+        let keyframes = animation::read(self.document, node, report)?;
+        Some((Located { value: keyframes.all()[0].1, place }, Some(keyframes)))
     }
 
     /// The texture that stands for a value.

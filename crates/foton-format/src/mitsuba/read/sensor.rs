@@ -2,10 +2,10 @@
 
 use foton_input::quoted;
 use foton_math::glam::{DAffine3, DMat3};
-use foton_scene::description::{Crop, Filter, FovAxis, Lens, SensorDescription};
+use foton_scene::description::{Crop, Filter, FovAxis, Keyframes, Lens, SensorDescription};
 use foton_scene::plugins::sensors::{
-    APERTURE_RADIUS, FAR_CLIP, FOCAL_LENGTH, FOCUS_DISTANCE, FOV, FOV_AXIS, NEAR_CLIP, PERSPECTIVE, THINLENS,
-    TO_WORLD,
+    APERTURE_RADIUS, FAR_CLIP, FOCAL_LENGTH, FOCUS_DISTANCE, FOV, FOV_AXIS, NEAR_CLIP, PERSPECTIVE,
+    SHUTTER_CLOSE, SHUTTER_OPEN, THINLENS, TO_WORLD,
 };
 
 use crate::diagnostic::Place;
@@ -33,10 +33,13 @@ impl Reader<'_> {
         let Some(element) = self.document.element(node) else { return };
         let Some(plugin) = self.plugin(element, &SENSORS) else { return };
         let mut p = self.properties(node, plugin);
-        let transform = p.transform(TO_WORLD.name, &mut self.report);
-        if let Some(transform) = transform.filter(|t| scales(t.value.matrix3)) {
+        let (transform, keyframes) = p.placement(TO_WORLD.name, &mut self.report).unzip();
+        let keyframes = keyframes.flatten();
+        let on_the_way = keyframes.iter().flat_map(Keyframes::all).any(|(_, place)| scales(place.matrix3));
+        if let Some(transform) = transform.filter(|t| on_the_way || scales(t.value.matrix3)) {
             self.report.error(transform.place, "the transform of a camera must not scale or shear");
         }
+        self.motion_of_sensor(&mut p, keyframes);
         let (fov_degrees, fov_axis) = self.field_of_view(&mut p);
         let (near_clip, far_clip) = self.clips(&mut p);
         let lens = (plugin == THINLENS.name).then(|| self.lens(&mut p, far_clip));
@@ -65,6 +68,22 @@ impl Reader<'_> {
             far_clip,
             lens,
         });
+    }
+
+    /// How the camera that is read next moves, and when its shutter is open.
+    fn motion_of_sensor(&mut self, p: &mut Properties<'_>, keyframes: Option<Keyframes>) {
+        let (sensor, motion) = (self.description.sensors.len(), &mut self.description.motion);
+        motion.sensors.extend(keyframes.map(|keyframes| (sensor, keyframes)));
+        let open = p.number(SHUTTER_OPEN.name, &mut self.report);
+        let close = p.number(SHUTTER_CLOSE.name, &mut self.report);
+        let begin = open.as_ref().map_or(0.0, |t| t.value);
+        let times = [begin, close.as_ref().map_or(begin, |t| t.value)];
+        if times[1] < times[0] {
+            let place = close.or(open).map_or(p.place, |time| time.place);
+            self.report.error(place, "a shutter closes before it opens");
+        } else if open.is_some() || close.is_some() {
+            self.description.motion.shutters.insert(sensor, times);
+        }
     }
 
     /// The lens of a camera that sees as far as `far_clip`, where Mitsuba puts the focus if a file does not say.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DMat3, DVec3};
-use foton_scene::description::{Geometry, Mesh, ShapeDescription};
+use foton_scene::description::{Geometry, Keyframes, Mesh, ShapeDescription};
 use foton_scene::plugins::shapes::{
     self, CENTER, FACE_NORMALS, FILENAME, FLIP_NORMALS, FLIP_TEX_COORDS, P0, P1, RADIUS, SHAPE_INDEX,
     TO_WORLD,
@@ -32,7 +32,7 @@ impl Reader<'_> {
             return;
         };
         let mut p = self.properties(node, plugin);
-        let transform = p.transform(TO_WORLD.name, &mut self.report);
+        let (transform, keyframes) = p.placement(TO_WORLD.name, &mut self.report).unzip();
         let mut to_world = transform.map_or(DAffine3::IDENTITY, |t| t.value);
         let place = transform.map_or(element.place, |t| t.place);
         let mirrored = to_world.matrix3.determinant() < 0.0;
@@ -54,6 +54,9 @@ impl Reader<'_> {
         let flip_normals = flip != (mirrored && is_turned_inside_out(plugin, &geometry));
         let name = self.name(element, "shape", self.description.shapes.len() + 1);
         self.nodes.shapes.push(node);
+        if let Some(keyframes) = keyframes.flatten() {
+            self.motion_of_shape(keyframes, &geometry, place);
+        }
         if self.document.is_hidden(node) {
             self.description.hidden.shapes.insert(self.description.shapes.len());
         }
@@ -65,6 +68,17 @@ impl Reader<'_> {
             material,
             radiance,
         });
+    }
+
+    /// How the shape that is read next moves.
+    fn motion_of_shape(&mut self, keyframes: Keyframes, geometry: &Geometry, place: Place) {
+        let is_round = !matches!(geometry, Geometry::Mesh(_));
+        let stays_round = keyframes.all().iter().all(|(_, at)| even_scale(at.matrix3, ROUNDNESS).is_some());
+        if is_round && !stays_round {
+            self.report.error(place, "what is round must be scaled evenly on all of its way");
+            return;
+        }
+        self.description.motion.shapes.insert(self.description.shapes.len(), keyframes);
     }
 
     /// The material's index and the emitted radiance.

@@ -75,6 +75,11 @@ impl<'a> Changes<'a> {
     }
 
     pub(super) fn transform(&mut self, node: NodeId, to_world: &DAffine3) -> Result<(), Obstacle> {
+        if self.document.elements_in(node).any(|(_, element)| element.name == "animation") {
+            return Err(
+                "what an <animation> moves was moved as a whole, which its keyframes do not say".to_owned()
+            );
+        }
         if *to_world == DAffine3::IDENTITY {
             return self.remove(node, "to_world");
         }

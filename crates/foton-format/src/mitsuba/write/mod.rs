@@ -17,8 +17,8 @@ use std::sync::Arc;
 use foton_film::{Image, Metadata, WriteError, atomic_write, is_same_file, write_exr};
 use foton_math::glam::DAffine3;
 use foton_scene::description::{
-    Bitmap, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
-    SensorDescription, ShapeDescription,
+    Bitmap, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Keyframes, Material, Mesh,
+    SceneDescription, SensorDescription, ShapeDescription,
 };
 use foton_scene::plugins::{emitters, sensors, shapes};
 
@@ -66,7 +66,7 @@ pub(crate) fn shape_xml(shape: &ShapeDescription) -> Option<String> {
     };
     let description = SceneDescription::default();
     let mut writer = Writer::new(&description, PathBuf::new(), String::new(), &[]);
-    let written = described && writer.shape(shape, &shape.name, false).is_ok();
+    let written = described && writer.shape(shape, &shape.name, (false, None)).is_ok();
     written.then(|| writer.xml.finish())
 }
 
@@ -125,8 +125,8 @@ impl<'a> Writer<'a> {
         self.xml.close("integrator");
         // Shapes come first where names collide: theirs stand in every output.
         let shape_ids: Vec<String> = self.description.shapes.iter().map(|s| self.id(&s.name)).collect();
-        for sensor in &self.description.sensors {
-            self.sensor(sensor);
+        for (i, sensor) in self.description.sensors.iter().enumerate() {
+            self.sensor(i, sensor);
         }
         for texture in &self.description.textures {
             let id = self.texture(texture)?;
@@ -140,7 +140,8 @@ impl<'a> Writer<'a> {
             self.emitter(emitter, self.description.hidden.emitters.contains(&i))?;
         }
         for (i, (shape, id)) in self.description.shapes.iter().zip(&shape_ids).enumerate() {
-            self.shape(shape, id, self.description.hidden.shapes.contains(&i))?;
+            let hidden = self.description.hidden.shapes.contains(&i);
+            self.shape(shape, id, (hidden, self.description.motion.shapes.get(&i)))?;
         }
         self.xml.close("scene");
         Ok(())
@@ -191,8 +192,8 @@ impl<'a> Writer<'a> {
         Ok(file)
     }
 
-    fn sensor(&mut self, sensor: &SensorDescription) {
-        let id = self.id(&sensor.name);
+    fn sensor(&mut self, index: usize, sensor: &SensorDescription) {
+        let (id, motion) = (self.id(&sensor.name), &self.description.motion);
         let xml = &mut self.xml;
         let plugin = if sensor.lens.is_some() { sensors::THINLENS } else { sensors::PERSPECTIVE };
         xml.open("sensor", &[("type", plugin.name), ("id", &id)]);
@@ -214,7 +215,11 @@ impl<'a> Writer<'a> {
                 xml.value("float", name, &number(clip));
             }
         }
-        xml.transform("to_world", &sensor.to_world);
+        xml.placement("to_world", &sensor.to_world, motion.sensors.get(&index));
+        if let Some([open, close]) = motion.shutters.get(&index) {
+            xml.value("float", sensors::SHUTTER_OPEN.name, &number(*open));
+            xml.value("float", sensors::SHUTTER_CLOSE.name, &number(*close));
+        }
         xml.open("sampler", &[("type", "independent")]);
         xml.value("integer", "sample_count", "$spp");
         xml.close("sampler");
@@ -284,7 +289,12 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    fn shape(&mut self, shape: &ShapeDescription, id: &str, is_hidden: bool) -> Result<(), WriteError> {
+    fn shape(
+        &mut self,
+        shape: &ShapeDescription,
+        id: &str,
+        (is_hidden, keyframes): (bool, Option<&Keyframes>),
+    ) -> Result<(), WriteError> {
         let (plugin, filename) = match &shape.geometry {
             Geometry::Sphere { .. } => ("sphere", None),
             Geometry::Disc => ("disk", None),
@@ -318,7 +328,7 @@ impl<'a> Writer<'a> {
                 }
             }
         }
-        xml.transform("to_world", &shape.to_world);
+        xml.placement("to_world", &shape.to_world, keyframes);
         let turned = is_mirrored(&shape.to_world) && is_turned_inside_out(plugin, &shape.geometry);
         if shape.flip_normals != turned {
             xml.value("boolean", shapes::FLIP_NORMALS.name, "true");

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
+use foton_scene::description::Keyframes;
 
 /// An XML file being written.
 pub(super) struct Xml {
@@ -69,6 +70,18 @@ impl Xml {
             self.value(tag, name, value);
         }
         self.close(tag);
+    }
+
+    /// A transform, or what it becomes by keyframes.
+    pub(super) fn placement(&mut self, name: &str, transform: &DAffine3, keyframes: Option<&Keyframes>) {
+        let Some(keyframes) = keyframes else { return self.transform(name, transform) };
+        self.open("animation", &[("name", name)]);
+        for (time, _) in keyframes.all() {
+            self.open("transform", &[("time", &number(*time))]);
+            self.leaf("matrix", &[("value", &matrix(&keyframes.carried(*transform, *time)))]);
+            self.close("transform");
+        }
+        self.close("animation");
     }
 
     /// A transform as its matrix, row by row; nothing for the identity.

@@ -1,5 +1,7 @@
 //! What is written reads back as an equal description.
 
+mod same;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -9,10 +11,12 @@ use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
     Bitmap, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, EmitterDescription, EmitterKind, Filter,
-    FovAxis, Geometry, Hidden, Lens, Material, Mesh, MicrofacetDistribution, Microfacets, Mirror, Null,
-    Plastic, SceneDescription, SensorDescription, ShapeDescription, Texture, TextureKind, ThinDielectric,
-    Wrap,
+    FovAxis, Geometry, Hidden, Keyframes, Lens, Material, Mesh, MicrofacetDistribution, Microfacets, Mirror,
+    Motion, Null, Plastic, SceneDescription, SensorDescription, ShapeDescription, Texture, TextureKind,
+    ThinDielectric, Wrap,
 };
+
+use same::assert_same;
 
 /// A folder of a test's own, removed when the test is over.
 struct Folder(PathBuf);
@@ -41,80 +45,6 @@ fn written_and_read(scene: &SceneDescription, folder: &Folder, name: &str) -> Sc
     let path = folder.0.join(name);
     write_scene(scene, &path, &[]).unwrap();
     read(&path)
-}
-
-/// Panics where two descriptions differ, but for names, zeros of either sign, and the order of materials and textures.
-fn assert_same(a: &SceneDescription, b: &SceneDescription) {
-    assert_eq!(a.hidden, b.hidden);
-    assert_eq!(a.max_depth, b.max_depth);
-    assert_eq!(a.sensors.len(), b.sensors.len());
-    for (a, b) in a.sensors.iter().zip(&b.sensors) {
-        assert_eq!(a.to_world, b.to_world);
-        assert_eq!((a.fov_degrees, a.fov_axis, a.filter), (b.fov_degrees, b.fov_axis, b.filter));
-        assert_eq!(
-            (a.width, a.height, a.near_clip, a.far_clip, a.lens),
-            (b.width, b.height, b.near_clip, b.far_clip, b.lens)
-        );
-    }
-    assert_eq!(a.emitters.len(), b.emitters.len());
-    for (a, b) in a.emitters.iter().zip(&b.emitters) {
-        assert_eq!(emitter(&a.kind), emitter(&b.kind));
-    }
-    assert_eq!(a.shapes.len(), b.shapes.len());
-    for (x, y) in a.shapes.iter().zip(&b.shapes) {
-        assert_eq!(
-            (x.flip_normals, x.radiance, x.to_world),
-            (y.flip_normals, y.radiance, y.to_world),
-            "{}",
-            x.name
-        );
-        assert_same_geometry(&x.geometry, &y.geometry);
-        assert_eq!(material(a, x.material), material(b, y.material), "{}", x.name);
-    }
-}
-
-fn assert_same_geometry(a: &Geometry, b: &Geometry) {
-    match (a, b) {
-        (Geometry::Mesh(a), Geometry::Mesh(b)) => {
-            assert_eq!(a.positions, b.positions);
-            assert_eq!(a.normals, b.normals);
-            assert_eq!(a.texture_coordinates, b.texture_coordinates);
-            assert_eq!(a.triangles, b.triangles);
-        }
-        _ => assert_eq!(format!("{a:?}"), format!("{b:?}")),
-    }
-}
-
-/// What an emitter is, with numbers to all digits.
-fn emitter(kind: &EmitterKind) -> String {
-    match kind {
-        EmitterKind::Environment { to_world, bitmap, scale } => {
-            format!("{:?} {scale} {}", to_world.to_cols_array().map(|x| x + 0.0), bitmap_text(bitmap))
-        }
-        other => format!("{other:?}"),
-    }
-}
-
-fn bitmap_text(bitmap: &Bitmap) -> String {
-    format!("{} × {}: {:?}", bitmap.width, bitmap.height, bitmap.pixels)
-}
-
-/// What a material is, textures included, with numbers to all digits.
-fn material(scene: &SceneDescription, index: usize) -> String {
-    let Material { front, back, opacity, .. } = &scene.materials[index];
-    let mut text = format!("{front:?} {back:?} {opacity:?}");
-    while let Some(at) = text.find("Texture(") {
-        let end = at + text[at..].find(')').unwrap();
-        let Texture { to_uv, kind, .. } = &scene.textures[text[at + 8..end].parse::<usize>().unwrap()];
-        let kind = match kind {
-            TextureKind::Bitmap { bitmap, wrap, bilinear } => {
-                format!("{wrap:?} {bilinear} {}", bitmap_text(bitmap))
-            }
-            TextureKind::Checkerboard { colours } => format!("{colours:?}"),
-        };
-        text.replace_range(at..=end, &format!("{:?} {kind}", to_uv.to_cols_array().map(|x| x + 0.0)));
-    }
-    text
 }
 
 /// Numbers that no few decimals express.
@@ -286,15 +216,29 @@ fn everything() -> SceneDescription {
         EmitterKind::Environment { to_world: DAffine3::from_rotation_y(odd(1)), bitmap, scale: 0.7 },
     ];
     let materials = materials();
+    let mut shapes = shapes(materials.len());
+    shapes[2].to_world = flight().all()[0].1;
     SceneDescription {
         sensors: sensors(),
-        shapes: shapes(materials.len()),
+        shapes,
         materials,
         textures: textures.map(|kind| Texture { name: "t".to_owned(), to_uv, kind }).to_vec(),
         emitters: kinds.map(|kind| EmitterDescription { name: "light".to_owned(), kind }).to_vec(),
         max_depth: Some(7),
         hidden: Hidden { shapes: [1, 3].into(), emitters: [2].into() },
+        motion: Motion {
+            shapes: [(2, flight())].into(),
+            sensors: [].into(),
+            shutters: [(0, [0.25, odd(3).abs() + 1.0])].into(),
+        },
     }
+}
+
+/// From one odd place to another.
+fn flight() -> Keyframes {
+    let at =
+        |i| DAffine3::from_rotation_y(odd(i)) * DAffine3::from_translation(DVec3::new(odd(i), 0.5, odd(1)));
+    Keyframes::new(vec![(-0.5, at(1)), (0.25, at(2)), (2.0, at(3))]).expect("sound")
 }
 
 #[test]

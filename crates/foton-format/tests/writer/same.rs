@@ -1,0 +1,84 @@
+//! Whether two descriptions say the same.
+
+use super::*;
+
+/// Panics where two descriptions differ, but for names, zeros of either sign, and the order of materials and textures.
+pub(super) fn assert_same(a: &SceneDescription, b: &SceneDescription) {
+    assert_eq!(a.hidden, b.hidden);
+    assert_eq!(a.motion.shutters, b.motion.shutters);
+    for time in [-1.0, 0.0, 0.25, 1.0, 3.0] {
+        let at =
+            |scene: &SceneDescription| scene.at(time).shapes.iter().map(|s| s.to_world).collect::<Vec<_>>();
+        let apart = at(a).into_iter().zip(at(b)).filter(|(x, y)| !x.abs_diff_eq(*y, 1e-9)).count();
+        assert_eq!(apart, 0, "at {time}");
+    }
+    assert_eq!(a.max_depth, b.max_depth);
+    assert_eq!(a.sensors.len(), b.sensors.len());
+    for (a, b) in a.sensors.iter().zip(&b.sensors) {
+        assert_eq!(a.to_world, b.to_world);
+        assert_eq!((a.fov_degrees, a.fov_axis, a.filter), (b.fov_degrees, b.fov_axis, b.filter));
+        assert_eq!(
+            (a.width, a.height, a.near_clip, a.far_clip, a.lens),
+            (b.width, b.height, b.near_clip, b.far_clip, b.lens)
+        );
+    }
+    assert_eq!(a.emitters.len(), b.emitters.len());
+    for (a, b) in a.emitters.iter().zip(&b.emitters) {
+        assert_eq!(emitter(&a.kind), emitter(&b.kind));
+    }
+    assert_eq!(a.shapes.len(), b.shapes.len());
+    for (x, y) in a.shapes.iter().zip(&b.shapes) {
+        assert_eq!(
+            (x.flip_normals, x.radiance, x.to_world),
+            (y.flip_normals, y.radiance, y.to_world),
+            "{}",
+            x.name
+        );
+        assert_same_geometry(&x.geometry, &y.geometry);
+        assert_eq!(material(a, x.material), material(b, y.material), "{}", x.name);
+    }
+}
+
+fn assert_same_geometry(a: &Geometry, b: &Geometry) {
+    match (a, b) {
+        (Geometry::Mesh(a), Geometry::Mesh(b)) => {
+            assert_eq!(a.positions, b.positions);
+            assert_eq!(a.normals, b.normals);
+            assert_eq!(a.texture_coordinates, b.texture_coordinates);
+            assert_eq!(a.triangles, b.triangles);
+        }
+        _ => assert_eq!(format!("{a:?}"), format!("{b:?}")),
+    }
+}
+
+/// What an emitter is, with numbers to all digits.
+fn emitter(kind: &EmitterKind) -> String {
+    match kind {
+        EmitterKind::Environment { to_world, bitmap, scale } => {
+            format!("{:?} {scale} {}", to_world.to_cols_array().map(|x| x + 0.0), bitmap_text(bitmap))
+        }
+        other => format!("{other:?}"),
+    }
+}
+
+fn bitmap_text(bitmap: &Bitmap) -> String {
+    format!("{} × {}: {:?}", bitmap.width, bitmap.height, bitmap.pixels)
+}
+
+/// What a material is, textures included, with numbers to all digits.
+fn material(scene: &SceneDescription, index: usize) -> String {
+    let Material { front, back, opacity, .. } = &scene.materials[index];
+    let mut text = format!("{front:?} {back:?} {opacity:?}");
+    while let Some(at) = text.find("Texture(") {
+        let end = at + text[at..].find(')').unwrap();
+        let Texture { to_uv, kind, .. } = &scene.textures[text[at + 8..end].parse::<usize>().unwrap()];
+        let kind = match kind {
+            TextureKind::Bitmap { bitmap, wrap, bilinear } => {
+                format!("{wrap:?} {bilinear} {}", bitmap_text(bitmap))
+            }
+            TextureKind::Checkerboard { colours } => format!("{colours:?}"),
+        };
+        text.replace_range(at..=end, &format!("{:?} {kind}", to_uv.to_cols_array().map(|x| x + 0.0)));
+    }
+    text
+}
