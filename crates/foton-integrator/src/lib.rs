@@ -12,6 +12,7 @@ mod feature;
 mod layers;
 mod memory;
 mod path;
+mod photon_map;
 mod ppm;
 mod render;
 mod report;
@@ -21,11 +22,13 @@ mod shutter;
 mod sppm;
 #[cfg(test)]
 mod test_scene;
+mod white;
 mod whitted;
 
-pub use error::{ClassError, ErrorEstimate, TileError, WHITE};
+pub use error::{ClassError, ErrorEstimate, TileError};
 pub use feature::Feature;
 pub use foton_transport::codec::StateError;
+pub use foton_transport::kd_tree::KernelFilter;
 pub use foton_transport::photon_map::PathClass;
 pub use foton_transport::{
     Cancel, Cancelled, Halt, Ledger, LightUse, LobeUse, Loss, NotFinite, Quantity, ShouldSuspend, Stage,
@@ -33,6 +36,7 @@ pub use foton_transport::{
 };
 pub use layers::LayerKind;
 pub use memory::MemoryEstimate;
+pub use photon_map::{KeptMaps, MapDisplay, PhotonMapSettings};
 pub use ppm::{
     Alpha, DirectLight, Disc, EyeSamples, PhotonPath, PpmSettings, Radii, RadiusFloor, RadiusRule,
     RadiusScale, Statistics, Step, StoredPhoton, Variants, lobe_use,
@@ -40,3 +44,4 @@ pub use ppm::{
 pub use render::Render;
 pub use report::{PassReport, Start};
 pub use settings::{Method, RenderSettings, SettingChange};
+pub use white::WHITE;

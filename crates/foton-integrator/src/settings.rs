@@ -5,6 +5,7 @@ use std::num::NonZeroU32;
 
 use foton_scene::Scene;
 
+use crate::photon_map::PhotonMapSettings;
 use crate::ppm::settings::{Alpha, PpmSettings};
 
 /// The longest path that is traced, whatever settings say. The ledger counts what that cuts off.
@@ -22,11 +23,13 @@ pub enum Method {
     Path,
     /// Whitted's ray tracing: shadow rays, perfect reflection and refraction.
     Whitted,
+    /// Two-pass photon mapping: maps of photons that stay, looked up by eye samples.
+    PhotonMap,
 }
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 4] = [Self::Ppm, Self::Sppm, Self::Path, Self::Whitted];
+    pub const ALL: [Self; 5] = [Self::Ppm, Self::Sppm, Self::Path, Self::Whitted, Self::PhotonMap];
 
     /// The name in files and on the command line.
     #[must_use]
@@ -36,6 +39,7 @@ impl Method {
             Self::Sppm => "sppm",
             Self::Path => "path",
             Self::Whitted => "whitted",
+            Self::PhotonMap => "photon-map",
         }
     }
 
@@ -53,6 +57,7 @@ impl Method {
             Self::Sppm => "Stochastic progressive photon mapping",
             Self::Path => "Path tracing",
             Self::Whitted => "Whitted ray tracing",
+            Self::PhotonMap => "Photon mapping",
         }
     }
 
@@ -62,7 +67,7 @@ impl Method {
     pub const fn default_samples(self) -> NonZeroU32 {
         match self {
             Self::Ppm => NonZeroU32::new(4).unwrap(),
-            Self::Sppm | Self::Path | Self::Whitted => NonZeroU32::MIN,
+            Self::Sppm | Self::Path | Self::Whitted | Self::PhotonMap => NonZeroU32::MIN,
         }
     }
 
@@ -75,10 +80,16 @@ impl Method {
     /// Whether passes see a scene that moves at different times.
     #[must_use]
     pub const fn blurs_motion(self) -> bool {
-        self.renews_eye_samples()
+        self.renews_eye_samples() && !matches!(self, Self::PhotonMap)
     }
 
-    /// Whether it finds all light in any scene, sooner or later.
+    /// Whether light that mirrors and glass throw from points and suns is missing.
+    #[must_use]
+    pub const fn misses_caustics_of_points(self) -> bool {
+        matches!(self, Self::Path | Self::Whitted)
+    }
+
+    /// Whether it finds all light in any scene, sooner or later, without bias that stays.
     #[must_use]
     pub const fn finds_all_light(self) -> bool {
         self.has_photons()
@@ -90,7 +101,7 @@ impl Method {
         matches!(self, Self::Ppm | Self::Sppm)
     }
 
-    /// Whether photons bring light.
+    /// Whether passes have photons.
     #[must_use]
     pub const fn has_photons(self) -> bool {
         matches!(self, Self::Ppm | Self::Sppm)
@@ -121,6 +132,8 @@ pub struct RenderSettings {
     pub error: bool,
     /// Of progressive photon mapping.
     pub ppm: PpmSettings,
+    /// Of two-pass photon mapping.
+    pub photon_map: PhotonMapSettings,
 }
 
 impl Default for RenderSettings {
@@ -135,6 +148,7 @@ impl Default for RenderSettings {
             layers: false,
             error: false,
             ppm: PpmSettings::default(),
+            photon_map: PhotonMapSettings::default(),
         }
     }
 }

@@ -20,11 +20,12 @@ pub(crate) fn at_pass(
     scene.after_share_of_shutter(settings.sensor, share_of_shutter(settings.seed, before), cancel)
 }
 
-/// The share of a shutter's time after which the pass after `before` others sees everything: of each 2^k passes one in each of 2^k
-/// equal parts of it.
+/// The share of a shutter's time after which the pass after `before` others sees everything. Passes take turns with two sequences that are
+/// independent of each other, as their eye samples do; of each 2^k passes of a sequence one is in each of 2^k equal parts of the time.
 fn share_of_shutter(seed: u64, before: u64) -> f64 {
-    let shift = f64::from(Stream::new(seed, Purpose::Shutter, 0, 0).next_1d());
-    let radical_inverse = before.reverse_bits() as f64 / 2f64.powi(64);
+    let (sequence, turn) = (before % 2, before / 2);
+    let shift = f64::from(Stream::new(seed, Purpose::Shutter, sequence, 0).next_1d());
+    let radical_inverse = turn.reverse_bits() as f64 / 2f64.powi(64);
     (radical_inverse + shift).fract()
 }
 
@@ -33,12 +34,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn passes_are_spread_evenly_over_the_shutters_time() {
-        for seed in 0..9 {
-            for (first, passes) in [(0, 8), (8, 8), (0, 32)] {
-                let mut parts: Vec<usize> = (first..first + passes)
-                    .map(|pass| (share_of_shutter(seed, pass) * passes as f64) as usize)
-                    .collect();
+    fn passes_of_each_sequence_are_spread_evenly_over_the_shutters_time() {
+        for (seed, sequence) in [(0, 0u64), (0, 1), (1, 0), (7, 1)] {
+            for (first, passes) in [(0u64, 8u64), (8, 8), (0, 32)] {
+                let of_pass = |turn: u64| share_of_shutter(seed, 2 * turn + sequence);
+                let mut parts: Vec<usize> =
+                    (first..first + passes).map(|turn| (of_pass(turn) * passes as f64) as usize).collect();
                 parts.sort_unstable();
                 assert!(parts.iter().copied().eq(0..passes as usize), "{parts:?}");
             }

@@ -26,6 +26,8 @@ pub enum Purpose {
     Path = 6,
     /// When passes see a scene that moves.
     Shutter = 7,
+    /// Maps of photons that stay: rounding, and looking around them.
+    PhotonMap = 20,
 }
 
 /// The increment of SplitMix64: 2^64 divided by the golden ratio, odd.

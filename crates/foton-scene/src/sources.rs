@@ -56,14 +56,20 @@ pub struct Sources {
     choice: Discrete,
     /// The aim of all of them, instead of each emitter's own.
     aim: Option<Aim>,
+    /// Whether the direction's primary numbers alone decide directions, where emitters have a way for that.
+    by_direction: bool,
 }
 
 impl Scene {
     /// Where photons start, for an eye that sees these points, about which photons count within a radius each (scene units).
     #[must_use]
     pub fn sources(&self, points: &[(Vec3, f32)]) -> Sources {
-        let as_they_shine =
-            Sources { emitters: Arc::clone(&self.emitters), choice: self.emitter_choice.clone(), aim: None };
+        let as_they_shine = Sources {
+            emitters: Arc::clone(&self.emitters),
+            choice: self.emitter_choice.clone(),
+            aim: None,
+            by_direction: false,
+        };
         let Some(balls) = balls_around(points) else { return as_they_shine };
         let decisive = balls[DECISIVE_BALL];
         if self.emitter_choice.is_empty() || decisive.radius * WIDE > self.bounds.radius() {
@@ -86,6 +92,13 @@ impl Scene {
 }
 
 impl Sources {
+    /// The same light, but spheres give their direction's primary numbers to directions in space, whatever point of them light leaves: what
+    /// is found of those numbers then holds for the whole emitter. Balls that an emitter of that kind aims at are not aimed at.
+    #[must_use]
+    pub fn by_direction(self) -> Self {
+        Self { by_direction: true, ..self }
+    }
+
     /// Starts a photon from the emitter of that index by its primary numbers in [0, 1), as [`Emitter::emit`].
     #[must_use]
     #[inline]
@@ -93,6 +106,11 @@ impl Sources {
         let emitter = &self.emitters[index];
         let [part, x, y, across, along] = u;
         let (position, direction) = (Vec2::new(x, y), Vec2::new(across, along));
+        if self.by_direction
+            && let Some(emission) = emitter.emit_by_direction(position, direction)
+        {
+            return emission;
+        }
         emitter.emit_aimed(self.aim.as_ref().unwrap_or(&emitter.aim), part, position, direction)
     }
 

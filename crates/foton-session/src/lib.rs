@@ -27,6 +27,7 @@ pub mod findings;
 pub mod folders;
 mod in_time;
 mod interrupt;
+pub mod maps;
 mod metadata;
 mod panic;
 mod preset;
@@ -42,8 +43,8 @@ mod views;
 pub use clock::StageTimes;
 pub use engine::Engine;
 pub use foton_integrator::{
-    Alpha, ClassError, DirectLight, ErrorEstimate, Ledger, Method, PathClass, Radii, RadiusFloor, RadiusRule,
-    RadiusScale, RenderSettings, SettingChange, Stage,
+    Alpha, ClassError, DirectLight, ErrorEstimate, KeptMaps, Ledger, Method, PathClass, Radii, RadiusFloor,
+    RadiusRule, RadiusScale, RenderSettings, SettingChange, Stage,
 };
 pub use interrupt::Interrupt;
 pub use metadata::SceneIdentity;

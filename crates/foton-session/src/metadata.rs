@@ -1,7 +1,7 @@
 //! What travels with an image: enough to make it again. Nothing of when or where, so that equal renders give equal files.
 
 use foton_film::Metadata;
-use foton_integrator::{LayerKind, PpmSettings, RadiusScale, Render};
+use foton_integrator::{LayerKind, Method, PpmSettings, RadiusScale, Render, RenderSettings};
 use foton_scene::Sensor;
 
 /// The scene as metadata names it.
@@ -42,6 +42,22 @@ fn photons(s: &PpmSettings) -> String {
     )
 }
 
+/// Settings of two-pass photon mapping.
+fn maps(settings: &RenderSettings) -> String {
+    let s = &settings.photon_map;
+    format!(
+        "global_photons={} caustic_photons={} neighbours={} photon_filter={} map_display={} gather_rays={} shadow_photons={} direct={} ",
+        s.global_photons,
+        s.caustic_photons,
+        s.neighbours,
+        s.filter.name(),
+        s.display.name(),
+        s.gather_rays,
+        s.shadow_photons,
+        settings.ppm.direct_light.name()
+    )
+}
+
 /// The cameras whose renders shared their photons: to make one of them again, all are to be rendered.
 fn cameras(render: &Render) -> String {
     let name = |&i: &usize| render.scene().sensors()[i].name.as_str();
@@ -63,7 +79,11 @@ pub(crate) fn of(render: &Render, layers: &[LayerKind], scene: &SceneIdentity) -
     let settings = format!(
         "integrator={} {}{common} {}layers={}{}",
         s.method.name(),
-        if s.method.has_photons() { photons(&s.ppm) } else { String::new() },
+        match s.method {
+            Method::PhotonMap => maps(s),
+            method if method.has_photons() => photons(&s.ppm),
+            _ => String::new(),
+        },
         if s.method.has_photons() {
             format!("hit_points_per_sample={} ", s.ppm.hit_points_per_sample)
         } else {

@@ -4,8 +4,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use foton_integrator::{
-    Cancel, Cancelled, Halt, MemoryEstimate, NotFinite, PassReport, Render, RenderSettings, ShouldSuspend,
-    Stage, StateError, Suspended,
+    Cancel, Cancelled, Halt, KeptMaps, MemoryEstimate, NotFinite, PassReport, Render, RenderSettings,
+    ShouldSuspend, Stage, StateError, Suspended,
 };
 use foton_scene::Scene;
 use rayon::{ThreadPool, ThreadPoolBuildError};
@@ -118,6 +118,22 @@ impl Session {
         cancel: &Cancel,
     ) -> Result<Self, StartError> {
         Self::start_on(Self::pool(threads)?, scene, settings, &|_| (), cancel)
+    }
+
+    /// As [`Session::start`], with photon maps that were made before.
+    ///
+    /// # Errors
+    /// As [`Session::start`].
+    pub fn start_with_maps(
+        scene: Arc<Scene>,
+        settings: RenderSettings,
+        maps: &KeptMaps,
+        threads: Option<usize>,
+        cancel: &Cancel,
+    ) -> Result<Self, StartError> {
+        Self::start_by(Self::pool(threads)?, settings.seed, Duration::ZERO, |watch| {
+            Render::start_with_maps(scene, settings, maps, watch, cancel)
+        })
     }
 
     /// Threads to render on, by default as many as the machine has; one pool serves any number of renders, one at a time.

@@ -38,6 +38,11 @@ impl Writer {
         self.u64(value.to_bits());
     }
 
+    /// Bytes as they are.
+    pub fn bytes(&mut self, bytes: &[u8]) {
+        self.0.extend_from_slice(bytes);
+    }
+
     /// A colour, in 12 bytes.
     pub fn rgb(&mut self, colour: Rgb) {
         for channel in colour.to_array() {
@@ -73,6 +78,14 @@ impl<'a> Reader<'a> {
             self.0.split_first_chunk::<N>().ok_or(StateError::Length(self.0.len() as i64 - N as i64))?;
         self.0 = tail;
         Ok(*head)
+    }
+
+    /// Bytes as they are.
+    ///
+    /// # Errors
+    /// When the bytes end.
+    pub fn bytes<const N: usize>(&mut self) -> Result<[u8; N], StateError> {
+        self.take()
     }
 
     /// An integer, in 8 bytes.

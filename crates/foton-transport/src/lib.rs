@@ -8,6 +8,7 @@ pub mod camera_paths;
 pub mod codec;
 pub mod direct_light;
 pub mod guide;
+pub mod kd_tree;
 mod ledger;
 pub mod light_paths;
 mod light_use;

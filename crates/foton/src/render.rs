@@ -8,6 +8,7 @@ use foton_film::check_writable;
 use foton_integrator::{Method, RenderSettings, SettingChange};
 use foton_scene::Scene;
 use foton_session::checkpoint::{self, Keeper};
+use foton_session::maps;
 use foton_session::snapshot::{self, Format};
 use foton_session::{Interrupt, Preset, SceneIdentity, Session, StopRule};
 
@@ -46,6 +47,7 @@ pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Fai
             .preset(args.preset.map(Preset::from))
             .method(method)
             .options(&args.settings)
+            .photon_map(args.photon_map.settings())
             .sensor(sensor)
             .error(args.error != Some(ErrorWish::Off))
             .layers(&args.all_layers())
@@ -81,6 +83,7 @@ fn check_outputs(args: &RenderArgs) -> Result<(), Failure> {
     let (path, _) = &args.output;
     check_writable(path)?;
     args.checkpoint.as_deref().map_or(Ok(()), check_writable)?;
+    args.photon_map.save_maps.as_deref().map_or(Ok(()), check_writable)?;
     if let Some(every) = args.every {
         check_writable(&snapshot::numbered(path, every.first()))?;
     }
@@ -118,9 +121,24 @@ fn start(
     refuse_beyond_memory(&scene, &settings, threads, args.memory)?;
     begin_step("collecting hit points");
     console.stage("collecting hit points");
-    let mut session = Session::start(scene, settings, threads, interrupt.cancel())?;
+    let mut session = match &args.photon_map.maps {
+        Some(path) => {
+            let maps = maps::read(path, &scene, settings.max_depth_in(&scene))?;
+            Session::start_with_maps(scene, settings, &maps, threads, interrupt.cancel())?
+        }
+        None => Session::start(scene, settings, threads, interrupt.cancel())?,
+    };
     if args.strict {
         session.render_mut().stop_at_first_not_finite();
+    }
+    if let (Some(path), Some(kept)) = (&args.photon_map.save_maps, session.render().maps()) {
+        maps::write(path, &kept, session.render().scene())?;
+        console.line(&format!(
+            "wrote {}: maps of {} and {} photons",
+            path.display(),
+            kept.global_photons(),
+            kept.caustic_photons()
+        ));
     }
     Ok(session)
 }

@@ -4,7 +4,7 @@
 use std::num::NonZeroU32;
 
 use foton_format::Suggested;
-use foton_integrator::{Alpha, LayerKind, Method, PpmSettings, RenderSettings};
+use foton_integrator::{Alpha, LayerKind, Method, PhotonMapSettings, PpmSettings, RenderSettings};
 use foton_session::Preset;
 
 use crate::args::{Guide, Radius, SettingsOptions};
@@ -55,6 +55,12 @@ impl SettingsBuilder {
         ppm.radius_rule = options.radius_rule.into();
         ppm.direct_light = options.direct.into();
         ppm.guided = options.guide == Guide::Auto;
+        self
+    }
+
+    /// What options of two-pass photon mapping say.
+    pub(crate) fn photon_map(mut self, photon_map: PhotonMapSettings) -> Self {
+        self.0.photon_map = photon_map;
         self
     }
 

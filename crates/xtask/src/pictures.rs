@@ -36,6 +36,7 @@ const PICTURES: &[Picture] = &[
     Picture { scene: "cornell-water", size: "480x480", passes: 64, samples: 4, thumbnail: None },
     Picture { scene: "cornell-diffuse", size: "480x480", passes: 24, samples: 4, thumbnail: None },
     Picture { scene: "box-spheres", size: "480x480", passes: 32, samples: 4, thumbnail: Some(("96x96", 16)) },
+    Picture { scene: "museum", size: "480x360", passes: 48, samples: 4, thumbnail: None },
     Picture { scene: "furnace", size: "128x128", passes: 8, samples: 1, thumbnail: None },
     Picture {
         scene: "glass-and-ring",

@@ -4,16 +4,14 @@
 //! light on paths that none has found yet where others have is no part of it.
 //!
 //! Emitters that are seen, directly or in mirrors, are often a hundred times as bright as what they light. Their edges, which no picture
-//! shows but as white, would then be all of the error. So they count as no brighter than white, [`WHITE`].
+//! shows but as white, would then be all of the error. So they count as no brighter than [`WHITE`].
 
 use foton_transport::codec::{Reader, StateError, Writer};
 
 use super::estimate::{ErrorEstimate, Sums, TileError};
-use super::moments::{Moments, Scatter, Weights};
+use super::moments::{Halves, Moments, Scatter, Weights};
 use super::{TILE, state};
-
-/// White, over the mean reflected luminance: that of middle grey is a fifth of it.
-pub const WHITE: f64 = 5.0;
+use crate::white::WHITE;
 
 /// What a pass found at a pixel, in luminance (W/m²/sr).
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +29,8 @@ pub(crate) struct PassPixel {
 #[derive(Clone, Copy, Debug, Default)]
 struct Pixel {
     moments: Moments,
+    /// Σ over passes of light, that of the second sequence taken off.
+    difference: f64,
     /// Whether any sample has seen something reflect.
     is_seen: bool,
 }
@@ -39,9 +39,11 @@ struct Pixel {
 struct Tile {
     pixels: u32,
     unknown: u32,
-    /// Of its mean over seen pixels.
+    /// Σ over seen pixels.
     mean: f64,
+    /// The same of variances: as the two sequences differ, and as passes scatter, which is more where these are stratified.
     variance: f64,
+    scattered: f64,
 }
 
 /// Sums over all passes so far.
@@ -50,6 +52,7 @@ pub(crate) struct Independent {
     tiles: Vec<Tile>,
     width: usize,
     weights: Weights,
+    halves: Halves,
     scatter: Scatter,
     estimate: Option<ErrorEstimate>,
 }
@@ -62,6 +65,7 @@ impl Independent {
             tiles: vec![Tile::default(); width.div_ceil(TILE) * height.div_ceil(TILE)],
             width,
             weights: Weights::default(),
+            halves: Halves::default(),
             scatter: Scatter::default(),
             estimate: None,
         }
@@ -69,6 +73,7 @@ impl Independent {
 
     /// Adds a pass; all count alike.
     pub(crate) fn add(&mut self, pass: impl Fn(usize) -> PassPixel) {
+        self.halves.add(self.weights.photons as u64, 1.0);
         self.weights.add(1.0);
         let passes = self.weights.photons;
         let mut sums = Sums::default();
@@ -87,25 +92,29 @@ impl Independent {
             let light = reflected + emission.min(white);
             let pixel = &mut self.pixels[index];
             pixel.moments.add(light, 1.0);
+            pixel.difference += self.halves.sign() * light;
             if !pixel.is_seen {
                 continue;
             }
-            let (mean, variance) = pixel.moments.mean_and_variance(&self.weights);
+            let (mean, scattered) = pixel.moments.mean_and_variance(&self.weights);
+            let variance = self.halves.variance(mean, pixel.difference);
             let is_unknown = mean <= 0.0;
             sums.variance += variance;
             sums.deviation += (light - mean).powi(2);
             sums.unknown += f64::from(u8::from(is_unknown));
-            let tile = &mut self.tiles
-                [index / self.width / TILE * self.width.div_ceil(TILE) + index % self.width / TILE];
+            let tile = self.tile_of(index);
+            let tile = &mut self.tiles[tile];
             tile.pixels += 1;
             tile.unknown += u32::from(is_unknown);
             tile.mean += mean;
             tile.variance += variance;
+            tile.scattered += scattered;
         }
         if passes > 1.0 && sums.seen > 0.0 {
             self.scatter.add(sums.deviation / sums.seen / (1.0 - 1.0 / passes));
         }
-        self.estimate = sums.estimate(&self.weights, &self.scatter, self.weights.concentration());
+        // Of two sequences each has one mean.
+        self.estimate = sums.estimate(&self.weights, &self.scatter, 1.0);
     }
 
     /// The figure after the last pass.
@@ -128,10 +137,19 @@ impl Independent {
         self.tiles.iter().map(of).collect()
     }
 
-    /// Standard deviation of each pixel's luminance.
+    /// Standard deviation of each pixel's luminance: as its passes scatter, in proportion to what the tile knows of the two sequences, since
+    /// the difference of a single pixel's says little.
     pub(crate) fn noise(&self) -> Vec<f32> {
-        let of = |pixel: &Pixel| pixel.moments.mean_and_variance(&self.weights).1.sqrt() as f32;
-        self.pixels.iter().map(of).collect()
+        let of = |(index, pixel): (usize, &Pixel)| {
+            let tile = &self.tiles[self.tile_of(index)];
+            let share = if tile.scattered > 0.0 { tile.variance / tile.scattered } else { 1.0 };
+            (pixel.moments.mean_and_variance(&self.weights).1 * share).sqrt() as f32
+        };
+        self.pixels.iter().enumerate().map(of).collect()
+    }
+
+    fn tile_of(&self, pixel: usize) -> usize {
+        pixel / self.width / TILE * self.width.div_ceil(TILE) + pixel % self.width / TILE
     }
 
     /// Bytes held.
@@ -146,12 +164,13 @@ impl Independent {
         self.weights.numbers().iter().for_each(|&n| out.f64(n));
         self.scatter.numbers().iter().for_each(|&n| out.f64(n));
         state::write_estimate(self.estimate, out);
+        self.halves.numbers().iter().for_each(|&n| out.f64(n));
         for pixel in &self.pixels {
-            pixel.moments.numbers().iter().for_each(|&n| out.f64(n));
+            pixel.moments.numbers().iter().chain([&pixel.difference]).for_each(|&n| out.f64(n));
             out.u64(pixel.is_seen.into());
         }
         for tile in &self.tiles {
-            [tile.mean, tile.variance].iter().for_each(|&n| out.f64(n));
+            [tile.mean, tile.variance, tile.scattered].iter().for_each(|&n| out.f64(n));
             [tile.pixels, tile.unknown].iter().for_each(|&n| out.u64(n.into()));
         }
     }
@@ -160,12 +179,14 @@ impl Independent {
         self.weights = Weights::of(state::numbers(input)?);
         self.scatter = Scatter::of(state::numbers(input)?);
         self.estimate = state::read_estimate(input)?;
+        self.halves = Halves::of(state::numbers(input)?);
         for pixel in &mut self.pixels {
             pixel.moments = Moments::of(state::numbers(input)?);
+            pixel.difference = input.finite()?;
             pixel.is_seen = input.u64()? != 0;
         }
         for tile in &mut self.tiles {
-            [tile.mean, tile.variance] = state::numbers(input)?;
+            [tile.mean, tile.variance, tile.scattered] = state::numbers(input)?;
             tile.pixels = u32::try_from(input.count()?).map_err(|_| StateError::Impossible)?;
             tile.unknown = u32::try_from(input.count()?).map_err(|_| StateError::Impossible)?;
         }

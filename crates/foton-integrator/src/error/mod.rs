@@ -21,7 +21,6 @@ mod state;
 pub use classes::ClassError;
 pub(crate) use classes::Question;
 pub use estimate::{ErrorEstimate, TileError};
-pub use independent::WHITE;
 pub(crate) use independent::{Independent, PassPixel};
 pub(crate) use pass::{Pass, PassFacts};
 

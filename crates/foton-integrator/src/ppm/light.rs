@@ -95,6 +95,11 @@ impl Light {
         }));
     }
 
+    /// What photons have brought to all pixels in all passes: luminance times photons.
+    pub(crate) fn luminance_sum(&self) -> f64 {
+        each!(self, s => s.radiance.luminance_sums())
+    }
+
     /// Noise and bias by pixel.
     pub(crate) fn error_planes(
         &self,

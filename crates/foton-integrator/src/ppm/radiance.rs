@@ -166,6 +166,11 @@ impl Radiance {
         f64::from(red) * r + f64::from(green) * g + f64::from(blue) * b
     }
 
+    /// The same of all pixels.
+    pub(crate) fn luminance_sums(&self) -> f64 {
+        (0..self.sums.len()).map(|pixel| self.luminance_sum(pixel)).sum()
+    }
+
     /// Bytes held.
     pub(crate) const fn bytes(&self) -> usize {
         let by_class = if self.classes.is_some() { Self::BYTES_BY_CLASS } else { 0 };

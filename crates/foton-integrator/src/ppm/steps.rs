@@ -74,6 +74,7 @@ impl Ppm {
             training: self.guidance.training(self.passes, photons),
             grid: &self.grid,
             stores_direct: !self.has_shadow_rays(),
+            ends_where_light_spreads: false,
             policy: LOBE_POLICY,
             directions: self.hit_points.need_directions(),
             arch: self.arch,
@@ -211,9 +212,9 @@ impl Ppm {
     pub(super) fn accumulate(&mut self, mut pass: UnderWay, watch: &mut dyn FnMut(Stage)) -> PassReport {
         watch(Stage::Radiance);
         self.note_exceptions(&pass);
+        pass.counts.leave_out(self.light.add_pass(&self.hit_points, pass.counts.photons));
         let unknown_pixels = self.add_to_renewal(&mut pass);
-        let mut counts = pass.counts;
-        counts.leave_out(self.light.add_pass(&self.hit_points, counts.photons));
+        let counts = pass.counts;
         if let Some(direct) = &mut self.direct {
             direct.add(pass.lit.into_iter().flatten());
         }

@@ -6,6 +6,7 @@ use foton_scene::Scene;
 use foton_transport::codec::StateError;
 use foton_transport::{Cancel, Cancelled, Halt, Ledger, LightUse, Loss, NotFinite, ShouldSuspend, Stage};
 
+use crate::photon_map::KeptMaps;
 use crate::ppm::{EyeSamples, Ppm};
 use crate::report::{PassReport, Start};
 use crate::sampled::Sampled;
@@ -78,9 +79,36 @@ impl Render {
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
         let (scene, settings) = (Arc::clone(eye.scene()), eye.settings().clone());
-        match Sampled::start(scene, settings, watch, cancel)? {
+        match Sampled::start(scene, settings, None, watch, cancel)? {
             Some(sampled) => Ok(Self(Running::Sampled(Box::new(sampled)))),
             None => Ok(Self(Running::Ppm(Box::new(Ppm::start(eye, tell, watch, cancel)?)))),
+        }
+    }
+
+    /// A render by two-pass photon mapping with maps that were made before, of the same scene; by any other method, as
+    /// [`Render::start`].
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub fn start_with_maps(
+        scene: Arc<Scene>,
+        settings: RenderSettings,
+        maps: &KeptMaps,
+        watch: &mut dyn FnMut(Stage),
+        cancel: &Cancel,
+    ) -> Result<Self, Cancelled> {
+        match Sampled::start(Arc::clone(&scene), settings.clone(), Some(maps), watch, cancel)? {
+            Some(sampled) => Ok(Self(Running::Sampled(Box::new(sampled)))),
+            None => Self::start(scene, settings, watch, cancel),
+        }
+    }
+
+    /// The maps of a render by two-pass photon mapping.
+    #[must_use]
+    pub fn maps(&self) -> Option<KeptMaps> {
+        match &self.0 {
+            Running::Sampled(sampled) => sampled.maps(),
+            Running::Ppm(_) => None,
         }
     }
 
@@ -96,7 +124,7 @@ impl Render {
         watch: &mut dyn FnMut(Stage),
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
-        match Sampled::start(Arc::clone(eye.scene()), settings.clone(), watch, cancel)? {
+        match Sampled::start(Arc::clone(eye.scene()), settings.clone(), None, watch, cancel)? {
             Some(sampled) => Ok(Self(Running::Sampled(Box::new(sampled)))),
             None => {
                 let ppm = Ppm::start_with_some((eye, samples), (settings, widened), tell, watch, cancel)?;

@@ -14,7 +14,7 @@ impl Render {
     pub fn estimate_memory(scene: &Scene, settings: &RenderSettings, threads: usize) -> MemoryEstimate {
         match settings.method {
             Method::Ppm | Method::Sppm => ppm::memory(scene, settings, threads),
-            Method::Path | Method::Whitted => sampled::memory(scene, settings),
+            Method::Path | Method::Whitted | Method::PhotonMap => sampled::memory(scene, settings),
         }
     }
 
@@ -23,7 +23,7 @@ impl Render {
     pub fn features(scene: &Scene, settings: &RenderSettings) -> Vec<Feature> {
         match settings.method {
             Method::Ppm | Method::Sppm => ppm::features(scene, settings),
-            Method::Path | Method::Whitted => sampled::features(settings),
+            Method::Path | Method::Whitted | Method::PhotonMap => sampled::features(settings),
         }
     }
 }

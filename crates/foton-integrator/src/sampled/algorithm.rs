@@ -9,6 +9,7 @@ use super::block::{BLOCK, Block, Sampling};
 use super::estimator::Estimator;
 use super::sums::PixelSums;
 use crate::by_block::ByBlock;
+use crate::photon_map::KeptMaps;
 use crate::report::{PassReport, Start};
 use crate::settings::RenderSettings;
 use crate::shutter::at_pass;
@@ -40,24 +41,27 @@ impl Sampled {
     pub(crate) fn start(
         scene: Arc<Scene>,
         settings: RenderSettings,
+        maps: Option<&KeptMaps>,
         watch: &mut dyn FnMut(Stage),
         cancel: &Cancel,
     ) -> Result<Option<Self>, Cancelled> {
-        let Some(estimator) = Estimator::new(&scene, &settings, watch, cancel)? else { return Ok(None) };
+        let Some(estimator) = Estimator::new(&scene, &settings, maps, watch, cancel)? else {
+            return Ok(None);
+        };
         let sensor = &scene.sensors()[settings.sensor];
         let size = (sensor.width, sensor.height);
         Ok(Some(Self {
             sums: PixelSums::new(size, settings.layers, settings.error),
+            ledger: estimator.ledger(),
+            not_finite: estimator.left_out().map(|left_out| NotFinite::new(&scene, 0, left_out)),
             now: Arc::clone(&scene),
             scene,
             settings,
             estimator,
             passes: 0,
             start: Start::default(),
-            ledger: Ledger::default(),
             under_way: Vec::new(),
             strict: false,
-            not_finite: None,
         }))
     }
 
@@ -96,7 +100,7 @@ impl Sampled {
             return Ok(());
         }
         let now = at_pass(scene, settings, self.passes, cancel)?;
-        if let Some(estimator) = Estimator::new(&now, settings, watch, cancel)? {
+        if let Some(estimator) = Estimator::new(&now, settings, None, watch, cancel)? {
             (self.now, self.estimator) = (now, estimator);
         }
         Ok(())
@@ -131,7 +135,7 @@ impl Sampled {
         let rays = blocks.iter().map(|block| block.rays).sum();
         self.sums.add(blocks.into_iter(), self.settings.samples_per_pixel.get());
         self.passes += 1;
-        Ok(PassReport { pass: self.passes, rays, ..PassReport::default() })
+        Ok(PassReport { pass: self.passes, photons: self.photons_emitted(), rays, ..PassReport::default() })
     }
 
     /// Notes the first value that was left out.

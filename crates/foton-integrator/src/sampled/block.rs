@@ -46,7 +46,10 @@ impl Sampling<'_> {
         let sensor = &self.scene.sensors()[self.settings.sensor];
         let (x, y) = (pixel % sensor.width as usize, pixel / sensor.width as usize);
         let corner = foton_math::glam::Vec2::new(x as f32, y as f32);
-        let mut scramble = Stream::new(self.settings.seed, Purpose::Eye, 0, pixel as u64);
+        // Passes take turns with two sequences that are independent of each other: by their difference the noise of both is known.
+        let (sequence, turn) = (self.before % 2, self.before / 2);
+        let key = if sequence == 0 { 0 } else { u64::MAX };
+        let mut scramble = Stream::new(self.settings.seed, Purpose::Eye, key, pixel as u64);
         let places = PixelSamples::new(&mut scramble);
         let directions = PixelSamples::new(&mut scramble);
         let lights = scrambles(&mut scramble);
@@ -55,8 +58,8 @@ impl Sampling<'_> {
         let mut sum = Seen::default();
         for i in 0..samples {
             let index = self.before * samples + i;
-            // The sequences have 2³² points; what comes after them begins anew, with other numbers along the path.
-            let point = index as u32;
+            // A sequence has 2³² points; what comes after them begins anew, with other numbers along the path.
+            let point = (turn * samples + i) as u32;
             let place = places.point(point);
             let stream = Stream::new(self.settings.seed, Purpose::Path, index, pixel as u64);
             let sample = EyeSample {

@@ -6,6 +6,7 @@ use foton_scene::Scene;
 use foton_transport::{Ledger, LightUse, Loss, NotFinite};
 
 use super::algorithm::Sampled;
+use crate::photon_map::{KeptMaps, PhotonMapper};
 use crate::report::Start;
 use crate::settings::{RenderSettings, SettingChange};
 
@@ -56,8 +57,12 @@ impl Sampled {
         self.passes
     }
 
-    pub(crate) const fn photons_emitted(&self) -> u64 {
-        0
+    pub(crate) fn photons_emitted(&self) -> u64 {
+        self.estimator.mapper().map_or(0, PhotonMapper::photons_emitted)
+    }
+
+    pub(crate) fn maps(&self) -> Option<KeptMaps> {
+        self.estimator.mapper().map(PhotonMapper::kept)
     }
 
     pub(crate) const fn has_shadow_rays(&self) -> bool {
@@ -80,16 +85,16 @@ impl Sampled {
         &self.ledger
     }
 
-    pub(crate) const fn light_use(&self) -> &[LightUse] {
-        &[]
+    pub(crate) fn light_use(&self) -> &[LightUse] {
+        self.estimator.light_use()
     }
 
-    pub(crate) const fn material_losses(&self) -> &[Loss] {
-        &[]
+    pub(crate) fn material_losses(&self) -> &[Loss] {
+        self.estimator.material_losses()
     }
 
     /// Bytes held, the scene included.
     pub(crate) fn bytes(&self) -> usize {
-        self.scene.bytes() + self.sums.bytes()
+        self.scene.bytes() + self.sums.bytes() + self.estimator.mapper().map_or(0, PhotonMapper::bytes)
     }
 }

@@ -20,6 +20,8 @@ pub(crate) struct Numbers {
     /// Index of the sample, and the pixel's scrambles; `None` once they are used.
     first_lights: Option<(u32, [Scramble; SCRAMBLES])>,
     first_direction: Option<Vec2>,
+    /// Streams that were handed out.
+    streams: u64,
 }
 
 impl Numbers {
@@ -30,7 +32,7 @@ impl Numbers {
         scrambles: [Scramble; SCRAMBLES],
         direction: Vec2,
     ) -> Self {
-        Self { stream, first_lights: Some((index, scrambles)), first_direction: Some(direction) }
+        Self { stream, first_lights: Some((index, scrambles)), first_direction: Some(direction), streams: 0 }
     }
 
     /// For a ray to each emitter, or to one that is chosen.
@@ -41,6 +43,12 @@ impl Numbers {
     /// For a direction.
     pub(crate) fn direction(&mut self) -> Vec2 {
         self.first_direction.take().unwrap_or_else(|| self.stream.next_2d())
+    }
+
+    /// A stream for as many as it takes, with numbers of its own each time.
+    pub(crate) const fn stream(&mut self) -> Stream {
+        self.streams += 1;
+        self.stream.from_dimension(self.streams << 32)
     }
 
     /// For a choice.

@@ -109,6 +109,11 @@ impl Pixels {
         self.statistics[pixel].radius2() >= 0.0
     }
 
+    /// Pixels of which some sample has found a hit point.
+    pub(super) fn seen(&self) -> usize {
+        (0..self.statistics.len()).filter(|&pixel| self.is_seen(pixel)).count()
+    }
+
     /// Whether hit points have found no photon in any pass: what arrives there is unknown, not zero.
     pub(crate) fn is_unknown(&self, pixel: usize) -> bool {
         self.is_seen(pixel) && self.statistics[pixel].is_unknown()

@@ -109,9 +109,17 @@ impl Renewal {
     }
 
     /// Takes a pass of so many photons into account, which hit points have gathered and shadow rays have lit.
-    pub(super) fn add(&mut self, hit_points: &HitPoints, how: Shrinkage, (photons, direct): (u64, Vec<Rgb>)) {
+    ///
+    /// `by_photons` is what photons have brought to all pixels in all passes, this one too, of `all` photons.
+    pub(super) fn add(
+        &mut self,
+        hit_points: &HitPoints,
+        how: Shrinkage,
+        (photons, direct): (u64, Vec<Rgb>),
+        (by_photons, all): (f64, u64),
+    ) {
         self.pixels.refine(hit_points, &self.first_radius2, how);
-        self.seen.add(photons, direct);
+        self.seen.add(photons, direct, (by_photons, self.pixels.seen(), all));
     }
 
     /// The statistics of a hit point in sample order, with the radius that its pixel has come to and the photons of all the pixel's.

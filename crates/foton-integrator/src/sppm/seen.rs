@@ -5,6 +5,8 @@ use foton_math::Rgb;
 use foton_transport::codec::{Reader, StateError, Writer};
 use rayon::prelude::*;
 
+use crate::white::WHITE;
+
 /// Sums of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
@@ -12,6 +14,8 @@ struct Sums {
     emission: [f64; 3],
     /// The same of direct light by shadow rays.
     direct: [f64; 3],
+    /// The same of luminance from emitters, of which none counts as brighter than white.
+    up_to_white: f64,
 }
 
 /// The sums of all pixels, and what the last pass added to them.
@@ -21,35 +25,48 @@ pub(crate) struct Seen {
     pub(super) emission: Vec<Rgb>,
     /// Direct light of the last pass; empty without shadow rays.
     direct: Vec<Rgb>,
+    /// The luminance of white in the last pass (W/m²/sr).
+    white: f64,
 }
 
 impl Seen {
     pub(super) fn new(emission: Vec<Rgb>) -> Self {
-        Self { sums: vec![Sums::default(); emission.len()], emission, direct: Vec::new() }
+        Self {
+            sums: vec![Sums::default(); emission.len()],
+            emission,
+            direct: Vec::new(),
+            white: f64::INFINITY,
+        }
     }
 
-    /// Adds the pass of so many photons.
-    pub(super) fn add(&mut self, photons: u64, direct: Vec<Rgb>) {
+    /// Adds the pass of so many photons. `by_photons` is what photons have brought to all pixels in all passes, this one too: luminance
+    /// times photons; `seen` pixels have seen something reflect, and `all` photons have been emitted.
+    pub(super) fn add(&mut self, photons: u64, direct: Vec<Rgb>, (by_photons, seen, all): (f64, usize, u64)) {
         self.direct = direct;
         let (emission, direct, n) = (&self.emission, &self.direct, photons as f64);
+        let by_rays = self.sums.iter().map(|sums| luminance(&sums.direct)).sum::<f64>()
+            + n * direct.iter().map(|direct| f64::from(direct.luminance())).sum::<f64>();
+        self.white = WHITE * (by_photons + by_rays) / (seen.max(1) as f64 * all.max(1) as f64);
+        let white = self.white;
         self.sums.par_iter_mut().enumerate().for_each(|(pixel, sums)| {
             add(&mut sums.emission, emission[pixel], n);
+            sums.up_to_white += n * f64::from(emission[pixel].luminance()).min(white);
             if let Some(direct) = direct.get(pixel) {
                 add(&mut sums.direct, *direct, n);
             }
         });
     }
 
-    /// Luminance of what the last pass saw of a pixel without its photons.
+    /// Luminance of what the last pass saw of a pixel without its photons, emitters up to white.
     pub(crate) fn last(&self, pixel: usize) -> f64 {
         let direct = self.direct.get(pixel).map_or(0.0, |direct| direct.luminance());
-        f64::from(self.emission[pixel].luminance()) + f64::from(direct)
+        f64::from(self.emission[pixel].luminance()).min(self.white) + f64::from(direct)
     }
 
-    /// Luminance sums of a pixel, times photons: of emitters, and of direct light.
+    /// Luminance sums of a pixel, times photons: of emitters up to white, and of direct light.
     pub(crate) fn luminance_sums(&self, pixel: usize) -> [f64; 2] {
-        let Sums { emission, direct } = self.sums[pixel];
-        [emission, direct].map(|sum| sum.iter().zip(Rgb::LUMINANCE).map(|(s, w)| s * f64::from(w)).sum())
+        let Sums { direct, up_to_white, .. } = &self.sums[pixel];
+        [*up_to_white, luminance(direct)]
     }
 
     /// Radiance of emitters after so many photons.
@@ -63,12 +80,14 @@ impl Seen {
     }
 
     pub(super) fn write(&self, out: &mut Writer) {
-        self.sums.iter().flat_map(|s| s.emission.into_iter().chain(s.direct)).for_each(|sum| out.f64(sum));
+        let numbers =
+            |s: &Sums| s.emission.into_iter().chain(s.direct).chain([s.up_to_white]).collect::<Vec<_>>();
+        self.sums.iter().flat_map(numbers).for_each(|sum| out.f64(sum));
     }
 
     pub(super) fn read(&mut self, input: &mut Reader<'_>) -> Result<(), StateError> {
-        for Sums { emission, direct } in &mut self.sums {
-            for sum in emission.iter_mut().chain(direct) {
+        for Sums { emission, direct, up_to_white } in &mut self.sums {
+            for sum in emission.iter_mut().chain(direct).chain([up_to_white]) {
                 *sum = input.finite()?;
             }
         }
@@ -81,6 +100,10 @@ impl Seen {
 
 fn add(sum: &mut [f64; 3], light: Rgb, photons: f64) {
     sum.iter_mut().zip(light.to_array()).for_each(|(sum, light)| *sum += photons * f64::from(light));
+}
+
+fn luminance(sum: &[f64; 3]) -> f64 {
+    sum.iter().zip(Rgb::LUMINANCE).map(|(s, weight)| s * f64::from(weight)).sum()
 }
 
 fn mean(sum: &[f64; 3], photons: u64) -> Rgb {

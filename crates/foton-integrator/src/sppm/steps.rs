@@ -91,7 +91,8 @@ impl Ppm {
             adapts: rule == RadiusRule::Adaptive,
         };
         let direct: Vec<Rgb> = pass.lit.drain(..).flatten().flat_map(|lit| lit.light).collect();
-        renewal.add(&self.hit_points, how, (photons, direct));
+        let all = (self.light.luminance_sum(), self.photons_emitted + photons);
+        renewal.add(&self.hit_points, how, (photons, direct), all);
         Some(renewal.pixels.unknown_share())
     }
 

@@ -49,7 +49,7 @@ impl Area {
     pub(super) fn sample(&self, u_part: f32, u: Vec2) -> Surface {
         let part = self.by_area.choose(f64::from(u_part));
         let primitive = &self.primitives[part];
-        let (position, error, normal) = match *primitive {
+        self.surface(match *primitive {
             Primitive::Triangle(corners) => self.planes[part].locate(corners, warp::square_to_triangle(u)),
             Primitive::Sphere { centre, radius, .. } => {
                 locate(primitive, Vec2::ZERO, centre + warp::square_to_sphere(u) * radius)
@@ -65,7 +65,11 @@ impl Area {
                 let across = (frame.tangent * cos + frame.bitangent * sin) * radius.abs();
                 locate(primitive, Vec2::ZERO, from + axis * u.x + across)
             }
-        };
+        })
+    }
+
+    /// With its error bound and normal.
+    fn surface(&self, (position, error, normal): (Vec3, Vec3, Vec3)) -> Surface {
         Surface {
             position,
             error: error + normal.abs() * self.gap,
@@ -108,6 +112,21 @@ impl Area {
         let cosine = |direction: Vec3| direction.dot(surface.normal).max(0.0);
         let (direction, pdf) = aim.divergent(origin, u_direction, own, |direction| cosine(direction) / PI);
         Emission { origin, direction, power: self.radiance * (self.area * cosine(direction) / pdf) }
+    }
+
+    /// As [`Area::emit`] for a sphere, but such that `u_direction` alone decides the direction: light of a sphere is the same in all
+    /// directions, and in each it fills a disc. `None` for other shapes.
+    pub(super) fn emit_by_direction(&self, u_position: Vec2, u_direction: Vec2) -> Option<Emission> {
+        let [primitive @ Primitive::Sphere { centre, radius, inward: false }] = &self.primitives[..] else {
+            return None;
+        };
+        let direction = warp::square_to_sphere(u_direction);
+        let disc = warp::square_to_disc(u_position);
+        let towards = disc.extend((1.0 - disc.length_squared()).max(0.0).sqrt());
+        let outward = Frame::from_normal(direction).to_outer(towards);
+        let surface = self.surface(locate(primitive, Vec2::ZERO, *centre + outward * *radius));
+        let origin = surface.ray_origin(surface.normal);
+        Some(Emission { origin, direction, power: self.radiance * self.power_factor() })
     }
 
     pub(super) fn illuminate(&self, position: Vec3, u_part: f32, u: Vec2) -> Option<Illumination> {

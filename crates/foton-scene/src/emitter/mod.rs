@@ -160,6 +160,13 @@ impl Emitter {
         }
     }
 
+    /// Starts a photon such that `u_direction` alone decides its direction; `None` where [`Emitter::emit`] does so anyway, or for shapes
+    /// that have no such way.
+    pub(crate) fn emit_by_direction(&self, u_position: Vec2, u_direction: Vec2) -> Option<Emission> {
+        let Kind::Area(area) = &self.kind else { return None };
+        area.emit_by_direction(u_position, u_direction)
+    }
+
     /// Where it lies; `None` if that is infinitely far away.
     #[must_use]
     pub fn extent(&self) -> Option<Extent> {

@@ -144,3 +144,30 @@ fn a_rectangle_and_a_sphere_give_the_irradiance_of_their_closed_forms() {
         .sum::<f64>();
     assert!((irradiance(&rectangle, Vec3::ZERO) / expected - 1.0).abs() < 5e-3, "{expected}");
 }
+
+/// That numbers decide directions alone changes no light, and the same direction leaves all points that see it.
+#[test]
+fn a_sphere_that_goes_by_direction_brings_the_same_light() {
+    let sphere = &as_they_shine()[0];
+    let flux = |emit: &dyn Fn(Vec2, Vec2) -> Emission| {
+        let mut stream = Stream::new(5, Purpose::Test, 0, 0);
+        let n = 200_000;
+        let arrives = |e: Emission| {
+            let p = e.origin - e.direction * (e.origin.z / e.direction.z);
+            e.direction.z < 0.0 && p.length_squared() <= 1.0
+        };
+        let hits = (0..n).filter(|_| arrives(emit(stream.next_2d(), stream.next_2d()))).count();
+        hits as f64 / f64::from(n)
+    };
+    let by_direction = |x, u| sphere.emit_by_direction(x, u).expect("a sphere");
+    let (one, other) = (flux(&|x, u| sphere.emit(0.0, x, u)), flux(&by_direction));
+    // A few per cent of 200,000.
+    assert!((one / other - 1.0).abs() < 0.05, "{one} {other}");
+    assert_eq!(
+        by_direction(Vec2::ZERO, Vec2::splat(0.3)).power,
+        sphere.emit(0.0, Vec2::ZERO, Vec2::ZERO).power
+    );
+    let [a, b] = [0.1, 0.8].map(|x| by_direction(Vec2::splat(x), Vec2::splat(0.3)));
+    assert!(a.direction == b.direction && a.origin.distance(b.origin) > 0.1);
+    assert!(as_they_shine()[1].emit_by_direction(Vec2::ZERO, Vec2::ZERO).is_none());
+}

@@ -1,5 +1,6 @@
 //! The scene as rays meet it. It does not change while it renders: an edit makes the next scene.
 
+mod fingerprint;
 mod light;
 mod motion;
 mod parametrisation;

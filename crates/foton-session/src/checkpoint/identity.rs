@@ -2,7 +2,7 @@
 //! something is told what.
 
 use foton_input::shown;
-use foton_integrator::Render;
+use foton_integrator::{KeptMaps, PhotonMapSettings, Render};
 use foton_scene::Sensor;
 
 use crate::metadata::SceneIdentity;
@@ -47,6 +47,22 @@ pub(super) fn of(render: &Render, scene: &SceneIdentity) -> String {
         ("photons of the first pass", s.ppm.first_pass.to_string()),
         ("hit points a sample", s.ppm.hit_points_per_sample.to_string()),
         ("hit points", render.start_report().hit_points.to_string()),
+    ];
+    let maps = render.maps().map_or_else(String::new, |maps| of_maps(&s.photon_map, &maps));
+    lines.map(|(name, value)| format!("{name}={value}\n")).concat() + &maps
+}
+
+/// Lines of two-pass photon mapping.
+fn of_maps(s: &PhotonMapSettings, maps: &KeptMaps) -> String {
+    let lines = [
+        ("global-photons", s.global_photons.to_string()),
+        ("caustic-photons", s.caustic_photons.to_string()),
+        ("neighbours", s.neighbours.to_string()),
+        ("photon-filter", s.filter.name().to_owned()),
+        ("map-display", s.display.name().to_owned()),
+        ("gather-rays", s.gather_rays.to_string()),
+        ("shadow-photons", (if s.shadow_photons { "on" } else { "off" }).to_owned()),
+        ("maps", format!("{:016x}", maps.fingerprint())),
     ];
     lines.map(|(name, value)| format!("{name}={value}\n")).concat()
 }

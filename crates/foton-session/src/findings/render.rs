@@ -45,7 +45,7 @@ pub fn of_settings(scene: &Scene, settings: &RenderSettings, names: &SettingName
 fn of_method(scene: &Scene, settings: &RenderSettings, names: &SettingNames) -> Vec<Finding> {
     let (census, lobes, method) = (scene.census(), lobe_use(scene), settings.method);
     let mut findings = Vec::new();
-    if !method.has_photons() && census.delta_emitters && census.bends_light() {
+    if method.misses_caustics_of_points() && census.delta_emitters && census.bends_light() {
         let text = format!(
             "{} finds no light of points, spots and suns that mirrors or smooth glass throw on other surfaces: these caustics are \
              missing",

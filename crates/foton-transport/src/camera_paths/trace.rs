@@ -2,12 +2,13 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use foton_math::{Cancel, Cancelled, Stream};
+use foton_math::glam::Vec2;
+use foton_math::{Cancel, Cancelled, Ray, Rgb, Stream};
 use rayon::prelude::*;
 
 use super::earlier::Earlier;
-use super::eye_pass::{EyePass, EyePaths};
-use super::pixel_samples::OfPixel;
+use super::eye_pass::{EyePass, EyePaths, NO_SHAPE};
+use super::pixel_samples::{OfPixel, SamplePoints};
 use super::walk::Walk;
 use crate::not_finite::{self, LeftOut, Quantity};
 
@@ -55,6 +56,15 @@ impl EyePass<'_> {
     /// Follows all samples of some pixels; once cancelled no more of them.
     pub fn follow(&self, pixels: impl Iterator<Item = u32>, cancel: &Cancel) -> EyePaths {
         self.go_on(&Earlier::new(EyePaths::default()), self.samples_per_pixel.get(), pixels, cancel)
+    }
+
+    /// Follows a single sample from the sensor on, into `paths`: for methods that have new eye samples in each pass. Returns the emitted
+    /// light that it sees.
+    pub fn follow_one(&self, ray: Ray, mut stream: Stream, paths: &mut EyePaths) -> Rgb {
+        let [facet, emitter] = [stream.next_2d(), stream.next_2d()];
+        let points = SamplePoints { place: Vec2::ZERO, lens: Vec2::ZERO, facet, emitter };
+        paths.shapes.push(NO_SHAPE);
+        Walk::new(self, stream, &points, true, paths, &mut Vec::new()).follow_ray(ray)
     }
 
     fn go_on(

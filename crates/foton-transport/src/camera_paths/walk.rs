@@ -96,8 +96,13 @@ impl<'a, 'b> Walk<'a, 'b> {
         let sensor = self.pass.sensor();
         let corner = Vec2::new((pixel % sensor.width) as f32, (pixel / sensor.width) as f32);
         let ray = sensor.eye_ray(corner + 0.5 + sensor.filter.offset(place), lens);
+        self.follow_ray(ray)
+    }
+
+    /// The same from the sensor on.
+    pub(super) fn follow_ray(&mut self, ray: Ray) -> Rgb {
         self.view = ray.direction;
-        self.solid_angle = sensor.pixel_solid_angle(ray.direction);
+        self.solid_angle = self.pass.sensor().pixel_solid_angle(ray.direction);
         self.branches.push(Branch { ray, weight: Rgb::WHITE, edges: 1, distance: 0.0, pdf: 0.0 });
         while let Some(branch) = self.branches.pop() {
             self.step(branch);

@@ -38,7 +38,19 @@ pub fn arrival(
     scene: &Scene,
     at: &Receiver,
     emitter: u32,
+    u: (f32, Vec2),
+    rays: &mut u64,
+) -> Option<Arrival> {
+    arrival_if(scene, at, emitter, u, None, rays)
+}
+
+/// The same where it may be known whether the point sees all of the emitter (`Some(true)`) or nothing of it: that takes no ray.
+pub(super) fn arrival_if(
+    scene: &Scene,
+    at: &Receiver,
+    emitter: u32,
     (u_part, u): (f32, Vec2),
+    sees: Option<bool>,
     rays: &mut u64,
 ) -> Option<Arrival> {
     let light = scene.emitters()[emitter as usize].illuminate(at.origin, at.normal, u_part, u)?;
@@ -48,7 +60,11 @@ pub fn arrival(
     }
     let t_max = light.distance * (1.0 - SHORTENED);
     let ray = Ray { origin: at.origin, direction: light.direction, t_min: 0.0, t_max };
-    let transmittance = straight::transmittance(scene, ray, at.edges, rays);
+    let transmittance = match sees {
+        Some(true) => Rgb::WHITE,
+        Some(false) => return None,
+        None => straight::transmittance(scene, ray, at.edges, rays),
+    };
     let irradiance = light.radiance_over_pdf * transmittance * cosine;
     (!transmittance.is_black()).then_some(Arrival {
         irradiance,

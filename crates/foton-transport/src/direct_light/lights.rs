@@ -6,7 +6,7 @@ use foton_math::glam::Vec2;
 use foton_math::sobol;
 use foton_scene::Scene;
 
-use super::arrival::{Arrival, Receiver, arrival};
+use super::arrival::{Arrival, Receiver, arrival_if};
 use super::tree::LightTree;
 
 /// Up to this many emitters of a single point are sampled once and for all; more are chosen among.
@@ -64,8 +64,20 @@ impl Lights {
     }
 
     /// Light of emitters of a single point or direction: all of it, without noise.
-    pub fn fixed(&self, scene: &Scene, at: &Receiver, rays: &mut u64, mut add: impl FnMut(Arrival)) {
-        let of = |&emitter: &u32| arrival(scene, at, emitter, (0.0, Vec2::ZERO), rays);
+    pub fn fixed(&self, scene: &Scene, at: &Receiver, rays: &mut u64, add: impl FnMut(Arrival)) {
+        self.fixed_where(scene, at, |_| None, rays, add);
+    }
+
+    /// The same where `sees` may know of an emitter, by its index, that the point sees all or nothing of it: that takes no ray.
+    pub fn fixed_where(
+        &self,
+        scene: &Scene,
+        at: &Receiver,
+        sees: impl Fn(u32) -> Option<bool>,
+        rays: &mut u64,
+        mut add: impl FnMut(Arrival),
+    ) {
+        let of = |&emitter: &u32| arrival_if(scene, at, emitter, (0.0, Vec2::ZERO), sees(emitter), rays);
         self.fixed.iter().filter_map(of).for_each(&mut add);
     }
 
@@ -74,13 +86,27 @@ impl Lights {
         &self,
         scene: &Scene,
         at: &Receiver,
+        point: (u32, &[Scramble; SCRAMBLES]),
+        rays: &mut u64,
+        add: impl FnMut(Arrival),
+    ) {
+        self.sample_where(scene, at, point, |_| None, rays, add);
+    }
+
+    /// The same where `sees` may know of an emitter, by its index, that the point sees all or nothing of it: that takes no ray.
+    pub fn sample_where(
+        &self,
+        scene: &Scene,
+        at: &Receiver,
         (index, scrambles): (u32, &[Scramble; SCRAMBLES]),
+        sees: impl Fn(u32) -> Option<bool>,
         rays: &mut u64,
         mut add: impl FnMut(Arrival),
     ) {
         for (i, &emitter) in self.each.iter().enumerate() {
             let [x, y, _, part] = sobol::point(index, scrambles[1 + i % (SCRAMBLES - 1)]).map(sobol::unit);
-            arrival(scene, at, emitter, (part, Vec2::new(x, y)), rays).into_iter().for_each(&mut add);
+            let u = (part, Vec2::new(x, y));
+            arrival_if(scene, at, emitter, u, sees(emitter), rays).into_iter().for_each(&mut add);
         }
         if self.tree.is_empty() {
             return;
@@ -89,7 +115,8 @@ impl Lights {
         let choice = f64::from(point[2]) / (1u64 << 32) as f64;
         let Some((emitter, probability)) = self.tree.choose(at, choice) else { return };
         let [x, y, _, part] = point.map(sobol::unit);
-        if let Some(found) = arrival(scene, at, emitter, (part, Vec2::new(x, y)), rays) {
+        let u = (part, Vec2::new(x, y));
+        if let Some(found) = arrival_if(scene, at, emitter, u, sees(emitter), rays) {
             let probability = probability as f32;
             add(Arrival {
                 irradiance: found.irradiance / probability,

@@ -31,7 +31,7 @@ impl Cell {
 
     /// The primary numbers at the place `u` within it, below 1.
     #[inline(always)]
-    fn at(&self, u: PrimaryNumbers) -> PrimaryNumbers {
+    pub(super) fn at(&self, u: PrimaryNumbers) -> PrimaryNumbers {
         std::array::from_fn(|i| (self.low[i] + u[i] * self.size[i]).min(1.0 - f32::EPSILON / 2.0))
     }
 }

@@ -10,9 +10,12 @@
 //! probabilities in proportion to √(mean square per cost), which minimise the noise for a given amount of work. Training on
 //! whether photons arrive at all would starve the few that make caustics. After `[GBBE18]`, who cut the space of primary numbers
 //! for camera paths.
+//!
+//! Photons of a map of caustics start by another rule, that of `projection.rs`: where emitters see what casts them.
 
 mod cells;
 mod growth;
+mod projection;
 mod samples;
 #[cfg(test)]
 mod tests;

@@ -26,6 +26,8 @@ pub struct PhotonPass<'a> {
     pub grid: &'a Grid,
     /// Whether photons that come straight from an emitter are stored: not where shadow rays bring that light.
     pub stores_direct: bool,
+    /// Whether photons end where light spreads: for a map of caustics, whose paths have specular lobes alone. `[JEN96]`
+    pub ends_where_light_spreads: bool,
     /// Which lobes hit points gather photons for.
     pub policy: LobePolicy,
     /// Whether any hit point needs a photon's direction.

@@ -111,6 +111,10 @@ impl PhotonPass<'_> {
         let wo = -path.ray.direction;
         let &Leaving { direction, weight, normal, bounce, reflects } = leaving;
         let is_specular = bounce != Bounce::Gathered;
+        if self.ends_where_light_spreads && !is_specular {
+            chunk.ledger.absorbed += energy(path.power);
+            return;
+        }
         let scattered = path.power * weight;
         let correction = if !is_specular && leaves_wrongly(surface, wo, direction, reflects) {
             0.0

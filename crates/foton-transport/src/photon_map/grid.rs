@@ -146,6 +146,21 @@ impl Grid {
         Ok(grid)
     }
 
+    /// A single cell that holds all places: for photons that are kept wherever they land.
+    #[must_use]
+    pub fn everywhere() -> Self {
+        // Far beyond any scene, so that all of it is in the middle of the cell.
+        const FAR: f32 = 1e30;
+        Self {
+            growth: None,
+            origin: Vec3::splat(-FAR),
+            inverse_cell: 0.5 / FAR,
+            cells: UVec3::ONE,
+            words: vec![Word { touched: 1, rank: 0 }, Word { touched: 0, rank: 1 }],
+            touched: 1,
+        }
+    }
+
     /// Marks the cells that discs touch now, and numbers them.
     pub fn mark(&mut self, packets: &[Packet]) {
         // Never cancelled.

@@ -96,6 +96,18 @@ impl Photon {
         i32::from(self.edges) | patch_mark((self.code >> PATCH_SHIFT) as u8)
     }
 
+    /// The patch that it lies on, and the side of it.
+    #[inline]
+    pub const fn patch(&self) -> u8 {
+        (self.code >> PATCH_SHIFT) as u8
+    }
+
+    /// Its class.
+    #[inline]
+    pub const fn class(&self) -> PathClass {
+        PathClass::ALL[self.class_index()]
+    }
+
     /// The same, marked if its light reaches narrow specular lobes by photons alone: see [`Photon::is_lone`].
     #[inline]
     pub const fn marked(self, lone: bool) -> Self {

@@ -3,6 +3,7 @@
 mod measure;
 mod options;
 mod parse;
+mod photon_map;
 mod render;
 #[cfg(test)]
 mod tests;

@@ -11,6 +11,7 @@ use foton_session::snapshot::{self, Format, Look};
 
 use super::options::{SceneOptions, SettingsOptions};
 use super::parse::{bytes, duration, error_wish, exr, image, layer, name, region, stops};
+use super::photon_map::PhotonMapOptions;
 use super::values::{ErrorWish, Every, Integrator, PresetName, Show, ToneMapName};
 
 /// `foton render`.
@@ -44,7 +45,9 @@ pub(crate) struct RenderArgs {
     /// With --integrator all, the image that the others are compared with [default: the one with the smallest estimated error]
     #[arg(long, value_name = "REF.exr", value_parser = name(exr))]
     pub(crate) reference: Option<PathBuf>,
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = "Two-pass photon mapping (--integrator photon-map)")]
+    pub(crate) photon_map: PhotonMapOptions,
+    #[command(flatten, next_help_heading = "Options")]
     pub(crate) scene_options: SceneOptions,
     /// Render only a part of the image: W x H pixels from column X and row Y of the whole, in place of a crop window of the scene.
     /// The image has that size. Photons and radii go by what is seen in it, so its pixels are those of the whole image only up

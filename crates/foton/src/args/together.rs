@@ -67,10 +67,20 @@ impl RenderArgs {
     fn contradiction(&self) -> Option<String> {
         self.layers_in_vain()
             .or_else(|| self.look_in_vain())
+            .or_else(|| self.maps_in_vain())
             .or_else(|| self.method_in_vain())
             .or_else(|| self.sensors_in_vain())
             .or_else(|| self.show_in_vain())
             .or_else(|| clash(&self.roles()))
+    }
+
+    fn maps_in_vain(&self) -> Option<String> {
+        let maps = &self.photon_map;
+        let option =
+            maps.maps.as_ref().map(|_| "--maps").or(maps.save_maps.as_ref().map(|_| "--save-maps"))?;
+        (self.integrator.method() != Some(Method::PhotonMap)).then(|| {
+            format!("{option}: only --integrator photon-map has photon maps; add that, or leave {option} out")
+        })
     }
 
     fn method_in_vain(&self) -> Option<String> {
@@ -174,6 +184,8 @@ impl RenderArgs {
             .keeps(self.checkpoint.as_deref())
             .writes_numbered(&self.output.0, self.every)
             .resumes(self.resume.as_deref())
+            .writes("--save-maps", self.photon_map.save_maps.as_deref())
+            .reads("--maps", self.photon_map.maps.as_deref())
             .reads("--reference", self.reference.as_deref())
             .reads("the scene", Some(&self.scene));
         let methods: &[Method] = if self.integrator.method().is_none() { &Method::ALL } else { &[] };

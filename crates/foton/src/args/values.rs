@@ -149,6 +149,9 @@ pub(crate) enum Integrator {
     /// Whitted's ray tracing: shadow rays, perfect reflection and refraction, nothing else
     #[value(name = "whitted")]
     WhittedRayTracing,
+    /// Two-pass photon mapping: maps of photons that stay, shown by final gathering. Fast, with a bias that passes do not lower
+    #[value(name = "photon-map")]
+    PhotonMapping,
     /// Each of them in turn, for the same time: OUT becomes a contact sheet, and a table says how much they differ
     #[value(name = "all")]
     All,
@@ -163,6 +166,7 @@ impl Integrator {
             Self::StochasticProgressivePhotonMapping => Some(Method::Sppm),
             Self::PathTracing => Some(Method::Path),
             Self::WhittedRayTracing => Some(Method::Whitted),
+            Self::PhotonMapping => Some(Method::PhotonMap),
         }
     }
 }

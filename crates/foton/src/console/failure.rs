@@ -11,6 +11,7 @@ use foton_measure::CompareError;
 use foton_measure::sweep::SweepError;
 use foton_scene::BuildError;
 use foton_session::checkpoint::ResumeError;
+use foton_session::maps::MapsError;
 use foton_session::{Panic, StartError};
 
 use crate::memory::Confined;
@@ -60,6 +61,7 @@ pub(crate) enum Failure {
         values: u64,
     },
     Resume(ResumeError),
+    Maps(MapsError),
     Sweep(SweepError),
     Write(WriteError),
     /// Files in two roles, as known once the scene was read.
@@ -126,6 +128,7 @@ impl fmt::Display for Failure {
                 shown_path(path)
             ),
             Self::Resume(cause) => cause.fmt(f),
+            Self::Maps(cause) => cause.fmt(f),
             Self::Sweep(cause) => cause.fmt(f),
             Self::Write(cause) => cause.fmt(f),
             Self::Roles(clash) => f.write_str(&clash.message),
@@ -183,6 +186,12 @@ impl From<SweepError> for Failure {
             SweepError::Cancelled(_) => Self::Interrupted("making the reference"),
             other => Self::Sweep(other),
         }
+    }
+}
+
+impl From<MapsError> for Failure {
+    fn from(cause: MapsError) -> Self {
+        Self::Maps(cause)
     }
 }
 

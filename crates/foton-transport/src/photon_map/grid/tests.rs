@@ -123,3 +123,12 @@ fn positions_outside_or_far_from_all_discs_have_no_number() {
     assert_eq!(grid.number(Vec3::splat(f32::NAN)), None);
     assert_eq!(grid_of(&[]).number(Vec3::ZERO), None);
 }
+
+#[test]
+fn a_grid_of_everywhere_has_one_cell_for_all_places() {
+    let grid = Grid::everywhere();
+    for at in [Vec3::ZERO, Vec3::splat(-4096.0), Vec3::new(1e9, -1e9, 3.0)] {
+        assert_eq!(grid.number(at), Some(0));
+    }
+    assert_eq!((grid.touched(), grid.number(Vec3::splat(f32::NAN))), (1, None));
+}
