@@ -3,7 +3,7 @@
 use super::*;
 
 /// Methods, by their names.
-const METHODS: [&str; 3] = ["ppm", "path", "whitted"];
+const METHODS: [&str; 5] = ["ppm", "sppm", "path", "whitted", "photon-map"];
 
 #[test]
 fn every_method_writes_images_checkpoints_and_layers_and_says_which_it_is() {
@@ -16,7 +16,7 @@ fn every_method_writes_images_checkpoints_and_layers_and_says_which_it_is() {
         let (_, metadata) = folder.exr("whole.exr");
         let settings = metadata.get("foton:settings").expect("settings").to_owned();
         assert!(settings.starts_with(&format!("integrator={method} ")), "{settings}");
-        assert_eq!(settings.contains("alpha="), method == "ppm", "{settings}");
+        assert_eq!(settings.contains("alpha="), method.ends_with("ppm"), "{settings}");
         folder.done(&format!("{render} --passes 2 -o half.exr --checkpoint half.ck"));
         folder.done(&format!("{render} --passes 4 -o whole-again.exr --resume half.ck"));
         assert!(folder.bytes("whole.exr") == folder.bytes("whole-again.exr"), "{method}");
@@ -24,7 +24,7 @@ fn every_method_writes_images_checkpoints_and_layers_and_says_which_it_is() {
         assert!(folder.bytes("whole.exr") == folder.bytes("one.exr"), "{method}");
     }
     let said = folder.fails(1, "render scene.xml --integrator ppm --passes 4 -o x.exr --resume half.ck");
-    assert!(said.contains("integrator whitted, not ppm"), "{said}");
+    assert!(said.contains("integrator photon-map, not ppm"), "{said}");
 }
 
 #[test]
