@@ -3,12 +3,13 @@
 use super::*;
 
 /// Methods, by their names.
-const METHODS: [&str; 3] = ["ppm", "path", "whitted"];
+const METHODS: [&str; 5] = ["ppm", "sppm", "path", "whitted", "photon-map"];
 
 #[test]
 fn every_method_writes_images_checkpoints_and_layers_and_says_which_it_is() {
     let folder = Folder::new("each-method");
-    for method in METHODS {
+    // Photon maps have tests of their own (`tests/tests/photon_maps.rs`).
+    for method in &METHODS[..4] {
         let render = format!(
             "render scene.xml --integrator {method} --photons 2000 --layers direct,indirect,emission,error_noise"
         );
@@ -16,7 +17,7 @@ fn every_method_writes_images_checkpoints_and_layers_and_says_which_it_is() {
         let (_, metadata) = folder.exr("whole.exr");
         let settings = metadata.get("foton:settings").expect("settings").to_owned();
         assert!(settings.starts_with(&format!("integrator={method} ")), "{settings}");
-        assert_eq!(settings.contains("alpha="), method == "ppm", "{settings}");
+        assert_eq!(settings.contains("alpha="), method.ends_with("ppm"), "{settings}");
         folder.done(&format!("{render} --passes 2 -o half.exr --checkpoint half.ck"));
         folder.done(&format!("{render} --passes 4 -o whole-again.exr --resume half.ck"));
         assert!(folder.bytes("whole.exr") == folder.bytes("whole-again.exr"), "{method}");
