@@ -98,7 +98,7 @@ impl Method {
     /// Whether hit points gather photons in discs that shrink from pass to pass: then radii, α and photons a pass mean something.
     #[must_use]
     pub const fn has_discs(self) -> bool {
-        matches!(self, Self::Ppm)
+        matches!(self, Self::Ppm | Self::Sppm)
     }
 
     /// Whether passes have photons.

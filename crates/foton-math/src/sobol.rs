@@ -61,11 +61,13 @@ pub fn point(index: u32, scramble: [u32; DIMENSIONS]) -> [u32; DIMENSIONS] {
 /// permutes the digits of coordinates. `[OWE98]`
 #[must_use]
 #[inline]
-pub fn reordered(index: u32, order: u32) -> u32 {
+pub const fn reordered(index: u32, order: u32) -> u32 {
     let mut result = index & (u32::MAX << (2 * DIGITS));
-    for digit in 0..DIGITS {
+    let mut digit = 0;
+    while digit < DIGITS {
         let (value, above) = ((index >> (2 * digit)) & 3, index >> (2 * digit) >> 2);
         result |= permuted(value, chance(order, digit, above)) << (2 * digit);
+        digit += 1;
     }
     result
 }
@@ -82,14 +84,29 @@ const fn chance(order: u32, digit: u32, above: u32) -> u32 {
 }
 
 /// What the `chance`-th of the 24 permutations of four values makes of one.
-fn permuted(value: u32, chance: u32) -> u32 {
-    let mut left = [0, 1, 2, 3];
-    let mut rest = chance % 24;
-    for (i, choices) in (0..3).zip([4u32, 3, 2]) {
-        left.swap(i, i + (rest % choices) as usize);
-        rest /= choices;
+const fn permuted(value: u32, chance: u32) -> u32 {
+    (PERMUTATIONS[(chance % 24) as usize] >> (2 * value)) as u32 & 3
+}
+
+/// The permutations of four values, two binary digits for what each makes of a value.
+const PERMUTATIONS: [u8; 24] = permutations();
+
+const fn permutations() -> [u8; 24] {
+    let mut all = [0; 24];
+    let mut n = 0;
+    while n < 24 {
+        let mut left = [0u8, 1, 2, 3];
+        let (mut rest, mut i) = (n, 0);
+        while i < 3 {
+            let other = i + rest % (4 - i);
+            rest /= 4 - i;
+            (left[i], left[other]) = (left[other], left[i]);
+            i += 1;
+        }
+        all[n] = left[0] | left[1] << 2 | left[2] << 4 | left[3] << 6;
+        n += 1;
     }
-    left[value as usize]
+    all
 }
 
 /// A binary fraction as a number in [0, 1).

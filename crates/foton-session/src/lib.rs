@@ -21,6 +21,7 @@
 
 pub mod checkpoint;
 mod clock;
+mod dots;
 pub mod engine;
 pub mod findings;
 pub mod folders;
@@ -31,6 +32,7 @@ mod metadata;
 mod panic;
 mod preset;
 mod session;
+mod shown;
 pub mod snapshot;
 mod stop;
 #[cfg(test)]
@@ -49,5 +51,6 @@ pub use metadata::SceneIdentity;
 pub use panic::Panic;
 pub use preset::Preset;
 pub use session::{PassError, Progress, Session, StartError, StopCause};
+pub use shown::Shown;
 pub use stop::StopRule;
 pub use views::Views;

@@ -8,6 +8,7 @@ use foton_film::{WriteError, write_exr, write_png};
 use foton_integrator::{LayerKind, Render};
 
 use crate::metadata::{self, SceneIdentity};
+use crate::shown::Shown;
 
 /// Endings of scenes' files.
 const ENDINGS: [&str; 4] = ["xml", "obj", "ply", "stl"];
@@ -46,28 +47,32 @@ pub struct Look {
     pub exposure_stops: f32,
 }
 
-/// Writes a render as it stands; a PNG shows it by `look`, and says so in its metadata.
+/// Writes what is to be shown of a render as it stands; a PNG shows it by `look`, and says so in its metadata.
 ///
 /// # Errors
 /// [`WriteError`] with the path; a file that was there before is then still whole.
 pub fn write(
     path: &Path,
     format: Format,
-    render: &Render,
+    (render, shown): (&Render, &Shown),
     layers: &[LayerKind],
     look: Look,
     scene: &SceneIdentity,
 ) -> Result<(), WriteError> {
     let mut metadata = metadata::of(render, layers, scene);
+    if let Some(shown) = shown.name() {
+        metadata.set("foton:shown", shown);
+    }
+    let image = shown.image(render);
     match format {
         Format::Exr => {
             let layers: Vec<_> = layers.iter().filter_map(|&kind| render.layer(kind)).collect();
-            write_exr(path, &render.image(), &layers, &metadata)
+            write_exr(path, &image, &layers, &metadata)
         }
         Format::Png => {
             let Look { tone_map, exposure_stops } = look;
             metadata.set("foton:look", format!("exposure={exposure_stops} tone_map={}", tone_map.key()));
-            write_png(path, &render.image(), tone_map, exposure_stops, &metadata)
+            write_png(path, &image, tone_map, exposure_stops, &metadata)
         }
     }
 }

@@ -8,7 +8,7 @@ use foton_integrator::{LayerKind, Method, RenderSettings};
 use foton_measure::{Pair, Panel, contact_sheet, without_bright_emitters};
 use foton_scene::Scene;
 use foton_session::snapshot::Format;
-use foton_session::{Interrupt, SceneIdentity, Session, StopCause, StopRule};
+use foton_session::{Interrupt, SceneIdentity, Session, Shown, StopCause, StopRule};
 use serde_json::json;
 
 use crate::args::RenderArgs;
@@ -85,7 +85,11 @@ fn by(
         };
     }
     let output = args.image_of(method);
-    Content { layers: &[], look: args.look(), identity }.write(&output, Format::Exr, render)?;
+    Content { layers: &[], shown: Shown::All, look: args.look(), identity }.write(
+        &output,
+        Format::Exr,
+        render,
+    )?;
     Ok(Some(Outcome {
         method,
         image: render.image(),

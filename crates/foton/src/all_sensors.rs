@@ -29,7 +29,7 @@ pub(crate) fn render(
     let outputs = outputs(args, scene);
     outputs.iter().try_for_each(|path| check_writable(path))?;
     let layers = if args.output.1 == Format::Exr { &args.layers[..] } else { &[] };
-    let content = Content { layers, look: args.look(), identity };
+    let content = Content { layers, shown: args.shown(), look: args.look(), identity };
     console.of_settings(scene, settings);
     if settings.method == Method::Ppm {
         return together(args, scene, settings, (rule, interrupt), (&outputs, &content), console);

@@ -6,7 +6,7 @@ use std::time::Duration;
 use foton_film::check_writable;
 use foton_format::Options;
 use foton_session::snapshot::{self, Format, Look};
-use foton_session::{Session, StopRule};
+use foton_session::{Session, Shown, StopRule};
 
 use crate::console::{Console, Failure};
 use crate::embedded::ALL;
@@ -47,7 +47,7 @@ pub(crate) fn render(scene: Option<&Path>, console: &mut Console) -> Result<(), 
     for path in [&png.path, &exr.path] {
         check_writable(path)?;
     }
-    let content = Content { layers: &[], look: Look::default(), identity: &identity };
+    let content = Content { layers: &[], shown: Shown::All, look: Look::default(), identity: &identity };
     begin_step("collecting hit points");
     console.stage("collecting hit points");
     let mut session = Session::start(scene, settings, None, cancel)?;

@@ -50,7 +50,7 @@ pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Fai
             .photon_map(args.photon_map.settings())
             .sensor(sensor)
             .error(args.error != Some(ErrorWish::Off))
-            .layers(&args.layers)
+            .layers(&args.all_layers())
             .build()
     };
     let rule = stop_rule(args, suggested.passes, console);
@@ -180,7 +180,7 @@ fn run(
 ) -> Result<(), Failure> {
     let (path, format) = &args.output;
     let layers = if *format == Format::Exr { &args.layers[..] } else { &[] };
-    let content = Content { layers, look: args.look(), identity };
+    let content = Content { layers, shown: args.shown(), look: args.look(), identity };
     let elapsed = session.elapsed();
     let keeper = |path| Keeper::new(path, identity.clone(), args.checkpoint_every, elapsed);
     let mut keeper = args.checkpoint.as_deref().map(keeper);

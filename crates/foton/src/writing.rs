@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use foton_film::{WriteError, write_new, write_spare};
 use foton_integrator::{LayerKind, Render};
 use foton_session::snapshot::{self, Format, Look};
-use foton_session::{SceneIdentity, Session, checkpoint};
+use foton_session::{SceneIdentity, Session, Shown, checkpoint};
 
 use crate::console::{Console, Failure};
 
@@ -13,6 +13,8 @@ use crate::console::{Console, Failure};
 pub(crate) struct Content<'a> {
     /// Layers of an EXR.
     pub(crate) layers: &'a [LayerKind],
+    /// What of the render they show.
+    pub(crate) shown: Shown,
     /// How a PNG shows radiance.
     pub(crate) look: Look,
     /// The scene.
@@ -22,7 +24,7 @@ pub(crate) struct Content<'a> {
 impl Content<'_> {
     /// Writes an image of a render as it stands.
     pub(crate) fn write(&self, path: &Path, format: Format, render: &Render) -> Result<(), WriteError> {
-        snapshot::write(path, format, render, self.layers, self.look, self.identity)
+        snapshot::write(path, format, (render, &self.shown), self.layers, self.look, self.identity)
     }
 }
 
@@ -103,7 +105,7 @@ fn rescue(
     let image = write_spare(path, |path| content.write(path, format, render));
     let image = image.or_else(|| {
         let path = path.with_extension("exr");
-        let bare = Content { layers: &[], ..*content };
+        let bare = Content { layers: &[], shown: content.shown.clone(), ..*content };
         write_spare(&path, |path| bare.write(path, Format::Exr, render))
     });
     let state = || {

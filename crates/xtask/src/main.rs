@@ -1,4 +1,4 @@
-//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `versus`, `assets`, `pictures`, `screenshots`, `bench`, `monkey`, `soak`, `kills`,
+//! Developer tasks: `cargo xtask test`, `ci`, `conformance`, `versus`, `assets`, `pictures`, `lecture`, `screenshots`, `bench`, `monkey`, `soak`, `kills`,
 //! `limits`, `loaded`, `mutations`, `miri`.
 //!
 //! Nothing here is part of the program; what a task does is in the module of its name.
@@ -7,6 +7,7 @@
 mod assets;
 mod ci;
 mod conformance;
+mod lecture;
 mod loaded;
 mod miri;
 mod mutations;
@@ -30,6 +31,7 @@ cargo xtask calibrate [WHAT]        whether the live error can be believed; stop
                                     rules: what adaptive radii gain; floors: what the smallest radius costs; kernels: how other kernels compare with the box (many minutes)
 cargo xtask assets                  writes the generated meshes in assets/ again
 cargo xtask pictures [--window]     renders every scene in assets/ to docs/pictures, and the window (some minutes); or it alone
+cargo xtask lecture                 pictures for a lecture, each by one command, and docs/lecture.md, which shows them (some minutes)
 cargo xtask screenshots [FOLDER]    the window in each state of its panels, both themes and several sizes (target/screenshots), to look at
 cargo xtask bench [WHAT]            how fast, on a quiet machine: whole (the benchmark box, stage by stage), parts (by criterion), scaling,
                                     wide, accuracy (error a processor second), answers (commands within a
@@ -65,6 +67,7 @@ fn main() -> ExitCode {
             .map_err(|cause| Trouble::Failed(cause.to_string())),
         ["pictures"] => pictures::render_all(),
         ["pictures", "--window"] => pictures::of_window(),
+        ["lecture"] => lecture::make(),
         ["screenshots"] => program::screenshots(&tools::target_dir().join("screenshots")),
         ["screenshots", folder] => program::screenshots(folder.as_ref()),
         ["monkey"] => program::monkey("10"),

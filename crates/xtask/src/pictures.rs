@@ -33,6 +33,7 @@ const PICTURES: &[Picture] = &[
         samples: 4,
         thumbnail: Some(("96x96", 16)),
     },
+    Picture { scene: "cornell-water", size: "480x480", passes: 64, samples: 4, thumbnail: None },
     Picture { scene: "cornell-diffuse", size: "480x480", passes: 24, samples: 4, thumbnail: None },
     Picture { scene: "box-spheres", size: "480x480", passes: 32, samples: 4, thumbnail: Some(("96x96", 16)) },
     Picture { scene: "museum", size: "480x360", passes: 48, samples: 4, thumbnail: None },
@@ -70,7 +71,7 @@ pub(crate) fn of_window() -> Result<(), Trouble> {
 }
 
 /// The program, built, and the folder for its pictures, made.
-fn prepare() -> Result<(PathBuf, PathBuf), Trouble> {
+pub(crate) fn prepare() -> Result<(PathBuf, PathBuf), Trouble> {
     let folder = tools::root().join("docs/pictures");
     fs::create_dir_all(&folder).map_err(|cause| Trouble::Failed(format!("{}: {cause}", folder.display())))?;
     tools::run(&mut tools::cargo(&["build", "--release", "--package", "foton"]))?;

@@ -15,11 +15,11 @@ const Z_90: f64 = 1.645;
 /// Laplacian; right on the edge both sides cancel.
 const SEEN_AT_EDGES: f64 = 0.55;
 
-/// How far an image is from the one that endless passes over the same eye samples would make.
+/// How far an image is from the one that endless passes would make: where eye samples are followed once, over those same samples.
 ///
 /// All shares are relative to the mean reflected luminance of those pixels that see anything reflect; the error is the root
-/// mean square over the same pixels. Left out, because passes cannot show it: what the eye samples miss (antialiasing and
-/// gloss are frozen with them), light on paths that no photon has found yet where others have, and most of the bias right at
+/// mean square over the same pixels. Left out, because passes cannot show it: what eye samples miss that stand still (antialiasing
+/// and gloss are frozen with them), light on paths that no photon has found yet where others have, and most of the bias right at
 /// edges, which is no Laplacian.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorEstimate {

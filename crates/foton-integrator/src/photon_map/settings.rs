@@ -2,7 +2,8 @@
 
 use std::num::NonZeroU32;
 
-use foton_transport::kd_tree::KernelFilter;
+use foton_transport::kd_tree::{KernelFilter, PACKED_BYTES};
+use foton_transport::photon_map::Photon;
 
 /// How indirect light is taken from the maps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -45,6 +46,17 @@ pub struct PhotonMapSettings {
     pub gather_rays: NonZeroU32,
     /// Whether shadow photons tell where shadow rays would be in vain.
     pub shadow_photons: bool,
+}
+
+impl PhotonMapSettings {
+    /// Bytes of maps while they are made: photons as they are traced, and as they stay.
+    pub(crate) fn bytes(&self) -> f64 {
+        let [global, caustic] = [self.global_photons.get(), self.caustic_photons].map(f64::from);
+        let photon = (size_of::<Photon>() + 2 * PACKED_BYTES) as f64;
+        let shadows = if self.shadow_photons { 2.0 * global * (2 * PACKED_BYTES) as f64 } else { 0.0 };
+        // Emission stops at the end of a pass, a little later. Irradiance is kept at a few of them, with directions.
+        1.2 * (global + caustic) * photon + global * 16.0 + shadows
+    }
 }
 
 impl Default for PhotonMapSettings {

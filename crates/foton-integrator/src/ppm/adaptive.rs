@@ -92,24 +92,51 @@ impl RadiusStatistics {
         }
     }
 
-    /// Adds what another has found, whose light counts by a weight: as if all of it had been found in one disc.
-    pub(crate) fn add_weighted(&mut self, other: &Self, weight: f64) {
+    /// Adds what a hit point of a pass has found, whose light counts by a weight. A photon reaches all hit points of a pixel about
+    /// alike, so the roots of their variances add up.
+    pub(crate) fn add_hit_point(&mut self, other: &Self, weight: f64) {
         self.light += weight * other.light;
-        self.variance += weight * weight * other.variance;
+        self.variance = (self.variance.sqrt() + weight * other.variance.sqrt()).powi(2);
         self.laplacian += weight * other.laplacian;
         self.offset.iter_mut().zip(other.offset).for_each(|(sum, offset)| *sum += weight * offset);
         self.spread += other.spread;
         self.freedom += other.freedom;
     }
 
+    /// Adds what another pass has found.
+    pub(crate) fn add_pass(&mut self, pass: &Self) {
+        self.light += pass.light;
+        self.variance += pass.variance;
+        self.laplacian += pass.laplacian;
+        self.offset.iter_mut().zip(pass.offset).for_each(|(sum, offset)| *sum += offset);
+        self.spread += pass.spread;
+        self.freedom += pass.freedom;
+    }
+
+    /// One of that light, variance and Laplacian.
+    #[cfg(test)]
+    pub(crate) fn of_laplacian(light: f64, variance: f64, laplacian: f64) -> Self {
+        Self { light, variance, laplacian, ..Self::default() }
+    }
+
+    /// Squares of the sums that tell bias: of the Laplacian, and of the offset.
+    pub(crate) fn squares(&self) -> [f64; 2] {
+        [self.laplacian * self.laplacian, self.offset.iter().map(|o| o * o).sum()]
+    }
+
     /// R: bias² over half the noise², at most [`MAX_BALANCE`]; 1 while nothing is known.
     fn balance(&self) -> f64 {
+        // Over a disc 36 (s − ½)² is 3 on average, and d²/r² a half.
+        self.balance_beside([3.0 * self.variance, 0.5 * self.variance])
+    }
+
+    /// The same where the variances of the sums that [`RadiusStatistics::squares`] has the squares of are known otherwise.
+    fn balance_beside(&self, noise: [f64; 2]) -> f64 {
         if self.light <= 0.0 || self.variance <= 0.0 {
             return 1.0;
         }
-        // Over a disc 36 (s − ½)² is 3 on average, and d²/r² a half.
-        let laplacian2 = self.laplacian * self.laplacian - CAUTION * 3.0 * self.variance;
-        let offset2 = self.offset.iter().map(|o| o * o).sum::<f64>() - CAUTION * 0.5 * self.variance;
+        let [laplacian2, offset2] = self.squares();
+        let (laplacian2, offset2) = (laplacian2 - CAUTION * noise[0], offset2 - CAUTION * noise[1]);
         let at_edges = OF_OFFSET * offset2.max(0.0) / self.light;
         let bias2 = laplacian2.max(0.0) + at_edges * at_edges;
         // NaN where both sums are infinite: `min` then takes the maximum.
@@ -141,8 +168,12 @@ impl RadiusStatistics {
 
     /// The share of new photons to retain, which is `alpha` where bias and noise are in balance.
     pub(crate) fn alpha(&self, alpha: Alpha) -> Alpha {
-        let a = alpha.get();
-        Alpha::new(a / (a + (1.0 - a) * self.balance())).unwrap_or(alpha)
+        retained(alpha, self.balance())
+    }
+
+    /// The same where the variances of what tells bias are known otherwise.
+    pub(crate) fn alpha_beside(&self, alpha: Alpha, noise: [f64; 2]) -> Alpha {
+        retained(alpha, self.balance_beside(noise))
     }
 
     pub(crate) fn write(&self, out: &mut Writer) {
@@ -161,6 +192,12 @@ impl RadiusStatistics {
             freedom: next()?,
         })
     }
+}
+
+/// The share of new photons to retain where bias² over half the noise² is that.
+fn retained(alpha: Alpha, balance: f64) -> Alpha {
+    let a = alpha.get();
+    Alpha::new(a / (a + (1.0 - a) * balance)).unwrap_or(alpha)
 }
 
 #[cfg(test)]

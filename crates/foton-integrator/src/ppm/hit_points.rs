@@ -26,6 +26,17 @@ pub(crate) struct ShadowOrigin {
     pub(crate) shading_normal: Vec3,
 }
 
+/// How hit points are laid out.
+#[derive(Clone, Copy)]
+pub(crate) struct Layout {
+    /// Whether any surface has normals that photons need a correction for.
+    pub(crate) shading_normals: bool,
+    /// Whether shadow rays bring direct light.
+    pub(crate) shadow_rays: bool,
+    /// Hit points among which neighbours are looked for, in sample order.
+    pub(crate) in_band: usize,
+}
+
 /// All hit points. Packets of Lambertian ones come first. Vectors whose names end in `_slots` have [`LANES`] entries a packet.
 pub(crate) struct HitPoints {
     pub(crate) packets: Vec<Packet>,
@@ -59,15 +70,15 @@ impl HitPoints {
         found: &[HitPoint],
         gloss: &[Gloss],
         pixel_start: Vec<u32>,
-        shading_normals: bool,
-        shadow_rays: bool,
+        how: Layout,
         cancel: &Cancel,
     ) -> Result<Self, Cancelled> {
-        let lambertian = photon_map::group(found, |h| h.gloss.is_none(), cancel)?;
+        let Layout { shading_normals, shadow_rays, in_band } = how;
+        let lambertian = photon_map::group(found, |h| h.gloss.is_none(), in_band, cancel)?;
         let glossy = if gloss.is_empty() {
             Groups::default()
         } else {
-            photon_map::group(found, |h| h.gloss.is_some(), cancel)?
+            photon_map::group(found, |h| h.gloss.is_some(), in_band, cancel)?
         };
         let groups: Vec<&[u32]> = lambertian.iter().chain(glossy.iter()).collect();
         let packet =

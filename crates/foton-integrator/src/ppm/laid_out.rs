@@ -4,12 +4,13 @@ use foton_math::Rgb;
 use foton_math::glam::Vec3;
 use foton_scene::{Scene, Sources};
 use foton_transport::camera_paths::{EyePaths, HitPoint};
+use foton_transport::photon_map::BAND;
 use foton_transport::{Cancel, Cancelled, NotFinite};
 
 use super::direct::by_shadow_rays;
 use super::eye_samples::EyeSamples;
 use super::guidance::Guidance;
-use super::hit_points::HitPoints;
+use super::hit_points::{HitPoints, Layout};
 use super::lobes::lobe_use;
 use super::settings::RadiusRule;
 use crate::report::Start;
@@ -43,7 +44,8 @@ impl LaidOut {
     ) -> Result<Self, Cancelled> {
         let EyeSamples { scene, paths, .. } = eye;
         let found = &paths.hit_points;
-        let mut hit_points = lay_out(scene, settings, paths, cancel)?;
+        let shadow_rays = by_shadow_rays(scene, settings);
+        let mut hit_points = lay_out(scene, settings, paths, (shadow_rays, BAND), cancel)?;
         if widened != 1.0 {
             hit_points = hit_points.widened(widened);
         }
@@ -69,17 +71,16 @@ impl LaidOut {
     }
 }
 
-/// Lays out hit points for a render with such settings.
+/// Lays out hit points for a render with such settings, with or without shadow rays; neighbours are looked for among so many.
 pub(crate) fn lay_out(
     scene: &Scene,
     settings: &RenderSettings,
     paths: &EyePaths,
+    (shadow_rays, in_band): (bool, usize),
     cancel: &Cancel,
 ) -> Result<HitPoints, Cancelled> {
-    let shadow_rays = by_shadow_rays(scene, settings);
-    let normals = lobe_use(scene).shading_normals;
-    let start = paths.pixel_start();
-    let hit_points = HitPoints::new(&paths.hit_points, &paths.gloss, start, normals, shadow_rays, cancel)?;
+    let how = Layout { shading_normals: lobe_use(scene).shading_normals, shadow_rays, in_band };
+    let hit_points = HitPoints::new(&paths.hit_points, &paths.gloss, paths.pixel_start(), how, cancel)?;
     let moments = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;
     Ok(if moments { hit_points.with_radius_statistics() } else { hit_points })
 }

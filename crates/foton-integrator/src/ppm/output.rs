@@ -12,7 +12,7 @@ use crate::sppm::Renewal;
 
 impl Ppm {
     /// Image size in pixels.
-    pub(super) fn size(&self) -> (u32, u32) {
+    pub(crate) fn size(&self) -> (u32, u32) {
         let sensor = &self.scene.sensors()[self.settings.sensor];
         (sensor.width, sensor.height)
     }

@@ -8,7 +8,7 @@ use super::sums::PixelSums;
 use crate::error::Independent;
 use crate::feature::Feature;
 use crate::memory::MemoryEstimate;
-use crate::settings::RenderSettings;
+use crate::settings::{Method, RenderSettings};
 
 /// Parts that can be left out, with whether they are.
 pub(crate) fn features(settings: &RenderSettings) -> Vec<Feature> {
@@ -46,7 +46,10 @@ pub(crate) fn memory(scene: &Scene, settings: &RenderSettings) -> MemoryEstimate
         scene_bytes: scene.bytes() as f64,
         hit_point_bytes: 0.0,
         pixel_bytes: pixels * per_pixel as f64,
-        photon_bytes: 0.0,
+        photon_bytes: match settings.method {
+            Method::PhotonMap => settings.photon_map.bytes(),
+            _ => 0.0,
+        },
         layout_bytes: 0.0,
     }
 }

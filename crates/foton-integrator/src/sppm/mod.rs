@@ -8,6 +8,7 @@
 //! A pass's own estimate of a pixel is unbiased but for the radius, whatever its samples see. So the mean of all passes converges where
 //! eye samples that stand still leave an error for good: in antialiasing, narrow gloss and, once the camera has a lens, depth of field.
 
+mod adaptive;
 mod pixels;
 mod renewal;
 mod samples;

@@ -7,6 +7,7 @@
 use foton_transport::codec::{Reader, StateError, Writer};
 use rayon::prelude::*;
 
+use super::adaptive::PixelRadius;
 use crate::ppm::adaptive::RadiusStatistics;
 use crate::ppm::hit_points::HitPoints;
 use crate::ppm::settings::Alpha;
@@ -32,7 +33,7 @@ pub(crate) struct Pixels {
     /// Mean first radius of the hit points of the last pass that had any.
     first_radii: Vec<f32>,
     /// What radii that adapt go by, and the error's upper end; each hit point counts by its weight. Empty where neither is asked for.
-    radius_statistics: Vec<RadiusStatistics>,
+    radius_statistics: Vec<PixelRadius>,
     /// The factor of pixels without a hit point.
     first: f32,
 }
@@ -44,7 +45,7 @@ impl Pixels {
         Self {
             statistics: vec![Statistics::EMPTY_SLOT; pixels],
             first_radii: vec![0.0; pixels],
-            radius_statistics: vec![RadiusStatistics::default(); radius_statistics],
+            radius_statistics: vec![PixelRadius::default(); radius_statistics],
             first: widened * widened,
         }
     }
@@ -67,14 +68,18 @@ impl Pixels {
                 let count = range.len() as f32;
                 *first_radius = first_radius2[range.clone()].iter().map(|r2| r2.sqrt()).sum::<f32>() / count;
                 let mut radius_statistics = radius_statistics.get_mut(i);
+                let mut of_pass = RadiusStatistics::default();
                 let mut found = 0;
                 for h in range {
                     let slot = hit_points.slot_of[h] as usize;
                     found += hit_points.statistics_slots[slot].photons_found();
-                    if let Some(sums) = &mut radius_statistics {
+                    if radius_statistics.is_some() {
                         let weight = f64::from(hit_points.weights[h].luminance());
-                        sums.add_weighted(&hit_points.radius_statistics_slots[slot], weight);
+                        of_pass.add_hit_point(&hit_points.radius_statistics_slots[slot], weight);
                     }
+                }
+                if let Some(sums) = &mut radius_statistics {
+                    sums.add(&of_pass);
                 }
                 match how.common {
                     Some(rho) => statistics.shrink(found, rho, 0.0),
@@ -127,7 +132,7 @@ impl Pixels {
 
     /// What radii go by.
     pub(crate) fn radius_statistics(&self, pixel: usize) -> Option<&RadiusStatistics> {
-        self.radius_statistics.get(pixel)
+        self.radius_statistics.get(pixel).map(PixelRadius::sums)
     }
 
     pub(super) fn write(&self, out: &mut Writer) {
@@ -144,7 +149,7 @@ impl Pixels {
             *radius = input.finite()? as f32;
         }
         for radius_statistics in &mut self.radius_statistics {
-            *radius_statistics = RadiusStatistics::read(input)?;
+            *radius_statistics = PixelRadius::read(input)?;
         }
         Ok(())
     }
@@ -153,6 +158,6 @@ impl Pixels {
     pub(crate) const fn bytes_per_pixel(radius_statistics: bool) -> usize {
         size_of::<Statistics>()
             + size_of::<f32>()
-            + if radius_statistics { size_of::<RadiusStatistics>() } else { 0 }
+            + if radius_statistics { size_of::<PixelRadius>() } else { 0 }
     }
 }

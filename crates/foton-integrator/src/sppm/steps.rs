@@ -1,6 +1,8 @@
 //! The steps that a pass takes more where its eye samples are new.
 
 use foton_math::Rgb;
+use foton_transport::camera_paths::EyePaths;
+use foton_transport::photon_map::Grid;
 use foton_transport::{Cancel, Cancelled, Halt, Omissions, ShouldSuspend, Stage, Suspended};
 use rayon::prelude::*;
 
@@ -12,8 +14,11 @@ use crate::ppm::direct::Lighting;
 use crate::ppm::laid_out::lay_out;
 use crate::ppm::settings::RadiusRule;
 use crate::ppm::under_way::UnderWay;
-use foton_transport::camera_paths::EyePaths;
-use foton_transport::photon_map::Grid;
+
+/// Rows of pixels whose hit points are put into packets together.
+const ROWS: usize = 8;
+/// Hit points that are, at least.
+const MIN_BAND: usize = 1 << 10;
 
 impl Ppm {
     /// Follows the eye samples of a pass, if it has samples of its own, and lays out what they find.
@@ -47,7 +52,11 @@ impl Ppm {
         first_radius2: Vec<f32>,
         cancel: &Cancel,
     ) -> Result<(), Cancelled> {
-        let hit_points = lay_out(&self.scene, &self.settings, &paths, cancel)?;
+        let (_, height) = self.size();
+        // Neighbours lie in a few rows. They are found sooner there than in the whole, and every pass looks for them.
+        let in_band = (ROWS * paths.hit_points.len()).div_ceil(height as usize).max(MIN_BAND);
+        let how = (self.has_shadow_rays(), in_band);
+        let hit_points = lay_out(&self.scene, &self.settings, &paths, how, cancel)?;
         let grid = Grid::new(&hit_points.packets, cancel)?;
         (self.hit_points, self.grid) = (hit_points, grid);
         self.light.make_room_for(&self.hit_points);

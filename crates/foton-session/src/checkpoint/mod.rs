@@ -189,7 +189,9 @@ pub fn resume(
         .restore(&state, Duration::from_nanos(number(20)), number(28))
         .map_err(|cause| ResumeError::State { path: owned(), cause })?;
     let render = session.render();
-    if needs_classes && render.photons_by_class() != Some(render.photons_emitted()) {
+    // Photons of maps are those of no pass.
+    let of_passes = if render.settings().method.has_discs() { render.photons_emitted() } else { 0 };
+    if needs_classes && render.photons_by_class().is_none_or(|photons| photons < of_passes) {
         let difference = identity::WITHOUT_CLASSES.to_owned();
         return Err(ResumeError::OtherRender { path: owned(), difference });
     }

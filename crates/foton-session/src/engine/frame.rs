@@ -13,6 +13,7 @@ use foton_scene::description::Lens;
 use super::command::{Region, ViewMode};
 use super::history::HistoryEntry;
 use crate::clock::StageTimes;
+pub use crate::dots::Dot;
 use crate::findings::Finding;
 use crate::stop::StopRule;
 
@@ -59,15 +60,6 @@ impl Picture {
             Self::Measure { plane, .. } => [plane.width, plane.height],
         }
     }
-}
-
-/// A photon of the last pass, seen from the camera.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dot {
-    /// Where, in pixels of the image.
-    pub film: [f32; 2],
-    /// How it came there.
-    pub class: PathClass,
 }
 
 /// The path of a photon that lights a pixel.

@@ -4,17 +4,13 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use foton_edit::Segment;
-use foton_integrator::{Disc, PhotonPath, Render, StoredPhoton};
+use foton_integrator::{Disc, PhotonPath, Render};
 use foton_math::Ray;
 use foton_math::glam::{DVec3, Vec2};
 use foton_scene::Scene;
-use foton_scene::description::Crop;
-use rayon::prelude::*;
 
-use super::frame::{Dot, DrawnPath, Probe, SurfaceNames};
-
-/// Photons drawn at most.
-const DOTS: usize = 20_000;
+use super::frame::{DrawnPath, Probe, SurfaceNames};
+use crate::dots::{dot, pixel_in};
 
 /// Photons drawn in a disc at most.
 const DISC_DOTS: usize = 2_000;
@@ -24,39 +20,6 @@ const PATHS: usize = 64;
 
 /// Corners of a disc's outline.
 const CORNERS: u32 = 48;
-
-/// A photon counts as seen if nothing is nearer than this share of its distance.
-const SEEN: f32 = 1e-3;
-
-/// The photons of the last pass that the camera sees directly.
-pub(super) fn dots(render: &Render) -> Vec<Dot> {
-    render.stored_photons(DOTS).par_iter().filter_map(|photon| dot(render, photon, true)).collect()
-}
-
-fn dot(render: &Render, photon: &StoredPhoton, only_seen: bool) -> Option<Dot> {
-    let scene = render.scene();
-    let sensor = &scene.sensors()[render.settings().sensor];
-    let point = scene.normalisation().point(photon.position);
-    let (film, _) = sensor.project_on_whole(point)?;
-    pixel_in(&sensor.window(), film)?;
-    if only_seen {
-        let way = point - sensor.origin();
-        let ray = Ray { t_max: way.length() * (1.0 - SEEN), ..Ray::new(sensor.origin(), way.normalize()) };
-        if scene.occluded(ray) {
-            return None;
-        }
-    }
-    Some(Dot { film: film.to_array(), class: photon.class })
-}
-
-/// The column and row in what is rendered of a position in the whole image; `None` outside.
-fn pixel_in(window: &Crop, film: Vec2) -> Option<[u32; 2]> {
-    let within = |at: f32, first: u32, count: u32| {
-        let at = at - first as f32;
-        (at >= 0.0 && at < count as f32).then_some(at as u32)
-    };
-    Some([within(film.x, window.x, window.width)?, within(film.y, window.y, window.height)?])
-}
 
 /// What is known of a pixel of the whole image; `None` outside what is rendered.
 pub(super) fn probe(render: &Render, pixel: [u32; 2]) -> Option<Probe> {

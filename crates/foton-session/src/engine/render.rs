@@ -3,12 +3,11 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use foton_film::{Image, Plane};
+use foton_film::Plane;
 use foton_integrator::{
     Cancel, Cancelled, EyeSamples, LayerKind, Radii, Render, RenderSettings, SettingChange, ShouldSuspend,
     Stage,
 };
-use foton_math::Rgb;
 use foton_scene::Scene;
 use foton_scene::description::SensorDescription;
 use rayon::ThreadPool;
@@ -19,6 +18,7 @@ use super::level::Level;
 use super::rates::{Mark, PerSecond, Rates};
 use crate::findings::{self, Finding, SettingNames};
 use crate::session::{PassError, Session, StartError};
+use crate::shown::Shown;
 
 /// Passes that a small picture gets while a person holds still in the middle of a move.
 const SMALL_PASSES: u64 = 8;
@@ -302,7 +302,7 @@ impl LevelRender {
         match view {
             ViewMode::Radiance => Picture::Colour(Arc::new(render.image())),
             ViewMode::Classes { reflected, emission } => {
-                Picture::Colour(Arc::new(classes(render, reflected, emission)))
+                Picture::Colour(Arc::new(classes(reflected, emission).image(render)))
             }
             ViewMode::Radius => measure("radius (world units)", render.mean_radii()),
             ViewMode::PhotonCount => {
@@ -326,25 +326,10 @@ impl LevelRender {
     }
 }
 
-/// The sum of some kinds of light.
-fn classes(render: &Render, reflected: [bool; 3], emission: bool) -> Image {
-    let kinds = [LayerKind::Direct, LayerKind::Caustic, LayerKind::Indirect, LayerKind::Emission];
-    let wanted = [reflected[0], reflected[1], reflected[2], emission];
-    let mut layers = kinds
-        .into_iter()
-        .zip(wanted)
-        .filter(|(_, wanted)| *wanted)
-        .map(|(kind, _)| render.colour_layer(kind));
-    let Some(first) = layers.next() else {
-        let image = render.image();
-        return Image::black(image.width, image.height);
-    };
-    let add = |sum: Option<Image>, layer: Option<Image>| {
-        let (mut sum, layer) = (sum?, layer?);
-        sum.pixels.iter_mut().zip(&layer.pixels).for_each(|(s, &l): (&mut Rgb, &Rgb)| *s += l);
-        Some(sum)
-    };
-    layers.fold(first, add).unwrap_or_else(|| render.image())
+/// Some kinds of light.
+fn classes(reflected: [bool; 3], emission: bool) -> Shown {
+    let wanted = Shown::KINDS.into_iter().zip(reflected.into_iter().chain([emission]));
+    Shown::Light(wanted.filter(|(_, wanted)| *wanted).map(|(kind, _)| kind).collect())
 }
 
 #[cfg(test)]

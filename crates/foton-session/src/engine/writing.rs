@@ -11,6 +11,7 @@ use super::render::LevelRender;
 use super::run::Run;
 use super::worker::Worker;
 use crate::checkpoint::Keeper;
+use crate::shown::Shown;
 use crate::snapshot::{self, Format};
 
 /// Pictures of a pass, by extension.
@@ -62,7 +63,9 @@ impl Worker {
         let mut written = Vec::new();
         for (extension, format) in PICTURES {
             let path = path(&name, extension);
-            let result = write_new(&path, |path| snapshot::write(path, format, render, &[], look, &identity));
+            let result = write_new(&path, |path| {
+                snapshot::write(path, format, (render, &Shown::All), &[], look, &identity)
+            });
             match result {
                 Ok(()) => written.push(path),
                 Err(error) => self.event(Event::Failed(error.to_string())),

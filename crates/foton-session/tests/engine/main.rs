@@ -18,7 +18,7 @@ use foton_integrator::{Method, PpmSettings};
 use foton_session::engine::{Activity, Command, Configuration, Event, Picture, SurfaceNames, ViewMode};
 use foton_session::findings::{self, FindingKind};
 use foton_session::snapshot::{self, Format, Look};
-use foton_session::{Alpha, DirectLight, RenderSettings, SettingChange, StopRule};
+use foton_session::{Alpha, DirectLight, RenderSettings, SettingChange, Shown, StopRule};
 use rig::{Folder, Rig, SIZE, headless, identity, image, settings};
 
 fn alpha(alpha: f64) -> Alpha {
@@ -144,7 +144,8 @@ fn a_snapshot_is_the_file_that_a_headless_render_writes() {
     let same = |look, of: &str| {
         for (extension, format) in [("exr", Format::Exr), ("png", Format::Png)] {
             let expected = folder.0.join("expected").with_extension(extension);
-            snapshot::write(&expected, format, session.render(), &[], look, &identity()).expect("written");
+            snapshot::write(&expected, format, (session.render(), &Shown::All), &[], look, &identity())
+                .expect("written");
             let read = |path: PathBuf| std::fs::read(path).expect("it is there");
             assert!(read(folder.0.join(format!("{of}.{extension}"))) == read(expected), "{of}.{extension}");
         }

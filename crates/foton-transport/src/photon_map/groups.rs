@@ -11,8 +11,9 @@ use crate::camera_paths::HitPoint;
 /// none of its discs.
 const MAX_WIDTH: f32 = 6.0;
 
-/// Hit points of one task, in sample order: they come from a few rows of pixels and are close together already.
-const BAND: usize = 1 << 16;
+/// Hit points of one task, in sample order, where they are laid out once: they come from some rows of pixels and are close together
+/// already.
+pub const BAND: usize = 1 << 16;
 
 /// Groups of up to [`LANES`] hit points, as indices.
 #[derive(Debug, Default)]
@@ -48,7 +49,7 @@ struct Point {
     index: u32,
 }
 
-/// Groups the hit points that `belongs` selects into packets, band by band: halved at the median of the longest axis until at most
+/// Groups the hit points that `belongs` selects into packets, band by band of so many in sample order: halved at the median of the longest axis until at most
 /// [`LANES`] are close together. The same for any number of threads.
 ///
 /// # Errors
@@ -56,11 +57,12 @@ struct Point {
 pub fn group(
     found: &[HitPoint],
     belongs: impl Fn(&HitPoint) -> bool + Sync,
+    in_band: usize,
     cancel: &Cancel,
 ) -> Result<Groups, Cancelled> {
     let of_band = |(band, found): (usize, &[HitPoint])| {
         let selected = found.iter().enumerate().filter(|(_, h)| belongs(h));
-        let index = |i: usize| (band * BAND + i) as u32;
+        let index = |i: usize| (band * in_band + i) as u32;
         let mut points: Vec<Point> = selected
             .map(|(i, h)| Point { position: h.position, radius: h.radius2.sqrt(), index: index(i) })
             .collect();
@@ -68,7 +70,8 @@ pub fn group(
         halve(&mut points, &mut counts, cancel)?;
         Ok(Groups { members: points.iter().map(|p| p.index).collect(), counts })
     };
-    let bands: Vec<Groups> = found.par_chunks(BAND).enumerate().map(of_band).collect::<Result<_, _>>()?;
+    let bands: Vec<Groups> =
+        found.par_chunks(in_band.max(1)).enumerate().map(of_band).collect::<Result<_, _>>()?;
     Ok(bands.into_iter().fold(Groups::default(), |mut all, band| {
         all.members.extend(band.members);
         all.counts.extend(band.counts);

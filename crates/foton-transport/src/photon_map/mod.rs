@@ -9,7 +9,7 @@ mod photon;
 
 pub use chunk::{CHUNK, Chunk};
 pub use grid::{Grid, MAX_CELLS};
-pub use groups::{Groups, group};
+pub use groups::{BAND, Groups, group};
 pub use map::PhotonMap;
 pub use packet::{LANES, Packet, rows};
 pub use photon::{PathClass, Photon};

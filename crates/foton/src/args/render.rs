@@ -6,12 +6,13 @@ use std::time::Duration;
 use clap::Args as ClapArgs;
 use foton_integrator::{LayerKind, Method};
 use foton_scene::description::Crop;
+use foton_session::Shown;
 use foton_session::snapshot::{self, Format, Look};
 
 use super::options::{SceneOptions, SettingsOptions};
 use super::parse::{bytes, duration, error_wish, exr, image, layer, name, region, stops};
 use super::photon_map::PhotonMapOptions;
-use super::values::{ErrorWish, Every, Integrator, PresetName, ToneMapName};
+use super::values::{ErrorWish, Every, Integrator, PresetName, Show, ToneMapName};
 
 /// `foton render`.
 #[derive(Debug, ClapArgs)]
@@ -73,6 +74,10 @@ pub(crate) struct RenderArgs {
     /// error_noise, error_bias, error_total
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = layer)]
     pub(crate) layers: Vec<LayerKind>,
+    /// What the image shows instead of all light: some of direct, caustic, indirect and emission, added up; or photons, those of the
+    /// last pass as dots
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(crate) show: Vec<Show>,
     /// Exposure of a PNG in stops, each of which doubles the light [default: 0]
     #[arg(long, value_name = "STOPS", value_parser = stops, allow_negative_numbers = true)]
     pub(crate) exposure: Option<f32>,
@@ -92,6 +97,21 @@ impl RenderArgs {
     /// Where the image of a method goes, where several are asked for.
     pub(crate) fn image_of(&self, method: Method) -> PathBuf {
         snapshot::suffixed(&self.output.0, method.name()).with_extension("exr")
+    }
+
+    /// What images show of the render.
+    pub(crate) fn shown(&self) -> Shown {
+        let kinds: Vec<LayerKind> = self.show.iter().filter_map(|show| show.kind()).collect();
+        match self.show.first() {
+            None => Shown::All,
+            Some(Show::Photons) => Shown::Photons,
+            Some(_) => Shown::Light(kinds),
+        }
+    }
+
+    /// Layers that the images show or hold.
+    pub(crate) fn all_layers(&self) -> Vec<LayerKind> {
+        self.layers.iter().copied().chain(self.show.iter().filter_map(|show| show.kind())).collect()
     }
 
     /// How a PNG shows radiance.

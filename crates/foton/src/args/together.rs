@@ -4,6 +4,7 @@ use foton_integrator::Method;
 use foton_session::snapshot::Format;
 
 use super::options::ALL_SENSORS;
+use super::values::Show;
 use super::{Args, Command, Compare, Convert, ErrorWish, Info, Measure, RenderArgs};
 use crate::roles::Roles;
 
@@ -69,6 +70,7 @@ impl RenderArgs {
             .or_else(|| self.maps_in_vain())
             .or_else(|| self.method_in_vain())
             .or_else(|| self.sensors_in_vain())
+            .or_else(|| self.show_in_vain())
             .or_else(|| clash(&self.roles()))
     }
 
@@ -104,6 +106,23 @@ impl RenderArgs {
             layer.name(),
             method.name()
         ))
+    }
+
+    /// What cannot be shown, or not together.
+    fn show_in_vain(&self) -> Option<String> {
+        let photons = self.show.contains(&Show::Photons);
+        if photons && self.show.len() > 1 {
+            return Some("--show photons stands alone: dots are no light to be added to".to_owned());
+        }
+        match self.integrator.method() {
+            None if !self.show.is_empty() => {
+                Some("--show is of a render by one method, and --integrator all makes several".to_owned())
+            }
+            Some(method) if photons && !method.has_photons() => {
+                Some(format!("--show photons: --integrator {} has none", method.name()))
+            }
+            _ => None,
+        }
     }
 
     /// What is of one camera.

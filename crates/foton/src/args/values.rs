@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use clap::ValueEnum;
 use foton_film::ToneMap;
-use foton_integrator::{DirectLight, Method, RadiusRule, RadiusScale};
+use foton_integrator::{DirectLight, LayerKind, Method, RadiusRule, RadiusScale};
 use foton_session::Preset;
 
 /// `--error`.
@@ -242,6 +242,34 @@ impl FromStr for Every {
             ("pow2", _) => Ok(Self::PowersOfTwo),
             (_, Ok(n)) if n > 0 => Ok(Self::Nth(n)),
             _ => Err("expected pow2 or a number of passes above 0".to_owned()),
+        }
+    }
+}
+
+/// `--show`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Show {
+    /// Light straight from emitters
+    Direct,
+    /// Light by mirrors and glass alone
+    Caustic,
+    /// Light by surfaces that scatter
+    Indirect,
+    /// Emitters, seen directly or by mirrors and glass
+    Emission,
+    /// Photons of the last pass as dots: direct yellow, caustic white, indirect blue
+    Photons,
+}
+
+impl Show {
+    /// The kind of light, if it is one.
+    pub(crate) const fn kind(self) -> Option<LayerKind> {
+        match self {
+            Self::Direct => Some(LayerKind::Direct),
+            Self::Caustic => Some(LayerKind::Caustic),
+            Self::Indirect => Some(LayerKind::Indirect),
+            Self::Emission => Some(LayerKind::Emission),
+            Self::Photons => None,
         }
     }
 }

@@ -32,6 +32,7 @@ const OPTIONS: &[(&str, &[&str])] = &[
     ("--seed", &["7"]),
     ("--threads", &["1"]),
     ("--sensor", &["front"]),
+    ("--show", &["direct,caustic,indirect,emission", "photons"]),
     ("-D", &["white=0.6"]),
     ("--memory", &["800M", "8G"]),
     ("--every", &["pow2", "2"]),

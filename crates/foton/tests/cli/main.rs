@@ -14,6 +14,7 @@ mod resuming;
 mod roles;
 mod scene_says;
 mod sensors;
+mod show;
 #[cfg(unix)]
 mod signals;
 #[cfg(target_os = "linux")]

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::Worker;
 use super::state::{Flow, PictureOf};
+use crate::dots::dots;
 use crate::engine::command::Region;
 use crate::engine::editable_scene::EditableScene;
 use crate::engine::frame::{Activity, Dot, Frame, Probe, RenderStats};
@@ -105,7 +106,7 @@ impl Worker {
             return Default::default();
         };
         let render = level.render();
-        let dots = if self.view.photons { probe::dots(render) } else { Vec::new() };
+        let dots = if self.view.photons { dots(render) } else { Vec::new() };
         let mut probe = self.view.probed.and_then(|pixel| probe::probe(render, pixel));
         if let (Some(probe), Some(paths)) = (&mut probe, &mut self.view.paths) {
             let of = Some((self.current.number, probe.pixel, render.passes().ilog2()));

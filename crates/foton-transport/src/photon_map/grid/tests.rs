@@ -37,7 +37,7 @@ fn packets(ground: bool) -> Vec<Packet> {
             hit_point(position, radius)
         })
         .collect();
-    super::super::groups::group(&found, |_| true, &Cancel::default())
+    super::super::groups::group(&found, |_| true, super::super::groups::BAND, &Cancel::default())
         .expect("not cancelled")
         .iter()
         .map(|g| Packet::new(g.iter().map(|&i| &found[i as usize])))

@@ -29,7 +29,7 @@ fn scattered(n: u64) -> Vec<HitPoint> {
 fn each_hit_point_is_in_one_group_and_groups_are_full_and_narrow() {
     // Two bands and a part of one.
     let found = scattered(150_000);
-    let groups = group(&found, |_| true, &Cancel::default()).expect("not cancelled");
+    let groups = group(&found, |_| true, BAND, &Cancel::default()).expect("not cancelled");
     let mut seen = vec![false; found.len()];
     for g in groups.iter() {
         assert!(!g.is_empty() && g.len() <= LANES);
@@ -47,7 +47,7 @@ fn each_hit_point_is_in_one_group_and_groups_are_full_and_narrow() {
 #[test]
 fn grouping_that_is_cancelled_gives_no_groups_wherever_that_comes() {
     let found = scattered(2_000);
-    let grouped = |checks| group(&found, |_| true, &Cancel::after(checks));
+    let grouped = |checks| group(&found, |_| true, BAND, &Cancel::after(checks));
     let needed = (0..10_000).find(|&n| grouped(n).is_ok()).expect("in the end");
     assert!(needed > found.len() as u64 / LANES as u64, "{needed}");
 }
@@ -59,7 +59,7 @@ fn coinciding_hit_points_are_grouped_too() {
         h.position = Vec3::ONE;
     }
     assert_eq!(
-        group(&found, |_| true, &Cancel::default())
+        group(&found, |_| true, BAND, &Cancel::default())
             .expect("not cancelled")
             .iter()
             .map(<[u32]>::len)
