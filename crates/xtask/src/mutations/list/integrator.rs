@@ -126,7 +126,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "renders beyond the limit are refused with numbers that hold",
-        file: "crates/foton-integrator/src/ppm/memory.rs",
+        file: "crates/foton-integrator/src/memory.rs",
         from: "Self::PROGRAM_BYTES + lasting + self.photon_bytes.max(self.layout_bytes)",
         to: "Self::PROGRAM_BYTES + lasting + self.photon_bytes.min(self.layout_bytes)",
         target: CLI,
@@ -175,8 +175,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "radii stop at the spacing of eye samples",
         file: "crates/foton-transport/src/camera_paths/radius.rs",
-        from: "(self.floor * area.sqrt()).clamp(resolved, first)",
-        to: "(0.0 * self.floor * area.sqrt()).clamp(resolved, first)",
+        from: "(self.floor * (area + confusion).sqrt()).clamp(resolved, first)",
+        to: "(0.0 * self.floor * (area + confusion).sqrt()).clamp(resolved, first)",
         target: ANALYTIC,
         test: "a_beam_between_the_eye_samples_loses_no_flux",
     },

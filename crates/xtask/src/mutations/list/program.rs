@@ -95,8 +95,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "options that contradict each other are refused",
         file: "crates/foton/src/args/together.rs",
-        from: "self.layers_in_vain().or_else(|| self.look_in_vain()).or_else(|| clash(&self.roles()))",
-        to: "clash(&self.roles())",
+        from: "self.layers_in_vain()\n            .or_else(|| self.look_in_vain())",
+        to: "self.look_in_vain()",
         target: CLI,
         test: "options_that_contradict_each_other_are_refused_at_once",
     },
