@@ -12,6 +12,7 @@ use std::sync::Arc;
 
 use foton_film::{Image, Metadata, read_exr, write_exr};
 use foton_integrator::{Cancel, DirectLight, Method, RadiusRule, RadiusScale, Render, RenderSettings, Stage};
+use foton_measure::{Pair, without_bright_emitters};
 use foton_scene::Scene;
 
 /// Of the numbers in `/proc/self/stat`: the same on all Linux systems.
@@ -31,8 +32,8 @@ fn main() {
         for width in widths.split(',') {
             let scene = scene(name, number(width) as u32);
             let reference = pool.install(|| reference(name, &scene, number(reference_seconds)));
-            let image = mean_of(&reference);
-            let [error, relative] = errors(&reference[0], &image);
+            let truth = pool.install(|| Truth::new(&scene, mean_of(&reference)));
+            let [error, relative] = errors(&reference[0], &truth);
             println!(
                 "| {name} | reference's noise | | | {:.2} % | {:.2} % | | | | |",
                 100.0 * error,
@@ -42,7 +43,7 @@ fn main() {
                 let settings = settings(method, 0);
                 pool.install(|| {
                     course(&scene, settings, &seconds, &mut |seconds, render, clock| {
-                        print(name, method, &image, (seconds, render, clock));
+                        print(name, method, &truth, (seconds, render, clock));
                     });
                 });
             }
@@ -69,13 +70,9 @@ fn scene(name: &str, width: u32) -> Arc<Scene> {
 /// `METHOD:NAME=VALUE…`.
 fn settings(text: &str, seed: u64) -> RenderSettings {
     let mut words = text.split(':');
-    let method = match words.next() {
-        Some("ppm") => Method::Ppm,
-        Some("sppm") => Method::Sppm,
-        other => panic!("no method {other:?}"),
-    };
-    let samples = if method == Method::Ppm { 4 } else { 1 };
-    let samples_per_pixel = NonZeroU32::new(samples).expect("above 0");
+    let name = words.next().unwrap_or_default();
+    let method = Method::from_name(name).unwrap_or_else(|| panic!("no method {name}"));
+    let samples_per_pixel = method.default_samples();
     let mut settings =
         RenderSettings { method, seed, error: true, samples_per_pixel, ..RenderSettings::default() };
     for (name, value) in words.filter_map(|word| word.split_once('=')) {
@@ -144,20 +141,45 @@ fn course(scene: &Arc<Scene>, settings: RenderSettings, seconds: &[f64], show: S
     }
 }
 
-/// Root mean square of the difference in luminance over the reference's mean, of all pixels; and relative to each pixel's own.
-fn errors(image: &Image, reference: &Image) -> [f64; 2] {
-    let n = image.pixels.len() as f64;
+/// What images are compared with, and the pixels that count: those that do not see an emitter brighter than white, and have no neighbour
+/// that does.
+struct Truth {
+    image: Image,
+    counts: Vec<bool>,
+}
+
+impl Truth {
+    fn new(scene: &Arc<Scene>, image: Image) -> Self {
+        const PASSES: u32 = 32;
+        let settings = RenderSettings { max_depth: Some(1), ..settings("path", 0) };
+        let cancel = Cancel::default();
+        let mut render =
+            Render::start(Arc::clone(scene), settings, &mut |_| {}, &cancel).expect("nobody cancels");
+        for _ in 0..PASSES {
+            render.advance(&mut |_| {}, &cancel).expect("nobody cancels");
+        }
+        Self { counts: without_bright_emitters(&render.image(), &image), image }
+    }
+}
+
+/// Root mean square of the difference in luminance over the reference's mean, without the brightest 0.5 % of the pixels that count; and
+/// relative to each pixel's own.
+fn errors(image: &Image, truth: &Truth) -> [f64; 2] {
+    let pair = Pair::new(image, &truth.image).expect("images of one size");
+    let trimmed = pair.trimmed_rmse(|pixel| truth.counts[pixel]);
     let luminances: Vec<[f64; 2]> = image
         .pixels
         .iter()
-        .zip(&reference.pixels)
-        .map(|(p, r)| [f64::from(p.luminance()), f64::from(r.luminance())])
+        .zip(&truth.image.pixels)
+        .zip(&truth.counts)
+        .filter(|(_, counts)| **counts)
+        .map(|((p, r), _)| [f64::from(p.luminance()), f64::from(r.luminance())])
         .collect();
+    let n = luminances.len() as f64;
     let mean = luminances.iter().map(|[_, r]| r).sum::<f64>() / n;
-    let square = luminances.iter().map(|[p, r]| (p - r).powi(2)).sum::<f64>() / n;
     let relative =
         luminances.iter().map(|[p, r]| (p - r).powi(2) / (r * r + 0.01 * mean * mean)).sum::<f64>() / n;
-    [square.sqrt() / mean, relative.sqrt()]
+    [trimmed, relative.sqrt()]
 }
 
 fn mean_of([a, b]: &[Image; 2]) -> Image {
@@ -172,8 +194,8 @@ fn keep(name: &str, method: &str, seconds: f64, image: &Image) {
     write_exr(&path, image, &[], &Metadata::default()).expect("it can be written");
 }
 
-fn print(name: &str, method: &str, reference: &Image, (seconds, render, clock): (f64, &Render, &Clock)) {
-    let [error, relative] = errors(&render.image(), reference);
+fn print(name: &str, method: &str, truth: &Truth, (seconds, render, clock): (f64, &Render, &Clock)) {
+    let [error, relative] = errors(&render.image(), truth);
     keep(name, method, seconds, &render.image());
     let percent = |x: f64| format!("{:.2} %", 100.0 * x);
     let live = render.error();

@@ -4,7 +4,6 @@
 //! and hit points. `wide`: scenes that ask for more. `accuracy`: error a processor second. `answers`: commands within a long
 //! pass. Figures are medians over passes of the wall's time: they mean little on a machine that does anything else. `first-light`: what the
 //! window shows in its first seconds of processor time. `to-error`: the processor time that one foton needs to the error of another.
-//! `methods`: the total error of each method after the same processor time.
 #![allow(clippy::print_stdout, reason = "a program that prints tables")]
 
 mod accuracy;
@@ -24,11 +23,10 @@ fn main() {
         Some("accuracy") => accuracy::print(),
         Some("answers") => answers::print(),
         Some("first-light") => first_light::print(),
-        Some("methods") => to_error::print_methods(&std::env::args().skip(2).collect::<Vec<_>>()),
         Some("to-error") => to_error::print(&std::env::args().skip(2).collect::<Vec<_>>()),
         Some(other) => {
             eprintln!(
-                "no benchmark \"{other}\": whole, scaling, wide, accuracy, answers, first-light, to-error, methods"
+                "no benchmark \"{other}\": whole, scaling, wide, accuracy, answers, first-light, to-error"
             );
             std::process::exit(2);
         }

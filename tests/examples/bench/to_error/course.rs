@@ -25,8 +25,7 @@ pub(super) fn course(
     let mut command = Command::new(&program.path);
     command.arg("render").arg(&scene.path).arg("-o").arg(folder.join("x.exr"));
     command.args(["--json", "--every", "pow2", "--passes", "1000000000"]);
-    command.args(["--size", &format!("{width}x{height}")]);
-    command.args(options.samples.iter().flat_map(|n| ["--spp".to_owned(), n.to_string()]));
+    command.args(["--size", &format!("{width}x{height}"), "--spp", &options.samples.to_string()]);
     command.args(program.seeds(photon_seed)).args(&program.options);
     let spent = watch(&mut command, seconds)?;
     let mut points = Vec::new();

@@ -5,7 +5,6 @@
 
 mod course;
 mod curve;
-mod methods;
 mod options;
 mod outcome;
 mod reference;
@@ -13,8 +12,6 @@ mod scenes;
 mod table;
 
 use std::path::Path;
-
-pub(crate) use methods::print as print_methods;
 
 use course::course;
 use curve::Curve;

@@ -37,13 +37,8 @@ impl Reference {
 
     /// About the error of the mean that is noise, by how two runs differ; 0 where there is one.
     pub(super) fn noise(&self) -> [f64; MEASURES.len()] {
-        self.noise_where(errors)
-    }
-
-    /// The same in another measure.
-    pub(super) fn noise_where<T: Default>(&self, error: impl Fn(&Image, &Image) -> T) -> T {
         // Each run is half of their difference from the mean, and the mean of two is as far from the truth.
-        if self.runs.len() < 2 { T::default() } else { error(&self.runs[0], &self.image) }
+        if self.runs.len() < 2 { [0.0; MEASURES.len()] } else { errors(&self.runs[0], &self.image) }
     }
 }
 
@@ -88,5 +83,5 @@ fn place(scene: &SceneFile, options: &Options, key: &str) -> Result<PathBuf, Str
     let folder = rig::target().join("bench/references");
     fs::create_dir_all(&folder).map_err(text)?;
     let [width, height] = scene.size(options.width);
-    Ok(folder.join(format!("{}-{width}x{height}-spp{}-{key}.exr", scene.name, options.samples.unwrap_or(0))))
+    Ok(folder.join(format!("{}-{width}x{height}-spp{}-{key}.exr", scene.name, options.samples)))
 }

@@ -36,9 +36,7 @@ pub(super) fn print(outcomes: &[Outcome], options: &Options) {
     let seconds = options.seconds;
     println!(
         "{} pixels wide, {} eye samples a pixel, {} seeds; errors over the reference's mean\n",
-        options.width,
-        options.samples.unwrap_or(0),
-        options.seeds
+        options.width, options.samples, options.seeds
     );
     println!("base: {}\nnew: {}", called(options, true), called(options, false));
     for (i, measure) in MEASURES.into_iter().enumerate() {
