@@ -46,32 +46,32 @@ impl Render {
     }
 
     /// Photons of the passes whose light was summed by class, fewer than [`Render::photons_emitted`] where a state without that was
-    /// restored; `None` without [`RenderSettings::layers`].
+    /// restored; `None` without [`RenderSettings::layers`](crate::RenderSettings::layers).
     #[must_use]
     pub fn photons_by_class(&self) -> Option<u64> {
         each!(&self.0, r => r.photons_by_class())
     }
 
-    /// How wrong the image still is; `None` without [`RenderSettings::error`], in the first passes, and in the dark.
+    /// How wrong the image still is; `None` without [`RenderSettings::error`](crate::RenderSettings::error), in the first passes, and in the dark.
     #[must_use]
     pub fn error(&self) -> Option<ErrorEstimate> {
         each!(&self.0, r => r.error())
     }
 
-    /// The means of all squares of 8 × 8 pixels with their errors, row by row; none without [`RenderSettings::error`].
+    /// The means of all squares of 8 × 8 pixels with their errors, row by row; none without [`RenderSettings::error`](crate::RenderSettings::error).
     #[must_use]
     pub fn error_tiles(&self) -> Vec<TileError> {
         each!(&self.0, r => r.error_tiles())
     }
 
     /// The bias of each pixel's luminance, as estimated (W/m²/sr): with its sign, and √3 times as noisy as the pixel. `None`
-    /// without [`RenderSettings::error`].
+    /// without [`RenderSettings::error`](crate::RenderSettings::error).
     #[must_use]
     pub fn bias(&self) -> Option<Vec<f64>> {
         each!(&self.0, r => r.bias())
     }
 
-    /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`RenderSettings::error`].
+    /// One of the errors' layers, in luminance (W/m²/sr); `None` for other layers, and without [`RenderSettings::error`](crate::RenderSettings::error).
     #[must_use]
     pub fn error_plane(&self, kind: LayerKind) -> Option<Vec<f32>> {
         each!(&self.0, r => r.error_plane(kind))
