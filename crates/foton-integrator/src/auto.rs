@@ -1,4 +1,4 @@
-//! Which method suits a scene. docs/methods.md has the measurements that the rule rests on.
+//! Which method suits a scene, and which can tell its error there. docs/methods.md has the measurements that the rule rests on.
 
 use foton_scene::Scene;
 
@@ -20,6 +20,20 @@ impl Method {
             (Self::Sppm, "mirrors or glass show fine detail, which eye samples that stand still leave jagged")
         } else {
             (Self::Ppm, "all surfaces spread light, so that hit points can stay")
+        }
+    }
+
+    /// Why nobody can tell how wrong its image of a scene still is; `None` where the error is estimated. A small figure beside light that is
+    /// missing would be worse than none.
+    #[must_use]
+    pub fn error_is_unknown(self, scene: &Scene) -> Option<&'static str> {
+        let census = scene.census();
+        match self {
+            Self::Ppm | Self::Sppm => None,
+            Self::Path if census.delta_emitters && census.bends_light() => Some("it misses light"),
+            Self::Path => None,
+            Self::Whitted => Some("it leaves caustics and indirect light out"),
+            Self::PhotonMap => Some("the bias of its maps is not known"),
         }
     }
 }

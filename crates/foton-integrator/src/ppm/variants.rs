@@ -38,6 +38,14 @@ pub enum Step {
 /// What [`Variants::start`] makes sure of.
 const OF_PPM: &str = "variants are renders by progressive photon mapping";
 
+fn ppm(run: &Render) -> &Ppm {
+    run.ppm().expect(OF_PPM)
+}
+
+fn ppm_mut(run: &mut Render) -> &mut Ppm {
+    run.ppm_mut().expect(OF_PPM)
+}
+
 /// Variants advance by whole passes.
 const NEVER: ShouldSuspend<'static> = &|| false;
 
@@ -71,17 +79,15 @@ impl Variants {
         let start = |(i, settings): (usize, &RenderSettings)| {
             let watch = &mut |stage| watch(Step::Of(i, stage));
             let mut run = Render::start(Arc::clone(scene), settings.clone(), watch, cancel)?;
-            run.ppm_mut().expect(OF_PPM).settings.photon_seed = Some(photons);
+            ppm_mut(&mut run).settings.photon_seed = Some(photons);
             Ok(run)
         };
         let mut runs: Vec<Render> = settings.iter().enumerate().map(start).collect::<Result<_, _>>()?;
         begin_alike(&mut runs);
-        let widest = |run: &&Render| {
-            run.ppm().expect(OF_PPM).hit_points.statistics().map(|s| s.radius2()).sum::<f64>()
-        };
+        let widest = |run: &&Render| ppm(run).hit_points.statistics().map(|s| s.radius2()).sum::<f64>();
         let widest = runs.iter().max_by(|a, b| widest(a).total_cmp(&widest(b)));
         let Some(everywhere) =
-            widest.map(|run| Grid::new(&run.ppm().expect(OF_PPM).hit_points.packets, cancel)).transpose()?
+            widest.map(|run| Grid::new(&ppm(run).hit_points.packets, cancel)).transpose()?
         else {
             return Ok(None);
         };
@@ -118,14 +124,14 @@ impl Variants {
         begin_alike(&mut runs);
         let sources = scene.sources(&seen);
         for run in &mut runs {
-            let run = run.ppm_mut().expect(OF_PPM);
+            let run = ppm_mut(run);
             // The first emits for all, and alone has to know what light is worth.
             let points = settings.ppm.guided.then(|| std::mem::take(&mut points));
             run.guidance = Guidance::over(&sources, points);
             run.sources = sources.clone();
             run.cameras = sensors.to_vec();
         }
-        let all = runs.iter().flat_map(|run| run.ppm().expect(OF_PPM).hit_points.packets.iter().cloned());
+        let all = runs.iter().flat_map(|run| ppm(run).hit_points.packets.iter().cloned());
         let everywhere = Grid::new(&all.collect::<Vec<_>>(), cancel)?;
         Ok(Some(Self { runs, everywhere, chunks: Vec::new() }))
     }
@@ -139,20 +145,19 @@ impl Variants {
         watch: &mut dyn FnMut(Step),
         cancel: &Cancel,
     ) -> Result<Vec<PassReport>, Cancelled> {
-        let mut passes: Vec<UnderWay> =
-            self.runs.iter_mut().map(|run| run.ppm_mut().expect(OF_PPM).begin_pass()).collect();
+        let mut passes: Vec<UnderWay> = self.runs.iter_mut().map(|run| ppm_mut(run).begin_pass()).collect();
         let photons = passes[0].planned();
-        let stores_direct = self.runs.iter().any(|run| run.ppm().expect(OF_PPM).direct.is_none());
+        let stores_direct = self.runs.iter().any(|run| ppm(run).direct.is_none());
         while let Some(batch) = passes[0].batch() {
             watch(Step::Trace);
-            let pass = self.runs[0].ppm().expect(OF_PPM).photon_pass(photons, batch);
+            let pass = ppm(&self.runs[0]).photon_pass(photons, batch);
             let photon_pass = PhotonPass { grid: &self.everywhere, stores_direct, ..pass };
             photon_pass.begin(&mut self.chunks);
             photon_pass.shoot(&mut self.chunks, cancel, NEVER).map_err(|_| Cancelled)?;
             // All have the cells of the first.
-            self.runs[0].ppm_mut().expect(OF_PPM).guidance.take(&mut self.chunks);
+            ppm_mut(&mut self.runs[0]).guidance.take(&mut self.chunks);
             for (i, (run, pass)) in self.runs.iter_mut().zip(&mut passes).enumerate() {
-                let run = run.ppm_mut().expect(OF_PPM);
+                let run = ppm_mut(run);
                 watch(Step::Share);
                 hand_out(&self.chunks, run);
                 let watch = &mut |stage| watch(Step::Of(i, stage));
@@ -164,7 +169,7 @@ impl Variants {
         let runs = self.runs.iter_mut().zip(passes).enumerate();
         let conclude = |(i, (run, mut pass)): (usize, (&mut Render, UnderWay))| {
             let watch = &mut |stage| watch(Step::Of(i, stage));
-            let run = run.ppm_mut().expect(OF_PPM);
+            let run = ppm_mut(run);
             run.add_shadow_rays(&mut pass, watch, NEVER).map_err(|_| Cancelled)?;
             Ok(run.accumulate(pass, watch))
         };
@@ -182,7 +187,7 @@ impl Variants {
 fn begin_alike(runs: &mut [Render]) {
     let least = runs.iter().map(|run| run.settings().ppm.first_pass).min();
     for run in runs {
-        let settings = &mut run.ppm_mut().expect(OF_PPM).settings;
+        let settings = &mut ppm_mut(run).settings;
         settings.ppm.first_pass = least.unwrap_or(settings.ppm.first_pass);
     }
 }
@@ -272,7 +277,7 @@ mod tests {
         let (scene, cancel) = (scene(), Cancel::default());
         let started = Variants::start(&scene, settings, 0, &mut |_| (), &cancel).expect("not cancelled");
         let mut together = started.expect("they share their photons");
-        together.runs.iter_mut().for_each(|run| run.ppm_mut().expect(OF_PPM).max_in_batch = 6_000);
+        together.runs.iter_mut().for_each(|run| ppm_mut(run).max_in_batch = 6_000);
         for _ in 0..3 {
             together.advance(&mut |_| (), &cancel).expect("not cancelled");
         }

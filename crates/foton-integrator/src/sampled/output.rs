@@ -70,7 +70,9 @@ impl Sampled {
     }
 
     pub(crate) fn error(&self) -> Option<ErrorEstimate> {
-        self.sums.error.as_ref()?.estimate()
+        let error = self.sums.error.as_ref()?;
+        let is_unknown = self.settings.method.error_is_unknown(&self.scene).is_some();
+        error.estimate().filter(|_| !is_unknown)
     }
 
     pub(crate) fn error_tiles(&self) -> Vec<TileError> {

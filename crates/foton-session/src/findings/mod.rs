@@ -28,6 +28,8 @@ pub enum FindingKind {
     NarrowCaustics,
     /// The method finds no light on some paths of the scene.
     LightMissed,
+    /// The method cannot tell how wrong its image is.
+    ErrorUnknown,
     /// The method shows no motion blur.
     MotionFrozen,
     /// The first radius is larger than the scene.
@@ -48,7 +50,7 @@ impl FindingKind {
     /// Whether it is a property of the method, which is not to be repaired, rather than a warning.
     #[must_use]
     pub const fn is_note(self) -> bool {
-        matches!(self, Self::NarrowGloss | Self::NarrowCaustics)
+        matches!(self, Self::NarrowGloss | Self::NarrowCaustics | Self::ErrorUnknown)
     }
 }
 

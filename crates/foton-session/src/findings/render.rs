@@ -53,6 +53,10 @@ fn of_method(scene: &Scene, settings: &RenderSettings, names: &SettingNames) -> 
         );
         findings.push(Finding::new(FindingKind::LightMissed, None, text));
     }
+    if let Some(why) = method.error_is_unknown(scene).filter(|_| settings.error) {
+        let text = format!("the error of the image is not estimated by {}: {why}", method.name());
+        findings.push(Finding::new(FindingKind::ErrorUnknown, None, text));
+    }
     if scene.blurs(settings.sensor) && !method.blurs_motion() {
         let text =
             "what moves is seen as it is when the shutter opens: this method follows its eye samples once";

@@ -63,6 +63,28 @@ fn what_a_method_cannot_do_is_refused_or_said() {
     }
 }
 
+/// A small figure beside light that is missing would be worse than none.
+#[test]
+fn no_error_is_told_where_a_method_misses_light() {
+    let folder = Folder::new("method-errors");
+    let point = r#"<emitter type="point"><point name="position" x="0" y="1.5" z="0"/><rgb name="intensity" value="1"/></emitter>"#;
+    folder.write("point.xml", &SCENE.replace("</scene>", &format!("{point}</scene>")));
+    for (scene, method, is_told) in [
+        ("scene", "sppm", true),
+        ("scene", "path", true),
+        ("point", "path", false),
+        ("scene", "whitted", false),
+        ("scene", "photon-map", false),
+    ] {
+        let render =
+            format!("render {scene}.xml -o x.exr --integrator {method} --photons 2000 --passes 12 --json");
+        let events = events(&folder.done(&render).stdout);
+        assert_eq!(events.last().expect("an end")["error"].is_number(), is_told, "{render}");
+        let said = text(&folder.done(&render.replace("--json", "")).stderr);
+        assert_eq!(said.contains("the error of the image is not estimated"), !is_told, "{said}");
+    }
+}
+
 #[test]
 fn all_methods_make_a_sheet_an_image_each_and_a_table() {
     let folder = Folder::new("all-methods");
