@@ -6,7 +6,7 @@ use crate::ppm::lobe_use;
 use crate::settings::Method;
 
 impl Method {
-    /// The method that suits what a sensor sees of a scene, and why.
+    /// The method that suits what a sensor sees of a scene, and why: where a render goes on for minutes it is the same everywhere.
     #[must_use]
     pub fn chosen_for(scene: &Scene, sensor: usize) -> (Self, &'static str) {
         let lobes = lobe_use(scene);
@@ -19,7 +19,7 @@ impl Method {
         } else if lobes.specular {
             (Self::Sppm, "mirrors or glass show fine detail, which eye samples that stand still leave jagged")
         } else {
-            (Self::Ppm, "all surfaces spread light, so that hit points can stay")
+            (Self::Sppm, "edges converge with new eye samples, which cost little beside photons")
         }
     }
 
