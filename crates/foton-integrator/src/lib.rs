@@ -5,7 +5,6 @@
 //! [`Render`] is a render by any of them. `ppm/algorithm.rs` and `sampled/algorithm.rs` have a method on one screen; each step has a file
 //! of its own. There are no files, windows or clocks here: a caller that wants to time stages is told when they begin.
 
-mod auto;
 mod by_block;
 mod changes;
 mod error;
@@ -21,6 +20,7 @@ mod sampled;
 mod settings;
 mod shutter;
 mod sppm;
+mod suits;
 #[cfg(test)]
 mod test_scene;
 mod white;

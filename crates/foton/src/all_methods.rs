@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use foton_film::{Image, Metadata, read_exr_within, write_exr, write_png};
 use foton_integrator::{LayerKind, Method, RenderSettings};
-use foton_measure::{Pair, Panel, contact_sheet, without_bright_emitters};
+use foton_measure::{CompareError, Pair, Panel, contact_sheet, without_bright_emitters};
 use foton_scene::Scene;
 use foton_session::snapshot::Format;
 use foton_session::{Interrupt, SceneIdentity, Session, Shown, StopCause, StopRule};
@@ -42,6 +42,9 @@ pub(crate) fn render(
 ) -> Result<(), Failure> {
     let reference =
         args.reference.as_deref().map(|path| read_exr_within(path, memory_of_an_image())).transpose()?;
+    if let Some((image, _)) = &reference {
+        check_size(image, scene, settings(Method::default()).sensor)?;
+    }
     let mut outcomes = Vec::new();
     for method in Method::ALL {
         console.line(&format!("{} ({})", method.title(), method.name()));
@@ -55,6 +58,20 @@ pub(crate) fn render(
     report(&outcomes, &errors, args, console);
     write_sheet(&outcomes, &errors, args)?;
     Ok(())
+}
+
+/// Refuses a reference of another size before anything is rendered.
+fn check_size(reference: &Image, scene: &Scene, sensor: usize) -> Result<(), Failure> {
+    let sensor = &scene.sensors()[sensor];
+    let (a, b) = ((sensor.width, sensor.height), (reference.width, reference.height));
+    if a == b {
+        return Ok(());
+    }
+    Err(Failure::Compare {
+        a: "the render".to_owned(),
+        b: "the reference".to_owned(),
+        cause: CompareError::Sizes { a, b },
+    })
 }
 
 fn memory_of_an_image() -> Option<u64> {

@@ -87,6 +87,7 @@ impl Independent {
         }
         let white = WHITE * sums.light / sums.seen.max(1.0);
         self.tiles.fill(Tile::default());
+        let shares = self.weights.shares();
         for index in 0..self.pixels.len() {
             let PassPixel { emission, reflected, .. } = pass(index);
             let light = reflected + emission.min(white);
@@ -96,7 +97,7 @@ impl Independent {
             if !pixel.is_seen {
                 continue;
             }
-            let (mean, scattered) = pixel.moments.mean_and_variance(&self.weights);
+            let (mean, scattered) = pixel.moments.mean_and_variance_by(&shares);
             let variance = self.halves.variance(mean, pixel.difference);
             let is_unknown = mean <= 0.0;
             sums.variance += variance;
@@ -140,10 +141,11 @@ impl Independent {
     /// Standard deviation of each pixel's luminance: as its passes scatter, in proportion to what the tile knows of the two sequences, since
     /// the difference of a single pixel's says little.
     pub(crate) fn noise(&self) -> Vec<f32> {
+        let shares = self.weights.shares();
         let of = |(index, pixel): (usize, &Pixel)| {
             let tile = &self.tiles[self.tile_of(index)];
             let share = if tile.scattered > 0.0 { tile.variance / tile.scattered } else { 1.0 };
-            (pixel.moments.mean_and_variance(&self.weights).1 * share).sqrt() as f32
+            (pixel.moments.mean_and_variance_by(&shares).1 * share).sqrt() as f32
         };
         self.pixels.iter().enumerate().map(of).collect()
     }

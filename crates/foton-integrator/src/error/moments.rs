@@ -130,8 +130,13 @@ impl Moments {
 
     /// The mean and its variance.
     pub(crate) fn mean_and_variance(&self, weights: &Weights) -> (f64, f64) {
-        let mean = self.sum / weights.photons.max(1.0);
-        (mean, weights.shares().variance(mean, self.squares, self.cross))
+        self.mean_and_variance_by(&weights.shares())
+    }
+
+    /// The same for many, whose passes are the same.
+    pub(super) fn mean_and_variance_by(&self, shares: &Shares) -> (f64, f64) {
+        let mean = self.sum * shares.per_photon;
+        (mean, shares.variance(mean, self.squares, self.cross))
     }
 }
 

@@ -104,6 +104,10 @@ fn all_methods_make_a_sheet_an_image_each_and_a_table() {
     assert!(sheet.width > 2 * 24 && sheet.height > 16);
     let said = text(&folder.done(&format!("{all} --reference alone.exr")).stderr);
     assert!(said.contains("differs from alone.exr by"), "{said}");
+    folder.done("render scene.xml -o small.exr --size 12x8 --passes 1 --photons 500");
+    let said =
+        folder.fails(1, "render scene.xml -o other.png --integrator all --reference small.exr --passes 1");
+    assert!(said.contains("only images of one size") && !folder.file("other-ppm.exr").exists(), "{said}");
     let said = folder.fails(2, "render scene.xml -o sheet.png --integrator all --reference sheet-path.exr");
     assert!(said.contains("sheet-path.exr"), "{said}");
 }

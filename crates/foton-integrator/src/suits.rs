@@ -10,17 +10,18 @@ impl Method {
     #[must_use]
     pub fn chosen_for(scene: &Scene, sensor: usize) -> (Self, &'static str) {
         let lobes = lobe_use(scene);
-        if scene.sensors()[sensor].has_lens() {
-            (Self::Sppm, "the camera has a lens, whose blur eye samples that stand still leave noisy")
+        let why = if scene.sensors()[sensor].has_lens() {
+            "the camera has a lens, whose blur eye samples that stand still leave noisy"
         } else if scene.blurs(sensor) {
-            (Self::Sppm, "something moves while the shutter is open")
+            "something moves while the shutter is open"
         } else if lobes.specular_gloss {
-            (Self::Sppm, "eye paths follow narrow gloss, which eye samples that stand still leave noisy")
+            "eye paths follow narrow gloss, which eye samples that stand still leave noisy"
         } else if lobes.specular {
-            (Self::Sppm, "mirrors or glass show fine detail, which eye samples that stand still leave jagged")
+            "mirrors or glass show fine detail, which eye samples that stand still leave jagged"
         } else {
-            (Self::Sppm, "edges converge with new eye samples, which cost little beside photons")
-        }
+            "edges converge with new eye samples, which cost little beside photons"
+        };
+        (Self::Sppm, why)
     }
 
     /// Why nobody can tell how wrong its image of a scene still is; `None` where the error is estimated. A small figure beside light that is
