@@ -16,7 +16,7 @@ use foton_math::Aabb;
 use foton_math::glam::{DVec3, Vec3};
 
 use crate::coincident::Coincidences;
-use crate::description::{Colour, Material, SceneDescription, SensorDescription, ShapeDescription};
+use crate::description::{SceneDescription, SensorDescription, ShapeDescription};
 use crate::emitter::{Aim, Area, Emitter, Kind};
 use crate::normalise::Normalisation;
 use crate::scene::{Moving, Part, Scene, Shape};
@@ -79,16 +79,18 @@ impl Scene {
         check_sensors(&description.sensors, &normalisation)?;
         let gauge = options.step(BuildStep::Shapes, description.primitives());
         let mut gathered = Gathered::new(options.forced.clone());
+        let textures: Arc<[Sampler]> = description.textures.iter().map(Sampler::new).collect();
         for material in &description.materials {
             check_material(material, description)?;
-            gathered.census.textures |= material.colours().any(|c| matches!(c, Colour::Texture(_)));
+            gathered.census.textures |= material.textures().next().is_some();
             gathered.census.anisotropy |= material.is_anisotropic();
         }
-        let mut parts = Parts { gathered, shapes: Vec::new(), emitters: Vec::new(), casters: Aabb::EMPTY };
+        let (shapes, emitters) = (Vec::new(), Vec::new());
+        let mut parts = Parts { gathered, textures: &textures, shapes, emitters, casters: Aabb::EMPTY };
         for (i, shape) in description.shapes.iter().enumerate() {
             parts.add(i as u32, shape, description, &normalisation, &gauge)?;
         }
-        let Parts { gathered, shapes, mut emitters, casters } = parts;
+        let Parts { gathered, shapes, mut emitters, casters, .. } = parts;
         let bounds = gathered.primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
         let bounds = if bounds.is_empty() { Aabb::around(Vec3::ZERO, 1.0) } else { bounds };
         let scene_ball = ball(&bounds);
@@ -103,7 +105,7 @@ impl Scene {
         emitters.retain(|_| !index.next().is_some_and(is_hidden));
         let mut scene = gathered.into_scene(normalisation, bounds, options)?;
         scene.shapes = shapes;
-        scene.textures = description.textures.iter().map(Sampler::new).collect();
+        scene.textures = textures;
         scene.materials.clone_from(&description.materials);
         scene.max_depth = description.max_depth;
         scene.picture_bytes = description.picture_bytes();
@@ -121,7 +123,7 @@ impl Scene {
         options: &BuildOptions<'_>,
     ) -> Result<(), BuildError> {
         if self.census.rough_coats {
-            self.coats = self.materials.iter().map(Material::coats).collect();
+            self.coats = self.materials.iter().map(|m| m.coats(&self.textures)).collect();
         }
         self.lambertian =
             self.shapes.iter().map(|s| self.materials[s.material as usize].lambertian()).collect();
@@ -189,15 +191,16 @@ fn steps_across(extent: &Aabb) -> f32 {
 }
 
 /// What shapes bring to a scene.
-struct Parts {
+struct Parts<'a> {
     gathered: Gathered,
+    textures: &'a [Sampler],
     shapes: Vec<Shape>,
     emitters: Vec<Emitter>,
     /// A box around what throws caustics.
     casters: Aabb,
 }
 
-impl Parts {
+impl Parts<'_> {
     fn add(
         &mut self,
         index: u32,
@@ -206,7 +209,7 @@ impl Parts {
         normalisation: &Normalisation,
         gauge: &Gauge<'_>,
     ) -> Result<(), BuildError> {
-        let Self { gathered, shapes, emitters, casters } = self;
+        let Self { gathered, textures, shapes, emitters, casters } = self;
         let first = gathered.primitives.len();
         let is_hidden = description.hidden.shapes.contains(&(index as usize));
         if !is_hidden {
@@ -220,10 +223,10 @@ impl Parts {
         let material = material.ok_or_else(|| BuildError::NoMaterial(shape.name.clone()))?;
         let smooth = gathered.vertex_normals[first..].iter().any(|n| n[0] != Vec3::ZERO);
         if !is_hidden {
-            gathered.census.count(material, smooth);
+            gathered.census.count(material, textures, smooth);
         }
         let primitives = &gathered.primitives[first..];
-        if material.casts() {
+        if material.casts(textures) {
             *casters = primitives.iter().fold(*casters, |b, p| b.union(p.bounds()));
         }
         let emitter = shape.radiance.filter(|r| !r.is_black() && !is_hidden).map(|radiance| {
