@@ -59,7 +59,6 @@ pub(crate) const TEXTURES: Plugins = Plugins {
     kind: "texture",
     supported: || plugins::names(plugins::textures::ALL).collect(),
     elsewhere: &[
-        "mesh_attribute",
         "volume",
         "uniform",
         "regular",
@@ -68,9 +67,6 @@ pub(crate) const TEXTURES: Plugins = Plugins {
         "srgb",
         "d65",
         "blackbody",
-        "scale",
-        "vertexcolors",
-        "gridtexture",
         "wireframe",
         "curvature",
     ],

@@ -2,7 +2,7 @@
 
 use foton_math::Rgb;
 
-use super::Scene;
+use super::{Footprint, Scene};
 use crate::bsdf::Scattering;
 use crate::description::{Bsdf, Colour, Diffuse};
 use crate::surface::Surface;
@@ -17,6 +17,18 @@ impl Scene {
     #[must_use]
     #[inline(always)]
     pub fn scattering(&self, surface: &Surface, outward: bool) -> Option<Scattering> {
+        self.scattering_seen(surface, outward, None)
+    }
+
+    /// The same, its colours the means over what an eye sample sees around the point. Without a footprint those at the point.
+    #[must_use]
+    #[inline(always)]
+    pub fn scattering_seen(
+        &self,
+        surface: &Surface,
+        outward: bool,
+        footprint: Option<&Footprint>,
+    ) -> Option<Scattering> {
         let material = self.material(surface.shape);
         let front = outward || material.front.transmits();
         let bsdf = match &material.back {
@@ -33,14 +45,14 @@ impl Scene {
             return Some(Scattering { bsdf: surface.between(*bsdf).map(constant), opacity, coat });
         }
         let mut known = None;
-        let mut uv = || *known.get_or_insert_with(|| self.texture_coordinate(surface));
+        let mut lookup = || *known.get_or_insert_with(|| self.lookup(surface, footprint));
         let opacity = material.opacity.map_or(1.0, |c| match c {
             Colour::Constant(c) => c.mean(),
-            Colour::Texture(t) => self.textures[t].scalar(uv()),
+            Colour::Texture(t) => lookup().scalar(&self.textures[t]),
         });
         let colour = |c: Colour| match c {
             Colour::Constant(c) => c,
-            Colour::Texture(t) => self.textures[t].colour(uv()),
+            Colour::Texture(t) => lookup().colour(&self.textures[t]),
         };
         Some(Scattering { bsdf: surface.between(*bsdf).map(colour), opacity: opacity.clamp(0.0, 1.0), coat })
     }
@@ -52,7 +64,7 @@ impl Scene {
     pub fn lambertian(&self, surface: &Surface, outward: bool) -> Option<Rgb> {
         match self.lambertian[surface.shape as usize][usize::from(!outward)]? {
             Colour::Constant(c) => Some(c),
-            Colour::Texture(t) => Some(self.textures[t].colour(self.texture_coordinate(surface))),
+            Colour::Texture(t) => Some(self.lookup(surface, None).colour(&self.textures[t])),
         }
     }
 }

@@ -39,7 +39,7 @@ fn squares(materials: Vec<Material>) -> Scene {
         far_clip: None,
         lens: None,
     };
-    let board = TextureKind::Checkerboard { colours: [Rgb::splat(0.2), Rgb::splat(0.7)] };
+    let board = TextureKind::Checkerboard { colours: [0.2, 0.7].map(|c| Rgb::splat(c).into()) };
     let description = SceneDescription {
         sensors: vec![sensor],
         shapes: (0..materials.len()).map(shape).collect(),
