@@ -52,13 +52,16 @@ fn pixels(texture: &Texture) -> &[Rgb] {
 }
 
 fn bitmap(inside: &str) -> String {
-    format!("<texture name='reflectance' type='bitmap'><string name='filename' value='t.png'/>{inside}</texture>")
+    format!(
+        "<texture name='reflectance' type='bitmap'><string name='filename' value='t.png'/>{inside}</texture>"
+    )
 }
 
 #[test]
 fn a_picture_has_the_channel_and_the_curve_that_an_old_file_asks_for() {
     let first = |inside: &str| pixels(&textures("0.6.0", &bitmap(inside))[0])[0];
-    let channel = |c: &str| first(&format!("<string name='channel' value='{c}'/><float name='gamma' value='1'/>")).g;
+    let channel =
+        |c: &str| first(&format!("<string name='channel' value='{c}'/><float name='gamma' value='1'/>")).g;
     let grey = 128.0 / 255.0;
     assert_eq!([channel("r"), channel("g"), channel("b")], [0.0, grey, 0.0]);
     assert!((channel("a") - 64.0 / 255.0).abs() < 1e-6, "alpha is no colour");
@@ -71,9 +74,13 @@ fn a_picture_has_the_channel_and_the_curve_that_an_old_file_asks_for() {
 #[test]
 fn old_names_of_filters_and_wraps_are_read() {
     for filter in ["ewa", "trilinear", "bilinear"] {
-        let old = format!("<string name='filterType' value='{filter}'/><string name='wrapMode' value='clamp'/>");
+        let old =
+            format!("<string name='filterType' value='{filter}'/><string name='wrapMode' value='clamp'/>");
         let all = textures("0.5.0", &bitmap(&old));
-        assert!(matches!(all[0].kind, TextureKind::Bitmap { wrap: Wrap::Clamp, bilinear: true, .. }), "{filter}");
+        assert!(
+            matches!(all[0].kind, TextureKind::Bitmap { wrap: Wrap::Clamp, bilinear: true, .. }),
+            "{filter}"
+        );
     }
     let (description, warnings) = read(
         "0.6.0",
@@ -110,15 +117,23 @@ fn checkerboards_hold_textures() {
 #[test]
 fn a_factor_is_put_into_the_colours() {
     let scaled = |inside: &str| {
-        format!("<texture type='scale' name='reflectance'><float name='scale' value='0.5'/>{inside}</texture>")
+        format!(
+            "<texture type='scale' name='reflectance'><float name='scale' value='0.5'/>{inside}</texture>"
+        )
     };
     let all = textures("0.6.0", &scaled(&bitmap("")));
     assert_eq!((all.len(), pixels(&all[0])[1].r), (1, 0.5));
     let all = textures("0.6.0", &scaled(&scaled("<texture type='checkerboard'/>")));
     let TextureKind::Checkerboard { colours } = all[0].kind else { panic!("{all:?}") };
     assert_eq!(colours, [0.1, 0.05].map(|c| Colour::Constant(Rgb::splat(c))));
-    let (description, warnings) =
-        read("0.6.0", &format!("<bsdf type='diffuse'>{}</bsdf>", scaled("<texture type='checkerboard'><rgb name='color0' value='1'/></texture>").replace("0.5", "3")));
+    let (description, warnings) = read(
+        "0.6.0",
+        &format!(
+            "<bsdf type='diffuse'>{}</bsdf>",
+            scaled("<texture type='checkerboard'><rgb name='color0' value='1'/></texture>")
+                .replace("0.5", "3")
+        ),
+    );
     let TextureKind::Checkerboard { colours } = description.textures[0].kind else { panic!() };
     assert_eq!(colours[0], Colour::Constant(Rgb::WHITE));
     assert_eq!(warnings.len(), 1, "{warnings:?}");
@@ -144,10 +159,16 @@ fn a_grid_has_lines_along_whole_coordinates() {
 #[test]
 fn what_a_mesh_states_is_named_as_in_both_dialects() {
     for (version, plugin, inside, wanted) in [
-        ("3.0.0", "mesh_attribute", "<string name='name' value='face_w'/><float name='scale' value='2'/>", ("face_w", 2.0)),
+        (
+            "3.0.0",
+            "mesh_attribute",
+            "<string name='name' value='face_w'/><float name='scale' value='2'/>",
+            ("face_w", 2.0),
+        ),
         ("0.6.0", "vertexcolors", "", ("vertex_color", 1.0)),
     ] {
-        let all = textures(version, &format!("<texture type='{plugin}' name='reflectance'>{inside}</texture>"));
+        let all =
+            textures(version, &format!("<texture type='{plugin}' name='reflectance'>{inside}</texture>"));
         let TextureKind::Attribute { name, scale, most } = &all[0].kind else { panic!("{all:?}") };
         assert_eq!((name.as_str(), *scale, *most), (wanted.0, wanted.1, 1.0));
     }
@@ -167,7 +188,10 @@ fn textures_inside_themselves_are_errors() {
         &format!("{}{}", "<texture type='scale'>".repeat(12), "</texture>".repeat(12)),
     ] {
         let said = scene(texture);
-        assert!(said.contains("made of itself, or of too many") || said.contains("one texture inside"), "{said}");
+        assert!(
+            said.contains("made of itself, or of too many") || said.contains("one texture inside"),
+            "{said}"
+        );
     }
     let said = scene("<texture type='mesh_attribute'><string name='name' value='colour'/></texture>");
     assert!(said.contains("begins with \"vertex_\" or \"face_\""), "{said}");

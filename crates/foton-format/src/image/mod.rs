@@ -51,12 +51,12 @@ impl Reading {
     pub(crate) const LIGHT: Self =
         Self { curve: Curve::Srgb, channel: None, factor: Rgb::WHITE, purpose: Purpose::Light };
 
-    fn key(&self) -> (u32, Option<Channel>, [u32; 3], Purpose) {
+    fn key(&self) -> (u32, Option<Channel>, [u32; 3]) {
         let curve = match self.curve {
             Curve::Srgb => 0,
             Curve::Power(exponent) => exponent.to_bits(),
         };
-        (curve, self.channel, self.factor.to_array().map(f32::to_bits), self.purpose)
+        (curve, self.channel, self.factor.to_array().map(f32::to_bits))
     }
 }
 
@@ -91,11 +91,15 @@ pub(crate) enum Purpose {
     Number,
 }
 
-type Key = (PathBuf, (u32, Option<Channel>, [u32; 3], Purpose));
+type Key = (PathBuf, (u32, Option<Channel>, [u32; 3]));
 
 /// Images read so far, by file and by how they are read.
 #[derive(Default)]
-pub(crate) struct Images(HashMap<Key, Option<Arc<Bitmap>>>);
+pub(crate) struct Images {
+    as_they_are: HashMap<Key, Option<Arc<Bitmap>>>,
+    /// The same for a purpose; one image where nothing was cut.
+    fitted: HashMap<(Key, Purpose), Option<Arc<Bitmap>>>,
+}
 
 impl Images {
     /// An image.
@@ -107,13 +111,42 @@ impl Images {
         report: &mut Report,
     ) -> Option<Arc<Bitmap>> {
         let key = (Files::key(&filename.value, filename.place, report), reading.key());
-        if let Some(known) = self.0.get(&key) {
+        let fitted = (key.clone(), reading.purpose);
+        if let Some(known) = self.fitted.get(&fitted) {
             return known.clone();
         }
-        let bitmap = read(filename, reading, files, report).map(Arc::new);
-        self.0.insert(key, bitmap.clone());
-        bitmap
+        let as_it_is = match self.as_they_are.get(&key) {
+            Some(known) => known.clone(),
+            None => {
+                let read = read(filename, reading, files, report).map(Arc::new);
+                self.as_they_are.entry(key).or_insert(read).clone()
+            }
+        };
+        let bitmap = as_it_is.map(|bitmap| fit(bitmap, filename, reading.purpose, report));
+        self.fitted.entry(fitted).or_insert(bitmap).clone()
     }
+}
+
+/// An image with nothing in it that its purpose does not allow.
+fn fit(
+    bitmap: Arc<Bitmap>,
+    filename: &Located<String>,
+    purpose: Purpose,
+    report: &mut Report,
+) -> Arc<Bitmap> {
+    let (most, what) = match purpose {
+        Purpose::Share => (1.0, "pixels outside 0 to 1, they are cut to that"),
+        Purpose::Light => (f32::INFINITY, "negative pixels, they are black"),
+        Purpose::Number => return bitmap,
+    };
+    let is_fit = |p: &Rgb| p.to_array().iter().all(|c| (0.0..=most).contains(c));
+    if bitmap.pixels.iter().all(is_fit) {
+        return bitmap;
+    }
+    let path = Files::key(&filename.value, filename.place, report);
+    report.warning(filename.place, format!("{} has {what}", shown_path(&path)));
+    let pixels = bitmap.pixels.iter().map(|p| p.map(|c| c.clamp(0.0, most))).collect();
+    Arc::new(Bitmap::new(bitmap.width, bitmap.height, pixels))
 }
 
 fn read(
@@ -140,21 +173,9 @@ fn read(
     if reading.factor != Rgb::WHITE {
         bitmap.pixels.iter_mut().for_each(|p| *p *= reading.factor);
     }
-    let outside = |c: &f32| !(0.0..=1.0).contains(c);
     if bitmap.pixels.iter().any(|p| !p.is_finite()) {
         report.error(place, format!("{} has pixels that are not finite numbers", shown_path(&path)));
         return None;
-    }
-    if reading.purpose == Purpose::Share && bitmap.pixels.iter().any(|p| p.to_array().iter().any(outside)) {
-        report
-            .warning(place, format!("{} has pixels outside 0 to 1, they are cut to that", shown_path(&path)));
-        bitmap.pixels.iter_mut().for_each(|p| *p = p.map(|c| c.clamp(0.0, 1.0)));
-    }
-    if reading.purpose == Purpose::Light
-        && bitmap.pixels.iter().any(|p| p.to_array().iter().any(|c| *c < 0.0))
-    {
-        report.warning(place, format!("{} has negative pixels, they are black", shown_path(&path)));
-        bitmap.pixels.iter_mut().for_each(|p| *p = p.map(|c| c.max(0.0)));
     }
     Some(bitmap)
 }
@@ -194,10 +215,6 @@ fn decode(
     budget.check(pixels.saturating_mul(BYTES_PER_PIXEL + as_rgb).saturating_add(decoder.total_bytes()))?;
     budget.take(pixels * BYTES_PER_PIXEL)?;
     let image = image::DynamicImage::from_decoder(decoder).map_err(said)?;
-    let linear = |encoded: f32| match reading.curve {
-        Curve::Srgb => srgb_to_linear(f64::from(encoded)) as f32,
-        Curve::Power(exponent) => encoded.powf(exponent),
-    };
     if reading.channel == Some(Channel::Alpha) {
         if !colour.has_alpha() {
             return Err("it has no alpha channel".to_owned());
@@ -205,7 +222,17 @@ fn decode(
         let pixels = image.into_rgba32f().pixels().map(|p| Rgb::splat(p.0[3])).collect();
         return Ok(Bitmap::new(width, height, pixels));
     }
-    let pixels = match image.color() {
+    let bitmap = Bitmap::new(width, height, linear(image, reading.curve));
+    Ok(of_channel(bitmap, reading.channel))
+}
+
+/// The pixels of an image, those of 8 and 16 bits made linear.
+fn linear(image: image::DynamicImage, curve: Curve) -> Vec<Rgb> {
+    let linear = |encoded: f32| match curve {
+        Curve::Srgb => srgb_to_linear(f64::from(encoded)) as f32,
+        Curve::Power(exponent) => encoded.powf(exponent),
+    };
+    match image.color() {
         image::ColorType::Rgb32F | image::ColorType::Rgba32F => {
             image.into_rgb32f().pixels().map(|p| Rgb::from_array(p.0)).collect()
         }
@@ -218,8 +245,7 @@ fn decode(
             let pixel = |p: &image::Rgb<u16>| Rgb::from_array(p.0.map(|c| linear(f32::from(c) / 65_535.0)));
             image.into_rgb16().pixels().map(pixel).collect()
         }
-    };
-    Ok(of_channel(Bitmap::new(width, height, pixels), reading.channel))
+    }
 }
 
 /// Grey of one channel, where one is asked for.

@@ -34,10 +34,7 @@ fn textures_that_cannot_be_are_errors() {
             &bitmap("<string name='filter_type' value='cubic'/><string name='filename' value='red.png'/>"),
             &["s.xml:2:58: \"filter_type\" must be bilinear or nearest"],
         ),
-        (
-            &bitmap("<string name='filter_type' value='ewa'/><string name='filename' value='red.png'/>"),
-            &[],
-        ),
+        (&bitmap("<string name='filter_type' value='ewa'/><string name='filename' value='red.png'/>"), &[]),
         (
             &bitmap("<string name='wrap_mode' value='zero'/><string name='filename' value='red.png'/>"),
             &["warning: s.xml:2:56: wrap mode \"zero\" is not supported, clamp is taken"],

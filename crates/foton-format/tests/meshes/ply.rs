@@ -180,7 +180,12 @@ fn a_count_that_lies_is_refused_before_anything_is_allocated() {
 }
 
 /// What a file of two faces, the first of four corners, states of its vertices and faces.
-fn attributes(vertex: &str, of_vertex: &str, face: &str, of_faces: [&str; 2]) -> Vec<(String, usize, Vec<f32>)> {
+fn attributes(
+    vertex: &str,
+    of_vertex: &str,
+    face: &str,
+    of_faces: [&str; 2],
+) -> Vec<(String, usize, Vec<f32>)> {
     let file = format!(
         "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n{vertex}\
          element face 2\nproperty list uchar int vertex_indices\n{face}end_header\n\
@@ -204,5 +209,9 @@ fn colours_and_numbers_of_vertices_and_faces_are_attributes() {
     assert_eq!(names, [("vertex_w", 1), ("vertex_foo_color", 3)]);
     assert_eq!((found[0].2[4], &found[1].2[..3]), (0.5, &[1.0, 2.0, 3.0][..]));
     let found = attributes("", "", "property float id_0\n", ["7", "8"]);
-    assert_eq!(found, [("face_id".to_owned(), 1, vec![7.0, 7.0, 8.0])], "each triangle has what its face has");
+    assert_eq!(
+        found,
+        [("face_id".to_owned(), 1, vec![7.0, 7.0, 8.0])],
+        "each triangle has what its face has"
+    );
 }

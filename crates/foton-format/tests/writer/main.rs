@@ -10,10 +10,10 @@ use foton_format::{Options, open, write_scene};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
-    Bitmap, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, EmitterDescription, EmitterKind, Filter,
-    FovAxis, Geometry, Hidden, Keyframes, Lens, Material, Mesh, MicrofacetDistribution, Microfacets, Mirror,
-    Motion, Null, Plastic, SceneDescription, SensorDescription, ShapeDescription, Texture, TextureKind,
-    ThinDielectric, Wrap,
+    Attribute, Bitmap, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, EmitterDescription, EmitterKind,
+    Filter, FovAxis, Geometry, Hidden, Keyframes, Lens, Material, Mesh, MicrofacetDistribution, Microfacets,
+    Mirror, Motion, Null, Number, Plastic, SceneDescription, SensorDescription, ShapeDescription, Texture,
+    TextureKind, ThinDielectric, Wrap,
 };
 
 use same::assert_same;
@@ -62,7 +62,11 @@ const fn colour(r: f32, g: f32, b: f32) -> Colour {
 }
 
 fn bsdfs() -> Vec<Bsdf> {
-    let roughness = |distribution, alpha_u, alpha_v| Some(Microfacets { distribution, alpha_u, alpha_v });
+    let roughness = |distribution, alpha_u: f32, alpha_v: f32| {
+        Some(Microfacets { distribution, alpha_u: alpha_u.into(), alpha_v: alpha_v.into() })
+    };
+    let textured =
+        |alpha_u, alpha_v| Some(Microfacets { distribution: MicrofacetDistribution::Ggx, alpha_u, alpha_v });
     let (specular_reflectance, specular_transmittance) = (colour(1.0, 1.0, 1.0), colour(0.5, 0.6, 0.7));
     let plastic = |nonlinear, roughness| {
         Bsdf::Plastic(Plastic {
@@ -102,6 +106,9 @@ fn bsdfs() -> Vec<Bsdf> {
         Bsdf::Mirror(Mirror { reflectance: colour(0.999, 0.999, 0.999) }),
         metal(None),
         metal(roughness(MicrofacetDistribution::Ggx, 0.02, 0.02)),
+        metal(textured(Number::Texture(0), Number::Texture(0))),
+        glass(textured(Number::Constant(0.1), Number::Texture(1))),
+        plastic(true, textured(Number::Texture(1), Number::Texture(1))),
         Bsdf::Null(Null),
     ]
 }

@@ -159,6 +159,9 @@ pub(super) fn check_material(material: &Material, textures: &Textures<'_>) -> Re
             }
         }
     }
+    for index in material.textures() {
+        textures.is_there(index, &material.name)?;
+    }
     let is_sound = |bsdf: &Bsdf| { *bsdf }.parameters().iter().all(Binding::is_valid);
     if material.bsdfs().all(is_sound) { Ok(()) } else { Err(BuildError::BadMaterial(material.name.clone())) }
 }

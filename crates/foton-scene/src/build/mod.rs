@@ -17,12 +17,12 @@ use foton_math::Aabb;
 use foton_math::glam::{DVec3, Vec3};
 
 use crate::coincident::Coincidences;
-use crate::description::{Colour, Material, SceneDescription, SensorDescription, ShapeDescription};
+use crate::description::{SceneDescription, SensorDescription, ShapeDescription};
 use crate::emitter::{Aim, Area, Emitter, Kind};
 use crate::normalise::Normalisation;
 use crate::scene::{Moving, Part, Scene, Shape};
 use crate::sensor::Sensor;
-use crate::texture::samplers;
+use crate::texture::{Sampler, samplers};
 use checks::{
     check_described_emitters, check_emitters, check_material, check_sensors, shape_bounds, world_bounds,
 };
@@ -82,14 +82,18 @@ impl Scene {
         let mut gathered = Gathered::new(options.forced.clone(), &description.textures);
         for material in &description.materials {
             check_material(material, &textures)?;
-            gathered.census.textures |= material.colours().any(|c| matches!(c, Colour::Texture(_)));
+            gathered.census.textures |= material.textures().next().is_some();
             gathered.census.anisotropy |= material.is_anisotropic();
         }
-        let mut parts = Parts { gathered, shapes: Vec::new(), emitters: Vec::new(), casters: Aabb::EMPTY };
+        let (shapes, emitters) = (Vec::new(), Vec::new());
+        // Attributes of meshes come later: nothing here asks for their values.
+        let samplers_so_far = samplers(&description.textures, &vec![None; description.textures.len()]);
+        let mut parts =
+            Parts { gathered, textures: &samplers_so_far, shapes, emitters, casters: Aabb::EMPTY };
         for (i, shape) in description.shapes.iter().enumerate() {
             parts.add(i as u32, shape, description, &normalisation, &gauge)?;
         }
-        let Parts { mut gathered, shapes, mut emitters, casters } = parts;
+        let Parts { mut gathered, shapes, mut emitters, casters, .. } = parts;
         let bounds = gathered.primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
         let bounds = if bounds.is_empty() { Aabb::around(Vec3::ZERO, 1.0) } else { bounds };
         let scene_ball = ball(&bounds);
@@ -127,7 +131,7 @@ impl Scene {
         options: &BuildOptions<'_>,
     ) -> Result<(), BuildError> {
         if self.census.rough_coats {
-            self.coats = self.materials.iter().map(Material::coats).collect();
+            self.coats = self.materials.iter().map(|m| m.coats(&self.textures)).collect();
         }
         self.lambertian =
             self.shapes.iter().map(|s| self.materials[s.material as usize].lambertian()).collect();
@@ -195,15 +199,16 @@ fn steps_across(extent: &Aabb) -> f32 {
 }
 
 /// What shapes bring to a scene.
-struct Parts {
+struct Parts<'a> {
     gathered: Gathered,
+    textures: &'a [Arc<Sampler>],
     shapes: Vec<Shape>,
     emitters: Vec<Emitter>,
     /// A box around what throws caustics.
     casters: Aabb,
 }
 
-impl Parts {
+impl Parts<'_> {
     fn add(
         &mut self,
         index: u32,
@@ -212,18 +217,14 @@ impl Parts {
         normalisation: &Normalisation,
         gauge: &Gauge<'_>,
     ) -> Result<(), BuildError> {
-        let Self { gathered, shapes, emitters, casters } = self;
+        let Self { gathered, textures, shapes, emitters, casters } = self;
         let first = gathered.primitives.len();
         let is_hidden = description.hidden.shapes.contains(&(index as usize));
         let material = description.materials.get(shape.material);
         let material = material.ok_or_else(|| BuildError::NoMaterial(shape.name.clone()))?;
         if !is_hidden {
             gathered.add(index, shape, normalisation, gauge)?;
-            for colour in material.colours() {
-                if let Colour::Texture(texture) = colour {
-                    check_attributes(texture, shape, description)?;
-                }
-            }
+            material.textures().try_for_each(|texture| check_attributes(texture, shape, description))?;
         }
         gauge.add(gathered.primitives.len() - first)?;
         if gathered.primitives.len() > i32::MAX as usize {
@@ -231,10 +232,10 @@ impl Parts {
         }
         let smooth = gathered.vertex_normals[first..].iter().any(|n| n[0] != Vec3::ZERO);
         if !is_hidden {
-            gathered.census.count(material, smooth);
+            gathered.census.count(material, textures, smooth);
         }
         let primitives = &gathered.primitives[first..];
-        if material.casts() {
+        if material.casts(textures) {
             *casters = primitives.iter().fold(*casters, |b, p| b.union(p.bounds()));
         }
         let emitter = shape.radiance.filter(|r| !r.is_black() && !is_hidden).map(|radiance| {

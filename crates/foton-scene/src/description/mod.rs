@@ -22,7 +22,7 @@ pub use material::Material;
 pub use motion::{Keyframes, Motion};
 pub use sensor::{Crop, Filter, FovAxis, Lens, SensorDescription};
 pub use shape::{Attribute, Geometry, Mesh, ShapeDescription};
-pub use texture::{Colour, Texture, TextureKind};
+pub use texture::{Colour, Number, Texture, TextureKind};
 
 /// Everything that a scene consists of.
 #[derive(Clone, Debug, Default)]

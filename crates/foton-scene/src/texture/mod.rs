@@ -137,10 +137,34 @@ impl Sampler {
         self.number(self.filtered(at, axes))
     }
 
+    /// The least and the greatest of [`Sampler::scalar`].
+    pub(crate) fn scalar_range(&self) -> [f32; 2] {
+        let join = |[a, b]: [f32; 2], [c, d]: [f32; 2]| [a.min(c), b.max(d)];
+        let nothing = [f32::INFINITY, f32::NEG_INFINITY];
+        let range = match &self.kind {
+            // Interpolation lies between pixels.
+            Kind::Bitmap { bitmap, .. } => {
+                bitmap.pixels.iter().map(|p| p.luminance()).fold(nothing, |range, x| join(range, [x, x]))
+            }
+            Kind::Checkerboard { colours } => colours.iter().fold(nothing, |range, colour| {
+                join(
+                    range,
+                    match colour {
+                        Source::Constant(c) => [c.mean(); 2],
+                        Source::Texture(inner) => inner.scalar_range(),
+                    },
+                )
+            }),
+            Kind::Attribute { most, .. } => [0.0, *most],
+        };
+        if range[0] <= range[1] { range } else { [0.0, 0.0] }
+    }
+
     fn number(&self, colour: Rgb) -> f32 {
         if matches!(self.kind, Kind::Bitmap { .. }) { colour.luminance() } else { colour.mean() }
     }
 
+    #[allow(dead_code, reason = "for emitters with textures")]
     /// About how many pixels there are to a unit of the surface's u and v; `None` where there are none.
     pub(crate) fn detail(&self) -> Option<Vec2> {
         let m = self.to_uv.matrix2.as_mat2();

@@ -88,7 +88,7 @@ fn filtering_keeps_the_mean() {
     let bitmap = Arc::new(Bitmap::new(10, 6, pixels));
     let kinds = [
         TextureKind::Bitmap { bitmap: Arc::clone(&bitmap), wrap: Wrap::Repeat, bilinear: true },
-        TextureKind::Bitmap { bitmap: Arc::clone(&bitmap), wrap: Wrap::Mirror, bilinear: false },
+        TextureKind::Bitmap { bitmap: Arc::clone(&bitmap), wrap: Wrap::Repeat, bilinear: false },
         TextureKind::Checkerboard { colours: [0.1, 0.9].map(|c| Rgb::splat(c).into()) },
     ];
     for kind in kinds {

@@ -67,6 +67,12 @@ impl Reader<'_> {
 
     fn new_texture(&mut self, object: Object<'_>, wanted: Wanted) -> Option<usize> {
         let (to_uv, kind) = self.texture_kind(object, wanted)?;
+        let of_others = [Purpose::Share, Purpose::Light, Purpose::Number].map(|p| (object.node, p));
+        let known = of_others.iter().filter_map(|key| *self.textures.indices.get(key)?);
+        let same = |index: &usize| is_same(&self.description.textures[*index].kind, &kind);
+        if let Some(index) = known.into_iter().find(same) {
+            return Some(index);
+        }
         let index = self.description.textures.len();
         let plugin = object.element.attribute("type").map_or("texture", |t| &t.value);
         let name = self.name(object.element, plugin, index + 1);
@@ -215,7 +221,11 @@ impl Reader<'_> {
     /// A colour of a checkerboard.
     fn square(&mut self, p: &mut Properties<'_>, parameter: &Parameter, wanted: Wanted) -> Option<Colour> {
         if let Some(inner) = p.texture(parameter.name) {
-            return self.new_texture(inner, wanted).map(Colour::Texture);
+            let plain = wanted.factor == Rgb::WHITE;
+            let purpose = wanted.purpose;
+            let index =
+                if plain { self.texture_for(inner, purpose) } else { self.new_texture(inner, wanted) };
+            return index.map(Colour::Texture);
         }
         Some(Colour::Constant(self.scaled_colour(p, parameter, wanted)))
     }
@@ -228,7 +238,7 @@ impl Reader<'_> {
             Purpose::Number => self.optical(p, parameter),
         };
         let scaled = colour * wanted.factor;
-        if wanted.purpose == Purpose::Share && scaled.max_component() > 1.0 {
+        if wanted.purpose == Purpose::Share && scaled.max_component() > 1.0 && wanted.factor != Rgb::WHITE {
             let message =
                 format!("\"{}\" times its factor is larger than 1, it is cut to that", parameter.name);
             self.report.warning(p.place, message);
@@ -297,6 +307,17 @@ impl Reader<'_> {
             return None;
         }
         Some(TextureKind::Attribute { name: name.value, scale: scale * factor.r, most })
+    }
+}
+
+/// Whether textures of one element are the same for two purposes.
+fn is_same(a: &TextureKind, b: &TextureKind) -> bool {
+    use TextureKind::{Attribute, Bitmap, Checkerboard};
+    match (a, b) {
+        (Bitmap { bitmap: a, .. }, Bitmap { bitmap: b, .. }) => Arc::ptr_eq(a, b),
+        (Checkerboard { colours: a }, Checkerboard { colours: b }) => a == b,
+        (Attribute { most: a, scale: s, .. }, Attribute { most: b, scale: t, .. }) => (a, s) == (b, t),
+        _ => false,
     }
 }
 
