@@ -9,7 +9,7 @@ use foton_math::Rgb;
 use foton_math::glam::DVec2;
 use foton_scene::description::{
     Bitmap, Bsdf, Colour, Conductor, Dielectric, Diffuse, EmitterKind, Material, MicrofacetDistribution,
-    Microfacets, Mirror, Null, Plastic, Texture, TextureKind, ThinDielectric, Wrap,
+    Microfacets, Mirror, Null, Number, Plastic, Texture, TextureKind, ThinDielectric, Wrap,
 };
 use image::ImageFormat;
 
@@ -72,7 +72,7 @@ fn grey(value: f32) -> Colour {
 }
 
 fn beckmann(alpha: f32) -> Microfacets {
-    Microfacets { distribution: MicrofacetDistribution::Beckmann, alpha_u: alpha, alpha_v: alpha }
+    Microfacets::isotropic(MicrofacetDistribution::Beckmann, alpha)
 }
 
 fn assert_close(found: Rgb, wanted: [f32; 3], tolerance: f32) {
@@ -144,7 +144,18 @@ fn roughness_is_one_alpha_or_two() {
         "<string name='distribution' value='ggx'/><float name='alpha_u' value='0.1'/><float name='alpha_v' value='0.3'/>",
     );
     let ggx = MicrofacetDistribution::Ggx;
-    assert_eq!(two, Microfacets { distribution: ggx, alpha_u: 0.1, alpha_v: 0.3 });
+    assert_eq!(two, Microfacets { distribution: ggx, alpha_u: 0.1.into(), alpha_v: 0.3.into() });
+    // A texture may stand for each, inside or by reference.
+    let board = "<texture type='checkerboard' name='alpha'/>";
+    let textured = Microfacets { alpha_u: Number::Texture(0), alpha_v: Number::Texture(0), ..beckmann(0.1) };
+    assert_eq!(of(board), textured);
+    let along_v = "<float name='alpha_u' value='0.1'/><texture type='checkerboard' name='alpha_v'/>";
+    assert_eq!(of(along_v), Microfacets { alpha_v: Number::Texture(0), ..beckmann(0.1) });
+    let shared = read(
+        "<texture type='checkerboard' id='t'/><bsdf type='roughplastic'><ref name='alpha' id='t'/></bsdf>",
+    );
+    let Bsdf::Plastic(plastic) = shared.description.materials[0].front else { panic!("plastic") };
+    assert_eq!(plastic.roughness, Some(textured));
 }
 
 #[test]
@@ -286,7 +297,7 @@ fn textures_stand_once_and_pixels_too() {
 fn checkerboards_have_mitsubas_defaults_and_the_scales_of_old_files() {
     let plain = texture("<texture type='checkerboard'/>");
     let TextureKind::Checkerboard { colours } = plain.kind else { panic!("{plain:?}") };
-    assert_eq!(colours, [Rgb::splat(0.4), Rgb::splat(0.2)]);
+    assert_eq!(colours, [0.4, 0.2].map(|c| Colour::Constant(Rgb::splat(c))));
     let scaled = texture(
         "<texture type='checkerboard'><float name='uscale' value='3'/><float name='uoffset' value='0.25'/></texture>",
     );
@@ -344,6 +355,6 @@ fn exr_images_are_read_from_the_disk() {
     std::fs::remove_dir_all(&folder).unwrap();
     let opened = opened.unwrap();
     let TextureKind::Bitmap { bitmap, .. } = &opened.description.textures[0].kind else { panic!() };
-    let Bitmap { width, height, pixels } = &**bitmap;
+    let Bitmap { width, height, pixels, .. } = &**bitmap;
     assert_eq!((*width, *height, pixels[1]), (2, 1, Rgb::new(0.25, 0.5, 0.75)));
 }

@@ -58,15 +58,7 @@ pub(crate) const BSDFS: Plugins = Plugins {
 pub(crate) const TEXTURES: Plugins = Plugins {
     kind: "texture",
     supported: || plugins::names(plugins::textures::ALL).collect(),
-    elsewhere: &[
-        "mesh_attribute",
-        "volume",
-        "scale",
-        "vertexcolors",
-        "gridtexture",
-        "wireframe",
-        "curvature",
-    ],
+    elsewhere: &["volume", "wireframe", "curvature"],
 };
 
 pub(crate) const EMITTERS: Plugins = Plugins {

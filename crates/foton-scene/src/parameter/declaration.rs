@@ -62,6 +62,8 @@ pub enum Kind {
     Transform,
     /// The path of a file.
     File,
+    /// The name of something.
+    Name,
     /// Read and without effect: it steers another renderer's sampling.
     Ignored,
     /// Refused where it is given, since leaving it out would change the image.
@@ -187,6 +189,12 @@ impl Parameter {
     #[must_use]
     pub const fn excludes(self, excludes: &'static [&'static str]) -> Self {
         Self { excludes, ..self }
+    }
+
+    /// For which a texture may stand.
+    #[must_use]
+    pub const fn textured(self) -> Self {
+        Self { textured: true, ..self }
     }
 
     /// With what survives when its surface becomes another model.

@@ -2,11 +2,13 @@
 
 mod fingerprint;
 mod light;
+mod lookup;
 mod motion;
 mod parametrisation;
 mod scattering;
 mod surface;
 
+pub use lookup::Footprint;
 pub(crate) use motion::Moving;
 use std::sync::Arc;
 
@@ -14,7 +16,7 @@ use foton_math::glam::{Mat3, Vec2, Vec3};
 use foton_math::{Aabb, Ray};
 
 use crate::accel::{Accel, Hit};
-use crate::bsdf::Coat;
+use crate::bsdf::Coats;
 use crate::build::Patch;
 use crate::census::Census;
 use crate::coincident::Coincidences;
@@ -65,11 +67,13 @@ pub struct Scene {
     pub(crate) vertex_normals: Arc<[[Vec3; 3]]>,
     /// Texture coordinates of each primitive's vertices in the tree's order. Empty when no material asks for them.
     pub(crate) vertex_uvs: Arc<[[Vec2; 3]]>,
-    pub(crate) textures: Arc<[Sampler]>,
+    pub(crate) textures: Arc<[Arc<Sampler>]>,
+    /// Where each primitive stands in the order in which shapes state them. Empty where nothing asks for it.
+    pub(crate) order: Arc<[u32]>,
     pub(crate) shapes: Vec<Shape>,
     pub(crate) materials: Vec<Material>,
     /// Front and back of each material; empty when no coat is rough.
-    pub(crate) coats: Vec<[Option<Coat>; 2]>,
+    pub(crate) coats: Vec<[Option<Coats>; 2]>,
     /// Colours of each shape's front and back where that is Lambertian and nothing else.
     pub(crate) lambertian: Vec<[Option<Colour>; 2]>,
     pub(crate) emitters: Arc<[Emitter]>,
@@ -189,6 +193,7 @@ impl Scene {
             + self.parts.len() * size_of::<Part>()
             + self.vertex_normals.len() * size_of::<[Vec3; 3]>()
             + self.vertex_uvs.len() * size_of::<[Vec2; 3]>()
+            + self.order.len() * size_of::<u32>()
             + self.picture_bytes
     }
 }

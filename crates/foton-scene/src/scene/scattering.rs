@@ -1,10 +1,12 @@
-//! The BSDF at a point, its colours looked up.
+//! The BSDF at a point, its colours and numbers looked up.
+
+use std::cell::LazyCell;
 
 use foton_math::Rgb;
 
-use super::Scene;
+use super::{Footprint, Scene};
 use crate::bsdf::Scattering;
-use crate::description::{Bsdf, Colour, Diffuse};
+use crate::description::{Bsdf, Colour, Diffuse, Number};
 use crate::surface::Surface;
 
 /// The side that a material does not describe.
@@ -12,11 +14,23 @@ const BLACK: Bsdf = Bsdf::Diffuse(Diffuse { reflectance: Colour::Constant(Rgb::B
 
 impl Scene {
     /// How the surface scatters light on the side of `outward` (whether the light's direction is on the normal's side), with
-    /// its colours looked up. `None`: that side is black. A side without a BSDF takes all light that meets it, and where there is
+    /// its colours and numbers looked up. `None`: that side is black. A side without a BSDF takes all light that meets it, and where there is
     /// an opacity the rest passes it all the same.
     #[must_use]
     #[inline(always)]
     pub fn scattering(&self, surface: &Surface, outward: bool) -> Option<Scattering> {
+        self.scattering_seen(surface, outward, None)
+    }
+
+    /// The same, its colours the means over what an eye sample sees around the point. Without a footprint those at the point.
+    #[must_use]
+    #[inline(always)]
+    pub fn scattering_seen(
+        &self,
+        surface: &Surface,
+        outward: bool,
+        footprint: Option<&Footprint>,
+    ) -> Option<Scattering> {
         let material = self.material(surface.shape);
         let front = outward || material.front.transmits();
         let bsdf = match &material.back {
@@ -26,23 +40,31 @@ impl Scene {
             None => return None,
         };
         let coats = self.coats.get(self.shapes[surface.shape as usize].material as usize);
-        let coat = coats.and_then(|c| c[usize::from(!front)]);
+        let coats = coats.and_then(|c| c[usize::from(!front)].as_ref());
+        let complete = |bsdf: Bsdf<Rgb, f32>, opacity: f32| {
+            let coat = coats.map(|coats| coats.at(bsdf.gloss().unwrap_or(0.0)));
+            Some(Scattering { bsdf: surface.between(bsdf), opacity, coat })
+        };
         if !self.census.textures {
             let constant = |c: Colour| if let Colour::Constant(c) = c { c } else { Rgb::BLACK };
             let opacity = material.opacity.map_or(1.0, |c| constant(c).mean());
-            return Some(Scattering { bsdf: surface.between(*bsdf).map(constant), opacity, coat });
+            let number = |n: Number, _| if let Number::Constant(x) = n { x } else { 0.0 };
+            return complete(bsdf.map(constant, number), opacity);
         }
-        let mut known = None;
-        let mut uv = || *known.get_or_insert_with(|| self.texture_coordinate(surface));
+        let lookup = LazyCell::new(|| self.lookup(surface, footprint));
         let opacity = material.opacity.map_or(1.0, |c| match c {
             Colour::Constant(c) => c.mean(),
-            Colour::Texture(t) => self.textures[t].scalar(uv()),
+            Colour::Texture(t) => lookup.scalar(&self.textures[t]),
         });
         let colour = |c: Colour| match c {
             Colour::Constant(c) => c,
-            Colour::Texture(t) => self.textures[t].colour(uv()),
+            Colour::Texture(t) => lookup.colour(&self.textures[t]),
         };
-        Some(Scattering { bsdf: surface.between(*bsdf).map(colour), opacity: opacity.clamp(0.0, 1.0), coat })
+        let number = |n: Number, [low, high]: [f32; 2]| match n {
+            Number::Constant(x) => x,
+            Number::Texture(t) => lookup.scalar(&self.textures[t]).clamp(low, high),
+        };
+        complete(bsdf.map(colour, number), opacity.clamp(0.0, 1.0))
     }
 
     /// The reflectance of a side that is Lambertian and nothing else, its colour looked up: what most photons meet, and with a
@@ -52,7 +74,7 @@ impl Scene {
     pub fn lambertian(&self, surface: &Surface, outward: bool) -> Option<Rgb> {
         match self.lambertian[surface.shape as usize][usize::from(!outward)]? {
             Colour::Constant(c) => Some(c),
-            Colour::Texture(t) => Some(self.textures[t].colour(self.texture_coordinate(surface))),
+            Colour::Texture(t) => Some(self.lookup(surface, None).colour(&self.textures[t])),
         }
     }
 }

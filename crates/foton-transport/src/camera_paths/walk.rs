@@ -268,7 +268,7 @@ impl<'a, 'b> Walk<'a, 'b> {
         let wo = -branch.ray.direction;
         let frame = self.pass.scene.shading_frame(surface, shading_normal_towards(surface, wo));
         let local = frame.to_local(wo);
-        let facet = match scattering.bsdf.roughness() {
+        let facet = match scattering.bsdf.gloss() {
             Some(_) => Some(self.facet.take().unwrap_or_else(|| self.stream.next_2d())),
             None => None,
         };

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
 use foton_scene::description::{
-    Bitmap, Bsdf, Colour, EmitterKind, Geometry, Mesh, SceneDescription, SensorDescription, Texture,
+    Bitmap, Bsdf, Colour, EmitterKind, Geometry, Mesh, Number, SceneDescription, SensorDescription, Texture,
     TextureKind,
 };
 
@@ -96,6 +96,7 @@ fn same_mesh(a: &Mesh, b: &Mesh) -> bool {
     a.triangles == b.triangles
         && a.positions == b.positions
         && a.texture_coordinates == b.texture_coordinates
+        && a.attributes == b.attributes
         && a.normals.len() == b.normals.len()
         && a.normals.iter().zip(&b.normals).all(near)
 }
@@ -115,31 +116,57 @@ fn same_material((a, i): MaterialOf<'_>, (b, j): MaterialOf<'_>) -> bool {
 }
 
 fn same_bsdf((a, x): (&SceneDescription, &Bsdf), (b, y): (&SceneDescription, &Bsdf)) -> bool {
-    let colours = |bsdf: &Bsdf| {
-        let mut colours = Vec::new();
-        let rest = bsdf.map(|c| {
-            colours.push(c);
-            Rgb::BLACK
-        });
-        (colours, rest)
+    let values = |bsdf: &Bsdf| {
+        let (mut colours, mut numbers) = (Vec::new(), Vec::new());
+        let rest = bsdf.map(
+            |c| {
+                colours.push(c);
+                Rgb::BLACK
+            },
+            |n, _| {
+                numbers.push(n);
+                0.0
+            },
+        );
+        (colours, numbers, rest)
     };
-    let ((of_x, x), (of_y, y)) = (colours(x), colours(y));
-    x == y && of_x.len() == of_y.len() && of_x.iter().zip(&of_y).all(|(x, y)| same_colour((a, *x), (b, *y)))
+    let ((colours, numbers, x), (its_colours, its_numbers, y)) = (values(x), values(y));
+    x == y
+        && (colours.len(), numbers.len()) == (its_colours.len(), its_numbers.len())
+        && colours.iter().zip(&its_colours).all(|(x, y)| same_colour((a, *x), (b, *y)))
+        && numbers.iter().zip(&its_numbers).all(|(x, y)| same_number((a, *x), (b, *y)))
+}
+
+fn same_number((a, x): (&SceneDescription, Number), (b, y): (&SceneDescription, Number)) -> bool {
+    match (x, y) {
+        (Number::Texture(x), Number::Texture(y)) => {
+            same_colour((a, Colour::Texture(x)), (b, Colour::Texture(y)))
+        }
+        _ => x == y,
+    }
 }
 
 fn same_colour((a, x): (&SceneDescription, Colour), (b, y): (&SceneDescription, Colour)) -> bool {
     match (x, y) {
         (Colour::Constant(x), Colour::Constant(y)) => x == y,
         (Colour::Texture(x), Colour::Texture(y)) => {
-            a.textures.get(x).zip(b.textures.get(y)).is_some_and(|(x, y)| same_texture(x, y))
+            a.textures.get(x).zip(b.textures.get(y)).is_some_and(|(x, y)| same_texture((a, x), (b, y)))
         }
         _ => false,
     }
 }
 
-fn same_texture(a: &Texture, b: &Texture) -> bool {
+type TextureOf<'a> = (&'a SceneDescription, &'a Texture);
+
+fn same_texture((in_a, a): TextureOf<'_>, (in_b, b): TextureOf<'_>) -> bool {
     let kind = match (&a.kind, &b.kind) {
-        (TextureKind::Checkerboard { colours: x }, TextureKind::Checkerboard { colours: y }) => x == y,
+        (TextureKind::Checkerboard { colours: x }, TextureKind::Checkerboard { colours: y }) => {
+            x.iter().zip(y).all(|(x, y)| same_colour((in_a, *x), (in_b, *y)))
+        }
+        (
+            TextureKind::Attribute { name: x, scale: s, most: m },
+            TextureKind::Attribute { name: y, scale: t, most: n },
+        ) => (x, s, m) == (y, t, n),
         (
             TextureKind::Bitmap { bitmap: x, wrap: v, bilinear: s },
             TextureKind::Bitmap { bitmap: y, wrap: w, bilinear: t },
