@@ -13,7 +13,7 @@ mod texture;
 
 pub use crate::bsdf::{
     Bsdf, Conductor, Dielectric, Diffuse, MicrofacetDistribution, Microfacets, Mirror, Null, Plastic,
-    ThinDielectric,
+    Principled, PrincipledThin, ThinDielectric,
 };
 pub use emitter::{EmitterDescription, EmitterKind};
 pub use hidden::Hidden;
@@ -21,7 +21,7 @@ pub use material::Material;
 pub use motion::{Keyframes, Motion};
 pub use sensor::{Crop, Filter, FovAxis, Lens, SensorDescription};
 pub use shape::{Geometry, Mesh, ShapeDescription};
-pub use texture::{Bitmap, Colour, Number, Texture, TextureKind, Wrap};
+pub use texture::{Amount, Bitmap, Colour, Number, Texture, TextureKind, Wrap};
 
 /// Everything that a scene consists of.
 #[derive(Clone, Debug, Default)]

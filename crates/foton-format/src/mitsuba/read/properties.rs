@@ -267,6 +267,21 @@ impl<'a> Properties<'a> {
         self.refuse(&of(Kind::Unsupported).collect::<Vec<_>>(), report);
     }
 
+    /// Calls a value or a texture by another name, where nothing has that yet.
+    pub(crate) fn rename(&mut self, old: &str, new: &'static str) {
+        if self.states(new) {
+            return;
+        }
+        self.values.iter_mut().filter(|v| v.name == old).for_each(|v| v.name = new);
+        self.objects.iter_mut().filter(|o| o.name == old).for_each(|o| o.name = new);
+    }
+
+    /// Takes all that is left, not looked at.
+    pub(crate) fn leave_rest(&mut self) {
+        self.values.iter_mut().for_each(|v| v.taken = true);
+        self.objects.iter_mut().for_each(|o| o.taken = true);
+    }
+
     /// Values that change nothing in our images: taken, not looked at.
     pub(crate) fn ignore(&mut self, names: &[&'static str]) {
         for value in self.values.iter_mut().filter(|v| names.contains(&v.name)) {
