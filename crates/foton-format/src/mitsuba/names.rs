@@ -50,7 +50,6 @@ pub(crate) const TEXTURES: Plugins = Plugins {
     kind: "texture",
     supported: || plugins::names(plugins::textures::ALL).collect(),
     elsewhere: &[
-        "mesh_attribute",
         "volume",
         "uniform",
         "regular",
@@ -59,9 +58,6 @@ pub(crate) const TEXTURES: Plugins = Plugins {
         "srgb",
         "d65",
         "blackbody",
-        "scale",
-        "vertexcolors",
-        "gridtexture",
         "wireframe",
         "curvature",
     ],

@@ -10,9 +10,9 @@ use foton_format::{Options, open, write_scene};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
-    Bitmap, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, EmitterDescription, EmitterKind, Filter,
-    FovAxis, Geometry, Hidden, Keyframes, Lens, Material, Mesh, MicrofacetDistribution, Microfacets, Mirror,
-    Motion, Null, Number, Plastic, SceneDescription, SensorDescription, ShapeDescription, Texture,
+    Attribute, Bitmap, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, EmitterDescription, EmitterKind,
+    Filter, FovAxis, Geometry, Hidden, Keyframes, Lens, Material, Mesh, MicrofacetDistribution, Microfacets,
+    Mirror, Motion, Null, Number, Plastic, SceneDescription, SensorDescription, ShapeDescription, Texture,
     TextureKind, ThinDielectric, Wrap,
 };
 
@@ -135,6 +135,15 @@ fn materials() -> Vec<Material> {
     sides.into_iter().map(material).collect()
 }
 
+fn odd_attributes() -> Vec<Attribute> {
+    let of = |name: &str, channels, numbers: usize| Attribute {
+        name: name.to_owned(),
+        channels,
+        values: (0..numbers).map(|i| odd(i as _) as f32).collect(),
+    };
+    vec![of("vertex_color", 3, 12), of("vertex_w", 1, 4), of("face_color", 3, 6)]
+}
+
 fn odd_mesh(narrow: bool, normals: bool) -> Geometry {
     let value = |i| if narrow { f64::from(odd(i) as f32) } else { odd(i) };
     let positions = (0..4).map(|i| DVec3::new(value(i), value(i + 4), value(i + 8))).collect();
@@ -145,6 +154,7 @@ fn odd_mesh(narrow: bool, normals: bool) -> Geometry {
         normals,
         texture_coordinates,
         triangles: vec![[0, 1, 2], [0, 2, 3]],
+        attributes: if narrow { odd_attributes() } else { Vec::new() },
     }))
 }
 
@@ -201,13 +211,15 @@ fn sensors() -> Vec<SensorDescription> {
 
 fn everything() -> SceneDescription {
     let pixels = (0..6).map(|i| Rgb::new(i as f32 / 7.0, 0.1, 1.0 / 3.0)).collect();
-    let bitmap = Arc::new(Bitmap { width: 3, height: 2, pixels });
+    let bitmap = Arc::new(Bitmap::new(3, 2, pixels));
     let to_uv = DAffine2::from_scale_angle_translation(DVec2::new(2.0, -4.0), 0.0, DVec2::new(0.5, 0.25));
     let textures = [
         TextureKind::Bitmap { bitmap: Arc::clone(&bitmap), wrap: Wrap::Mirror, bilinear: false },
-        TextureKind::Checkerboard { colours: [Rgb::new(0.1, 0.2, 0.3), Rgb::splat(0.7)] },
+        TextureKind::Checkerboard { colours: [Rgb::new(0.1, 0.2, 0.3).into(), Colour::Texture(0)] },
         TextureKind::Bitmap { bitmap: Arc::clone(&bitmap), wrap: Wrap::Clamp, bilinear: true },
     ];
+    let shown = TextureKind::Attribute { name: "vertex_color".to_owned(), scale: 0.3, most: 1.0 };
+    let attribute = Texture { name: "t".to_owned(), to_uv: DAffine2::IDENTITY, kind: shown };
     let kinds = [
         EmitterKind::Point { position: DVec3::new(odd(1), 2.0, 3.0), intensity: Rgb::new(0.1, 0.2, 0.3) },
         EmitterKind::Spot {
@@ -229,7 +241,11 @@ fn everything() -> SceneDescription {
         sensors: sensors(),
         shapes,
         materials,
-        textures: textures.map(|kind| Texture { name: "t".to_owned(), to_uv, kind }).to_vec(),
+        textures: textures
+            .map(|kind| Texture { name: "t".to_owned(), to_uv, kind })
+            .into_iter()
+            .chain([attribute])
+            .collect(),
         emitters: kinds.map(|kind| EmitterDescription { name: "light".to_owned(), kind }).to_vec(),
         max_depth: Some(7),
         hidden: Hidden { shapes: [1, 3].into(), emitters: [2].into() },
@@ -341,8 +357,10 @@ fn scenes_that_are_written_read_back_equal() {
     scene_files(&crate_folder.join("../../assets"), &mut paths);
     scene_files(&crate_folder.join("../../tests/scenes"), &mut paths);
     scene_files(&crate_folder.join("../../../shared/scenes"), &mut paths);
-    // Meshes of other scenes are no scenes of their own.
-    paths.retain(|p| !["meshes", "models"].iter().any(|f| p.components().any(|c| c.as_os_str() == *f)));
+    // Meshes of other scenes are no scenes of their own, nor are the parts that they include.
+    paths.retain(|p| {
+        !["meshes", "models", "parts"].iter().any(|f| p.components().any(|c| c.as_os_str() == *f))
+    });
     for (i, path) in paths.iter().enumerate() {
         let scene = open(path, &Options::default()).unwrap_or_else(|e| panic!("{e}")).description;
         let again = written_and_read(&scene, &folder, &format!("{i}.xml"));

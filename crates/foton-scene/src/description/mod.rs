@@ -11,6 +11,7 @@ mod sensor;
 mod shape;
 mod texture;
 
+pub use crate::bitmap::{Bitmap, Smaller, Wrap};
 pub use crate::bsdf::{
     Bsdf, Conductor, Dielectric, Diffuse, MicrofacetDistribution, Microfacets, Mirror, Null, Plastic,
     Principled, PrincipledThin, ThinDielectric,
@@ -20,8 +21,8 @@ pub use hidden::Hidden;
 pub use material::Material;
 pub use motion::{Keyframes, Motion};
 pub use sensor::{Crop, Filter, FovAxis, Lens, SensorDescription};
-pub use shape::{Geometry, Mesh, ShapeDescription};
-pub use texture::{Amount, Bitmap, Colour, Number, Texture, TextureKind, Wrap};
+pub use shape::{Attribute, Geometry, Mesh, ShapeDescription};
+pub use texture::{Amount, Colour, Number, Texture, TextureKind};
 
 /// Everything that a scene consists of.
 #[derive(Clone, Debug, Default)]

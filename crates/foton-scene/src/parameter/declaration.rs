@@ -64,6 +64,8 @@ pub enum Kind {
     Transform,
     /// The path of a file.
     File,
+    /// The name of something.
+    Name,
     /// Read and without effect: it steers another renderer's sampling.
     Ignored,
     /// Refused where it is given, since leaving it out would change the image.

@@ -84,9 +84,7 @@ impl<'a> Reader<'a> {
         }
         // Samplers do not change what an image converges to.
         contents.nested("sampler");
-        for texture in contents.nested("texture") {
-            self.texture(texture);
-        }
+        let textures = contents.nested("texture");
         for bsdf in contents.nested("bsdf") {
             self.material(bsdf.node);
         }
@@ -102,6 +100,9 @@ impl<'a> Reader<'a> {
                 break;
             }
             self.shape(shape.node);
+        }
+        for texture in textures {
+            self.unused_texture(texture);
         }
         for emitter in emitters.iter().filter(|e| self.loose_areas.get(&e.node) == Some(&false)) {
             self.report.warning(emitter.place, "this area emitter belongs to no shape and lights nothing");
