@@ -225,13 +225,13 @@ fn all_ways_of_sampling_bring_the_light_that_the_value_says() {
         for wo in views().into_iter().filter(|w| w.z > 0.0 || s.bsdf.has_two_sides()) {
             let mut stream = Stream::new(44, Purpose::Test, 0, 0);
             let truth = |lobes: LobeFlags, stream: &mut Stream| {
-                mean(100_000, || {
+                mean(40_000, || {
                     let w = warp::square_to_sphere(stream.next_2d());
                     s.eval(wo, w, lobes).g * w.z.abs() * tell(w) / warp::square_to_sphere_pdf()
                 })
             };
             let sampled = |apart: LobeFlags, counted: LobeFlags, stream: &mut Stream| {
-                mean(100_000, || {
+                mean(40_000, || {
                     let (lobe, u) = (stream.next_1d(), stream.next_2d());
                     let sample = s.sample(wo, Transport::Radiance, lobe, u, apart);
                     let sample = sample.filter(|sample| sample.lobe.intersects(counted));
@@ -239,13 +239,13 @@ fn all_ways_of_sampling_bring_the_light_that_the_value_says() {
                 })
             };
             let followed = |stream: &mut Stream| {
-                mean(100_000, || {
+                mean(40_000, || {
                     let lobes = s.lobes(wo, Transport::Radiance, stream.next_2d(), glossy);
                     lobes.iter().flatten().map(|l| l.weight.g * tell(l.wi)).sum()
                 })
             };
             let chosen = |stream: &mut Stream| {
-                mean(100_000, || {
+                mean(40_000, || {
                     let (lobe, u) = (stream.next_1d(), stream.next_2d());
                     let lobe = s.choose_lobe(wo, Transport::Radiance, lobe, u, glossy);
                     lobe.map_or(0.0, |l| l.weight.g / l.probability * tell(l.wi))
@@ -277,12 +277,12 @@ fn photons_bring_the_light_that_is_seen() {
         let mut stream = Stream::new(45, Purpose::Test, 0, 0);
         let is_seen = |w: Vec3| w.z > 0.0 || s.bsdf.has_two_sides();
         let sides = |a: Vec3, b: Vec3| (is_seen(a) && is_seen(b)).then(|| tell(a) * tell(b + Vec3::X));
-        let seen = mean(300_000, || {
+        let seen = mean(150_000, || {
             let [light, view] = [0; 2].map(|_| warp::square_to_sphere(stream.next_2d()));
             let value = s.eval(view, light, ALL).g * (light.z * view.z).abs();
             sides(light, view).map_or(0.0, |g| g * value / warp::square_to_sphere_pdf().powi(2))
         });
-        let brought = mean(300_000, || {
+        let brought = mean(150_000, || {
             let light = warp::square_to_sphere(stream.next_2d());
             if !is_seen(light) {
                 return 0.0;
