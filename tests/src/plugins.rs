@@ -86,7 +86,7 @@ fn not_modelled() -> String {
     let mut text = String::from(
         "\n## What is not modelled\n\n\
          These BSDFs, and models of light below surfaces, are read as others, which take their place with what both have in\n\
-         common. A warning says so where the first of a kind stands. Those without a stand-in are an error.\n\n\
+         common. A warning says so where the first of a kind stands. Those without a stand-in are an error, or magenta with `--allow-missing`.\n\n\
          | plugin | instead | what is different |\n|---|---|---|\n",
     );
     for it in stand_ins::ALL {

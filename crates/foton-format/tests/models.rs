@@ -72,6 +72,12 @@ fn every_plugin_that_is_not_modelled_has_a_stand_in_or_is_refused() {
             (found, _) => panic!("{}: {:?}", it.name, found.map(|o| o.warnings)),
         }
     }
+    let xml = "<scene version='3.0.0'><bsdf type='measured'/></scene>";
+    let no_files = |_: &std::path::Path| Err(io::ErrorKind::NotFound.into());
+    let options = Options { allow_missing: true, ..Options::default() };
+    let opened = read_str("s.xml", xml, &no_files, &options).unwrap();
+    let magenta = Rgb::new(0.8, 0.0, 0.8).into();
+    assert_eq!(opened.description.materials[0].front, Bsdf::Diffuse(Diffuse { reflectance: magenta }));
     let twice = open("<bsdf type='pplastic'/><bsdf type='pplastic' id='b'/><bsdf type='hair'/>").unwrap();
     assert_eq!(twice.warnings.len(), 2, "{:?}", twice.warnings);
 }

@@ -8,6 +8,7 @@ use foton_scene::description::{Bsdf, Colour, Diffuse, Null, Plastic, PrincipledT
 use foton_scene::parameter::Parameter;
 use foton_scene::plugins::stand_ins::StandIn;
 
+use crate::diagnostic::Place;
 use crate::mitsuba::read::properties::Properties;
 use crate::mitsuba::read::reader::Reader;
 
@@ -39,9 +40,8 @@ impl Reader<'_> {
     pub(crate) fn stand_in(&mut self, it: &StandIn, p: &mut Properties<'_>) -> Option<Bsdf> {
         let StandIn { name, instead, help } = *it;
         let Some(instead) = instead else {
-            self.report.error(p.place, format!("a \"{name}\" bsdf cannot be rendered: {help}"));
             p.leave_rest();
-            return None;
+            return self.none_stands_in(name, help, p.place);
         };
         self.report.warn_once(p.place, format!("a \"{instead}\" stands in for \"{name}\": {help}"));
         let found = match name {
@@ -58,6 +58,16 @@ impl Reader<'_> {
         };
         p.leave_rest();
         found
+    }
+
+    /// Refuses a BSDF, or where the user takes a picture in which parts are missing, paints it magenta.
+    fn none_stands_in(&mut self, name: &str, help: &str, place: Place) -> Option<Bsdf> {
+        if self.files.allows_missing() {
+            self.report.warn_once(place, format!("magenta stands for \"{name}\": {help}"));
+            return Some(Bsdf::Diffuse(Diffuse { reflectance: Rgb::new(0.8, 0.0, 0.8).into() }));
+        }
+        self.report.error(place, format!("a \"{name}\" bsdf cannot be rendered: {help}"));
+        None
     }
 
     /// A filter that light passes straight, of its transmittance times a factor. Of a texture the factor is left out.
