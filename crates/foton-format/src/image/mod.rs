@@ -15,7 +15,7 @@ use foton_scene::description::Bitmap;
 use image::{ImageDecoder, ImageFormat, ImageReader};
 
 use crate::diagnostic::Report;
-use crate::files::Files;
+use crate::files::{Absent, Files};
 use crate::limits::Budget;
 use crate::mitsuba::read::properties::Located;
 use crate::mitsuba::read::values::srgb_to_linear;
@@ -29,6 +29,9 @@ const MAX_PIXELS_PER_BYTE: u64 = 8 * 1032;
 
 /// Bytes of a pixel in a scene.
 const BYTES_PER_PIXEL: u64 = size_of::<Rgb>() as u64;
+
+/// What stands for an image that is not there.
+const MAGENTA: Rgb = Rgb::new(1.0, 0.0, 1.0);
 
 /// The most characters of what a library says of a file.
 const MAX_REASON: usize = 160;
@@ -156,7 +159,11 @@ fn read(
     report: &mut Report,
 ) -> Option<Bitmap> {
     let place = filename.place;
-    let (path, bytes) = files.read(&filename.value, place, report)?;
+    let (path, bytes) =
+        match files.read_or_do_without(&filename.value, place, "magenta stands for it", report)? {
+            Ok(read) => read,
+            Err(Absent) => return Some(Bitmap::new(1, 1, vec![MAGENTA])),
+        };
     let cancel = files.cancel();
     let mut bitmap = match decode(&path, &bytes, reading, &mut files.budget, cancel) {
         Ok(bitmap) => bitmap,
