@@ -39,7 +39,8 @@ fn room_with_pictures() -> Sketch {
         .room(grey(0.6), None)
         .rectangle(DVec3::new(-0.2, 0.99, 0.0), DVec3::X * 0.6, DVec3::Z * 0.4, grey(0.0), Some(Rgb::WHITE))
         .sphere(DVec3::new(0.6, 0.3, 0.5), 0.2, grey(0.0), Some(Rgb::WHITE));
-    let pixels = (0..64).map(|i: u32| if i % 8 > 4 && i > 40 { Rgb::splat(9.0) } else { Rgb::new(0.3, 0.2, 0.1) });
+    let pixels =
+        (0..64).map(|i: u32| if i % 8 > 4 && i > 40 { Rgb::splat(9.0) } else { Rgb::new(0.3, 0.2, 0.1) });
     let bitmap = Arc::new(Bitmap::new(8, 8, pixels.collect()));
     let kind = TextureKind::Bitmap { bitmap, wrap: Wrap::Repeat, bilinear: true };
     let to_uv = DAffine2::from_translation(DVec2::new(0.1, 0.2));
