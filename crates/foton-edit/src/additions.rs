@@ -204,7 +204,7 @@ fn own_material(description: &mut SceneDescription, thing: NewThing, is_light: b
     let reflectance = Colour::Constant(if is_light { Rgb::BLACK } else { Rgb::splat(GREY) });
     let front = Bsdf::Diffuse(Diffuse { reflectance });
     let name = names::free(description, &format!("{}-material", thing.stem()));
-    description.materials.push(Material { name, front, back: Some(front), opacity: None });
+    description.materials.push(Material { name, front, back: Some(front), ..Material::default() });
     description.materials.len() - 1
 }
 
@@ -229,7 +229,13 @@ pub(crate) fn import(
         let name = names::free(description, &material.name);
         let Material { front, back, opacity, .. } = material;
         let (front, back) = (front.map(moved), back.map(|b| b.map(moved)));
-        description.materials.push(Material { name, front, back, opacity: opacity.map(moved) });
+        description.materials.push(Material {
+            name,
+            front,
+            back,
+            opacity: opacity.map(moved),
+            ..Material::default()
+        });
     }
     for shape in &from.shapes {
         let name = names::free(description, &shape.name);

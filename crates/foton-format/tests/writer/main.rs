@@ -124,6 +124,7 @@ fn materials() -> Vec<Material> {
         front,
         back,
         opacity,
+        ..Material::default()
     };
     sides.into_iter().map(material).collect()
 }

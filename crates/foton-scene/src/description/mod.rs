@@ -17,11 +17,11 @@ pub use crate::bsdf::{
 };
 pub use emitter::{EmitterDescription, EmitterKind};
 pub use hidden::Hidden;
-pub use material::Material;
+pub use material::{Blend, Material, Relief, ReliefKind};
 pub use motion::{Keyframes, Motion};
 pub use sensor::{Crop, Filter, FovAxis, Lens, SensorDescription};
 pub use shape::{Geometry, Mesh, ShapeDescription};
-pub use texture::{Bitmap, Colour, Texture, TextureKind, Wrap};
+pub use texture::{Bitmap, Colour, Number, Texture, TextureKind, Wrap};
 
 /// Everything that a scene consists of.
 #[derive(Clone, Debug, Default)]

@@ -20,6 +20,21 @@ impl From<Rgb> for Colour {
     }
 }
 
+/// A number that is the same everywhere, or comes from a texture: luminance of a bitmap, the mean channel of other textures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Number {
+    /// The same everywhere.
+    Constant(f32),
+    /// Index into [`SceneDescription::textures`](super::SceneDescription::textures).
+    Texture(usize),
+}
+
+impl From<f32> for Number {
+    fn from(x: f32) -> Self {
+        Self::Constant(x)
+    }
+}
+
 /// A colour over texture coordinates.
 #[derive(Clone, Debug)]
 pub struct Texture {

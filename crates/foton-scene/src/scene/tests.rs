@@ -59,7 +59,13 @@ fn a_lambertian_side_is_what_its_scattering_says_and_no_other_is_one() {
         specular_reflectance: Rgb::WHITE.into(),
         specular_transmittance: Rgb::WHITE.into(),
     });
-    let of = |front, back, opacity| Material { name: "material".into(), front, back, opacity };
+    let of = |front, back, opacity| Material {
+        name: "material".into(),
+        front,
+        back,
+        opacity,
+        ..Material::default()
+    };
     let scene = squares(vec![
         of(diffuse(red), Some(diffuse(blue)), None),
         of(diffuse(red), None, None),

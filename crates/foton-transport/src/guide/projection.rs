@@ -156,7 +156,7 @@ mod tests {
             far_clip: None,
             lens: None,
         };
-        let material = |front| Material { name: "material".into(), front, back: None, opacity: None };
+        let material = |front| Material { name: "material".into(), front, back: None, ..Material::default() };
         let lamp = EmitterKind::Point { position: DVec3::ZERO, intensity: Rgb::WHITE };
         let mut shapes = vec![ball(0, 0.0, 1.0), ball(1, 0.5, 0.1)];
         shapes.truncate(1 + usize::from(has_glass));

@@ -28,7 +28,7 @@ impl Reader<'_> {
         let kind = element.attribute("type").map_or("bsdf", |t| &t.value);
         let name = self.name(element, kind, index + 1);
         self.nodes.materials.push(Some(node));
-        self.description.materials.push(Material { name, front, back, opacity });
+        self.description.materials.push(Material { name, front, back, opacity, ..Material::default() });
         self.materials.indices.insert(node, index);
         Some(index)
     }
@@ -44,7 +44,12 @@ impl Reader<'_> {
             if emits { ("default-black", Rgb::BLACK) } else { ("default-grey", Rgb::splat(0.5)) };
         let front = Bsdf::Diffuse(Diffuse { reflectance: reflectance.into() });
         self.nodes.materials.push(None);
-        self.description.materials.push(Material { name: name.to_owned(), front, back: None, opacity: None });
+        self.description.materials.push(Material {
+            name: name.to_owned(),
+            front,
+            back: None,
+            ..Material::default()
+        });
         self.materials.defaults[slot] = Some(index);
         index
     }
