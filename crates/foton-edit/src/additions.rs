@@ -6,8 +6,8 @@ use std::sync::Arc;
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DMat3, DQuat, DVec3};
 use foton_scene::description::{
-    Bsdf, Colour, Diffuse, EmitterDescription, EmitterKind, Geometry, Material, Mesh, SceneDescription,
-    ShapeDescription,
+    Blend, Bsdf, Colour, Diffuse, EmitterDescription, EmitterKind, Geometry, Material, Mesh, Number, Relief,
+    SceneDescription, ShapeDescription,
 };
 
 use super::camera::UpAxis;
@@ -227,15 +227,18 @@ pub(crate) fn import(
     };
     for material in &from.materials {
         let name = names::free(description, &material.name);
-        let Material { front, back, opacity, .. } = material;
+        let Material { front, back, opacity, relief, mixture, .. } = material;
         let (front, back) = (front.map(moved), back.map(|b| b.map(moved)));
-        description.materials.push(Material {
-            name,
-            front,
-            back,
-            opacity: opacity.map(moved),
-            ..Material::default()
-        });
+        let relief = relief.map(|relief| Relief { texture: relief.texture + textures, ..relief });
+        let of_texture = |number: Number| match number {
+            Number::Texture(i) => Number::Texture(i + textures),
+            constant @ Number::Constant(_) => constant,
+        };
+        let moved_blend =
+            |blend: &Blend| Blend { material: blend.material + materials, weight: of_texture(blend.weight) };
+        let mixture = mixture.iter().map(moved_blend).collect();
+        let opacity = opacity.map(moved);
+        description.materials.push(Material { name, front, back, opacity, relief, mixture });
     }
     for shape in &from.shapes {
         let name = names::free(description, &shape.name);

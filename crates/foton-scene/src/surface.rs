@@ -31,6 +31,8 @@ pub struct Surface {
     pub(crate) barycentric: Vec2,
     /// Indices of refraction inside and outside where the faces of two dielectrics are one; `None`: the material's own.
     pub(crate) interface: Option<[f32; 2]>,
+    /// Which of the materials counts that the surface is blended of, after one has been taken.
+    pub(crate) component: u16,
 }
 
 impl Surface {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use foton_math::Rgb;
-use foton_math::glam::{DAffine2, Vec2};
+use foton_math::glam::{DAffine2, DVec2, Vec2};
 
 use crate::description::{Bitmap, Texture, TextureKind, Wrap};
 
@@ -66,6 +66,19 @@ impl Sampler {
 }
 
 impl Sampler {
+    /// How far along u and v a slope is taken: half a texel of a bitmap, so that slopes are continuous.
+    pub(crate) fn step(&self) -> Vec2 {
+        const SMALLEST: f64 = 1e-6;
+        let size = match &self.kind {
+            Kind::Bitmap { bitmap, .. } => DVec2::new(f64::from(bitmap.width), f64::from(bitmap.height)),
+            Kind::Checkerboard { .. } => DVec2::splat(512.0),
+        };
+        let m = self.to_uv.matrix2;
+        let texels = |axis: DVec2| (axis.abs() * size).max_element();
+        let step = |axis: DVec2| (0.5 / texels(axis).max(1e-6)).max(SMALLEST) as f32;
+        Vec2::new(step(m.x_axis), step(m.y_axis))
+    }
+
     /// One number at a texture coordinate: luminance of a bitmap, the mean channel of other colours, as in Mitsuba 3.
     pub(crate) fn scalar(&self, uv: Vec2) -> f32 {
         let colour = self.colour(uv);

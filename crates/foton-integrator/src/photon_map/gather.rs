@@ -81,7 +81,10 @@ impl Gather<'_> {
         }
         let surface = scene.nearest(way.ray)?;
         let wo = -way.ray.direction;
-        let scattering = scene.scattering(&surface, wo.dot(surface.normal) > 0.0)?;
+        let outward = wo.dot(surface.normal) > 0.0;
+        let u = if scene.is_mixture(&surface) { scratch.stream.next_1d() } else { 0.0 };
+        let (surface, _) = scene.choose_component(surface, outward, u);
+        let scattering = scene.scattering(&surface, outward)?;
         let frame = scene.shading_frame(&surface, shading_normal_towards(&surface, wo));
         let met = Met { surface: &surface, scattering, frame, wo, local: frame.to_local(wo) };
         let split = LOBE_POLICY.split(&scattering.bsdf);

@@ -178,6 +178,11 @@ pub(super) fn check_material(material: &Material, description: &SceneDescription
             return Err(BuildError::NoTexture(material.name.clone()));
         }
     }
+    for texture in material.textures() {
+        if description.textures.get(texture).is_none() {
+            return Err(BuildError::NoTexture(material.name.clone()));
+        }
+    }
     let is_sound = |bsdf: &Bsdf| { *bsdf }.parameters().iter().all(Binding::is_valid);
     if material.bsdfs().all(is_sound) { Ok(()) } else { Err(BuildError::BadMaterial(material.name.clone())) }
 }

@@ -14,7 +14,7 @@ use crate::discrete::Discrete;
 use crate::normalise::Normalisation;
 use crate::plane::triangle_normal;
 use crate::primitive::Primitive;
-use crate::scene::{Part, Scene};
+use crate::scene::{Mixtures, Part, Scene};
 
 /// How far a transform's axes may be from equal length and right angles and still keep a sphere round.
 const ROUNDNESS: f64 = 1e-4;
@@ -171,6 +171,7 @@ impl Gathered {
             accel: Arc::new(accel),
             shapes: Vec::new(),
             materials: Vec::new(),
+            mixtures: Mixtures::default(),
             coats: Vec::new(),
             lambertian: Vec::new(),
             emitters: Arc::default(),

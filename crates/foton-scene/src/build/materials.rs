@@ -2,7 +2,7 @@
 
 use crate::bsdf::{Coat, LobeFlags};
 use crate::census::{BsdfKind, Census};
-use crate::description::{Bsdf, Colour, Material};
+use crate::description::{Bsdf, Colour, Material, Number};
 
 /// A glossy lobe of at most this roughness α throws caustics: nearly as sharp as those of a mirror.
 const MAX_CASTER_ROUGHNESS: f32 = 0.1;
@@ -19,6 +19,9 @@ impl Material {
 
     /// The colours of its sides where they are Lambertian and nothing else.
     pub(super) fn lambertian(&self) -> [Option<Colour>; 2] {
+        if self.relief.is_some() || !self.mixture.is_empty() {
+            return [None; 2];
+        }
         let colour = |bsdf: Option<&Bsdf>| bsdf.filter(|_| self.opacity.is_none()).and_then(Bsdf::lambertian);
         let back = if self.front.transmits() { Some(&self.front) } else { self.back.as_ref() };
         [colour(Some(&self.front)), colour(back)]
@@ -38,6 +41,17 @@ impl Material {
             let _ = bsdf.map(|c| colours.push(c));
         }
         colours.into_iter()
+    }
+
+    /// All textures that it looks up.
+    pub(super) fn textures(&self) -> impl Iterator<Item = usize> {
+        let of_colours =
+            self.colours().filter_map(|c| if let Colour::Texture(t) = c { Some(t) } else { None });
+        let of_weights = self
+            .mixture
+            .iter()
+            .filter_map(|b| if let Number::Texture(t) = b.weight { Some(t) } else { None });
+        of_colours.chain(of_weights).chain(self.relief.map(|relief| relief.texture))
     }
 
     /// Whether it throws caustics.
@@ -62,10 +76,13 @@ impl Census {
             let (flags, masked) = (bsdf.flags(), material.opacity.is_some());
             let roughness = bsdf.roughness().map(|r| r.widest());
             let lambertian = bsdf.lambertian().is_some();
+            let interpolated_normals = interpolated_normals || material.relief.is_some();
             let kind = BsdfKind { flags, roughness, interpolated_normals, lambertian, masked };
             if !self.bsdfs.contains(&kind) {
                 self.bsdfs.push(kind);
             }
+            self.reliefs |= material.relief.is_some();
+            self.mixtures |= !material.mixture.is_empty();
             self.refraction |= bsdf.transmits();
             self.straight |= masked || flags.intersects(LobeFlags::STRAIGHT);
             self.rough_coats |= matches!(bsdf, Bsdf::Plastic(plastic) if plastic.roughness.is_some());

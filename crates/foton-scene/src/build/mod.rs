@@ -16,10 +16,10 @@ use foton_math::Aabb;
 use foton_math::glam::{DVec3, Vec3};
 
 use crate::coincident::Coincidences;
-use crate::description::{Colour, Material, SceneDescription, SensorDescription, ShapeDescription};
+use crate::description::{Material, SceneDescription, SensorDescription, ShapeDescription};
 use crate::emitter::{Aim, Area, Emitter, Kind};
 use crate::normalise::Normalisation;
-use crate::scene::{Moving, Part, Scene, Shape};
+use crate::scene::{Mixtures, Moving, Part, Scene, Shape};
 use crate::sensor::Sensor;
 use crate::texture::Sampler;
 use checks::{
@@ -77,18 +77,20 @@ impl Scene {
         check_textures(description)?;
         let normalisation = Normalisation::for_bounds(min, max);
         check_sensors(&description.sensors, &normalisation)?;
+        let mixtures = Mixtures::new(&description.materials)?;
         let gauge = options.step(BuildStep::Shapes, description.primitives());
         let mut gathered = Gathered::new(options.forced.clone());
         for material in &description.materials {
             check_material(material, description)?;
-            gathered.census.textures |= material.colours().any(|c| matches!(c, Colour::Texture(_)));
+            gathered.census.textures |= material.textures().next().is_some();
             gathered.census.anisotropy |= material.is_anisotropic();
         }
-        let mut parts = Parts { gathered, shapes: Vec::new(), emitters: Vec::new(), casters: Aabb::EMPTY };
+        let (shapes, emitters) = (Vec::new(), Vec::new());
+        let mut parts = Parts { gathered, mixtures: &mixtures, shapes, emitters, casters: Aabb::EMPTY };
         for (i, shape) in description.shapes.iter().enumerate() {
             parts.add(i as u32, shape, description, &normalisation, &gauge)?;
         }
-        let Parts { gathered, shapes, mut emitters, casters } = parts;
+        let Parts { gathered, shapes, mut emitters, casters, .. } = parts;
         let bounds = gathered.primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
         let bounds = if bounds.is_empty() { Aabb::around(Vec3::ZERO, 1.0) } else { bounds };
         let scene_ball = ball(&bounds);
@@ -105,6 +107,7 @@ impl Scene {
         scene.shapes = shapes;
         scene.textures = description.textures.iter().map(Sampler::new).collect();
         scene.materials.clone_from(&description.materials);
+        scene.mixtures = mixtures;
         scene.max_depth = description.max_depth;
         scene.picture_bytes = description.picture_bytes();
         scene.sensors = description.sensors.iter().map(|s| Sensor::new(s, &normalisation)).collect();
@@ -125,7 +128,8 @@ impl Scene {
         }
         self.lambertian =
             self.shapes.iter().map(|s| self.materials[s.material as usize].lambertian()).collect();
-        let spreads: Vec<bool> = self.shapes.iter().map(|s| self.material_of(s).spreads()).collect();
+        let spreads: Vec<bool> =
+            self.shapes.iter().map(|s| self.materials_of(s).any(Material::spreads)).collect();
         let patches = patches::find(&self.accel, |i| spreads[self.shape_of(i) as usize], options)?;
         let coincidences = Coincidences::find(self, options)?;
         for (i, (part, patch)) in Arc::make_mut(&mut self.parts).iter_mut().zip(patches).enumerate() {
@@ -189,15 +193,16 @@ fn steps_across(extent: &Aabb) -> f32 {
 }
 
 /// What shapes bring to a scene.
-struct Parts {
+struct Parts<'a> {
     gathered: Gathered,
+    mixtures: &'a Mixtures,
     shapes: Vec<Shape>,
     emitters: Vec<Emitter>,
     /// A box around what throws caustics.
     casters: Aabb,
 }
 
-impl Parts {
+impl Parts<'_> {
     fn add(
         &mut self,
         index: u32,
@@ -206,7 +211,7 @@ impl Parts {
         normalisation: &Normalisation,
         gauge: &Gauge<'_>,
     ) -> Result<(), BuildError> {
-        let Self { gathered, shapes, emitters, casters } = self;
+        let Self { gathered, mixtures, shapes, emitters, casters } = self;
         let first = gathered.primitives.len();
         let is_hidden = description.hidden.shapes.contains(&(index as usize));
         if !is_hidden {
@@ -216,14 +221,16 @@ impl Parts {
         if gathered.primitives.len() > i32::MAX as usize {
             return Err(BuildError::TooLarge);
         }
-        let material = description.materials.get(shape.material);
-        let material = material.ok_or_else(|| BuildError::NoMaterial(shape.name.clone()))?;
+        if shape.material >= description.materials.len() {
+            return Err(BuildError::NoMaterial(shape.name.clone()));
+        }
+        let mut materials = mixtures.materials(shape.material).map(|i| &description.materials[i]);
         let smooth = gathered.vertex_normals[first..].iter().any(|n| n[0] != Vec3::ZERO);
         if !is_hidden {
-            gathered.census.count(material, smooth);
+            materials.clone().for_each(|material| gathered.census.count(material, smooth));
         }
         let primitives = &gathered.primitives[first..];
-        if material.casts() {
+        if materials.any(Material::casts) {
             *casters = primitives.iter().fold(*casters, |b, p| b.union(p.bounds()));
         }
         let emitter = shape.radiance.filter(|r| !r.is_black() && !is_hidden).map(|radiance| {

@@ -37,6 +37,15 @@ impl Default for Material {
     }
 }
 
+impl Material {
+    /// Whether anything but the name differs.
+    #[must_use]
+    pub fn scatters_differently(&self, other: &Self) -> bool {
+        let all = |m: &Self| (m.front, m.back, m.opacity, m.relief);
+        all(self) != all(other) || self.mixture != other.mixture
+    }
+}
+
 /// A material that is blended with another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blend {

@@ -43,3 +43,12 @@ pub struct SceneDescription {
     /// What moves.
     pub motion: Motion,
 }
+
+impl SceneDescription {
+    /// Whether a material, by its index, is blended with others and is no shape's own.
+    #[must_use]
+    pub fn is_component(&self, material: usize) -> bool {
+        let mut blends = self.materials.iter().flat_map(|m| &m.mixture);
+        blends.any(|blend| blend.material == material) && self.shapes.iter().all(|s| s.material != material)
+    }
+}

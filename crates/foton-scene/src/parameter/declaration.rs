@@ -62,6 +62,10 @@ pub enum Kind {
     Transform,
     /// The path of a file.
     File,
+    /// Numbers, separated by commas or spaces.
+    Numbers,
+    /// A texture.
+    Texture,
     /// Read and without effect: it steers another renderer's sampling.
     Ignored,
     /// Refused where it is given, since leaving it out would change the image.

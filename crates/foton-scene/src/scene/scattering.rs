@@ -17,7 +17,8 @@ impl Scene {
     #[must_use]
     #[inline(always)]
     pub fn scattering(&self, surface: &Surface, outward: bool) -> Option<Scattering> {
-        let material = self.material(surface.shape);
+        let index = self.material_index(surface);
+        let material = &self.materials[index];
         let front = outward || material.front.transmits();
         let bsdf = match &material.back {
             _ if front => &material.front,
@@ -25,7 +26,7 @@ impl Scene {
             None if material.opacity.is_some() => &BLACK,
             None => return None,
         };
-        let coats = self.coats.get(self.shapes[surface.shape as usize].material as usize);
+        let coats = self.coats.get(index);
         let coat = coats.and_then(|c| c[usize::from(!front)]);
         if !self.census.textures {
             let constant = |c: Colour| if let Colour::Constant(c) = c { c } else { Rgb::BLACK };

@@ -136,18 +136,25 @@ impl<'a, 'b> Walk<'a, 'b> {
             self.see(emitted, surface.position, Some(surface.shape));
         }
         let outward = wo.dot(surface.normal) > 0.0;
-        let Some(scattering) = scene.scattering(&surface, outward) else { return };
         if branch.edges >= self.pass.max_depth {
             return;
         }
+        for (surface, weight) in scene.components(&surface, outward) {
+            self.meet(&Branch { weight: branch.weight * weight, ..branch }, &surface, outward);
+        }
+    }
+
+    /// Stores a hit point on a surface, and follows its lobes.
+    fn meet(&mut self, branch: &Branch, surface: &Surface, outward: bool) {
+        let Some(scattering) = self.pass.scene.scattering(surface, outward) else { return };
         let distance = branch.distance + (surface.position - branch.ray.origin).length();
         let split = self.pass.policy.split(&scattering.bsdf);
         if split.gathers() {
             let part = Part { lobes: split.gathered, specular: false, behind: false };
-            self.store(&branch, &surface, &scattering, distance, part);
+            self.store(branch, surface, &scattering, distance, part);
         }
         if split.follows() || scattering.opacity < 1.0 {
-            self.follow_lobes(&branch, &surface, &scattering, split, distance);
+            self.follow_lobes(branch, surface, &scattering, split, distance);
         }
     }
 

@@ -65,18 +65,29 @@ impl PhotonPass<'_> {
         next: &mut Vec<Path>,
     ) -> bool {
         let wo = -path.ray.direction;
-        let Some(scattering) = self.scene.scattering(surface, wo.dot(surface.normal) > 0.0) else {
+        let outward = wo.dot(surface.normal) > 0.0;
+        // Whichever component this photon takes, hit points of all of them may gather it.
+        let gathers = |(surface, _): (Surface, f32)| {
+            let scattering = self.scene.scattering(&surface, outward);
+            let split = scattering.map(|s| self.policy.split(&s.bsdf));
+            split.is_some_and(|split| split.gathers() || path.lone && split.follows_gloss())
+        };
+        let counts = self.scene.is_mixture(surface) && self.scene.components(surface, outward).any(gathers);
+        let mut stored = if counts { self.store(path, surface, wo, chunk) } else { path.stored };
+        let (surface, u_lobe) = self.scene.choose_component(*surface, outward, draw.lobe);
+        let surface = &surface;
+        let Some(scattering) = self.scene.scattering(surface, outward) else {
             chunk.ledger.absorbed += energy(path.power);
-            return path.stored;
+            return stored;
         };
         let split = self.policy.split(&scattering.bsdf);
-        let counts = split.gathers() || path.lone && split.follows_gloss();
-        let stored = if counts { self.store(path, surface, wo, chunk) } else { path.stored };
+        if !counts && (split.gathers() || path.lone && split.follows_gloss()) {
+            stored = self.store(path, surface, wo, chunk);
+        }
         let normal = shading_normal_towards(surface, wo);
         let frame = self.scene.shading_frame(surface, normal);
         let local = frame.to_local(wo);
-        let sample =
-            scattering.sample(local, Transport::Importance, draw.lobe, draw.direction, split.specular);
+        let sample = scattering.sample(local, Transport::Importance, u_lobe, draw.direction, split.specular);
         let Some(sample) = sample else {
             chunk.ledger.absorbed += energy(path.power);
             return stored;

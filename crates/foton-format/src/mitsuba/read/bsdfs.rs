@@ -60,7 +60,7 @@ impl Reader<'_> {
 
     /// A number within its range.
     #[allow(clippy::cast_possible_truncation, reason = "optics is single precision")]
-    fn number(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Option<f32> {
+    pub(super) fn number(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Option<f32> {
         let Parameter { name, range: (min, max), .. } = *parameter;
         let Some(found) = p.number(name, &mut self.report) else { return Some(parameter.default_number()) };
         if parameter.holds(found.value) {

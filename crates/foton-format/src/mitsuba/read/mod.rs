@@ -21,3 +21,4 @@ pub(crate) mod textures;
 pub(crate) mod transform;
 pub(crate) mod upgrade;
 pub(crate) mod values;
+pub(crate) mod wrappers;
