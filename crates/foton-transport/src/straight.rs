@@ -4,7 +4,7 @@ use foton_math::glam::Vec3;
 use foton_math::{Ray, Rgb};
 use foton_scene::{Scene, Surface};
 
-use crate::shading::shading_normal_towards;
+use crate::shading::shading_view;
 
 /// The transmittance of a ray, each surface that it passes being one more edge; black where one blocks or deflects it, and where
 /// that takes more than `edges`. Adds to the number of rays.
@@ -37,8 +37,8 @@ pub fn through(scene: &Scene, surface: &Surface, wo: Vec3) -> Rgb {
     let mut sum = Rgb::BLACK;
     for (surface, weight) in scene.components(surface, outward) {
         let Some(scattering) = scene.scattering(&surface, outward) else { continue };
-        let frame = scene.shading_frame(&surface, shading_normal_towards(&surface, wo));
-        sum += scattering.straight(frame.to_local(wo)) * weight;
+        let (_, local) = shading_view(scene, &surface, wo);
+        sum += scattering.straight(local) * weight;
     }
     sum
 }

@@ -81,6 +81,7 @@ impl Area {
             primitive: 0,
             barycentric: Vec2::ZERO,
             interface: None,
+            is_relieved: false,
             component: 0,
         }
     }

@@ -52,7 +52,7 @@ impl Scene {
             perturbed += surface.normal * (below.abs().max(MIN_COSINE) - below);
             perturbed = perturbed.normalize_or(surface.normal);
         }
-        Surface { shading_normal: perturbed, ..surface }
+        Surface { shading_normal: perturbed, is_relieved: true, ..surface }
     }
 }
 
