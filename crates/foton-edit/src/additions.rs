@@ -225,17 +225,20 @@ pub(crate) fn import(
         Colour::Texture(i) => Colour::Texture(i + textures),
         constant @ Colour::Constant(_) => constant,
     };
+    let moved_number = |number: Number, _| match number {
+        Number::Texture(i) => Number::Texture(i + textures),
+        constant @ Number::Constant(_) => constant,
+    };
     for material in &from.materials {
         let name = names::free(description, &material.name);
         let Material { front, back, opacity, relief, mixture, .. } = material;
-        let (front, back) = (front.map(moved), back.map(|b| b.map(moved)));
+        let moved_side = |b: &Bsdf| b.map(moved, moved_number);
+        let (front, back) = (moved_side(front), back.as_ref().map(moved_side));
         let relief = relief.map(|relief| Relief { texture: relief.texture + textures, ..relief });
-        let of_texture = |number: Number| match number {
-            Number::Texture(i) => Number::Texture(i + textures),
-            constant @ Number::Constant(_) => constant,
+        let moved_blend = |blend: &Blend| Blend {
+            material: blend.material + materials,
+            weight: moved_number(blend.weight, [0.0, 1.0]),
         };
-        let moved_blend =
-            |blend: &Blend| Blend { material: blend.material + materials, weight: of_texture(blend.weight) };
         let mixture = mixture.iter().map(moved_blend).collect();
         let opacity = opacity.map(moved);
         description.materials.push(Material { name, front, back, opacity, relief, mixture });

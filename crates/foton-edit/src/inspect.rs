@@ -168,7 +168,7 @@ fn shape(description: &SceneDescription, index: usize, mut fields: Fields) -> Op
         notes.push(format!("The material {} is shared by {shapes} shapes.", quoted(&used.name)));
     }
     if textured {
-        notes.push("Colours that come from textures cannot be edited here.".to_owned());
+        notes.push("Values that come from textures cannot be edited here.".to_owned());
     }
     let kind = shape_kind(description, shape);
     let material = Some(MaterialUse { name: used.name.clone(), shapes });

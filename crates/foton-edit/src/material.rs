@@ -2,7 +2,7 @@
 
 use foton_math::Rgb;
 use foton_scene::bsdf::{MicrofacetDistribution, Microfacets};
-use foton_scene::description::{Bsdf, Colour, Material};
+use foton_scene::description::{Bsdf, Colour, Material, Number};
 use foton_scene::metals::METALS;
 use foton_scene::parameter::{Binding, Parameter, Role, Slot};
 use foton_scene::plugins::wrappers::OPACITY;
@@ -42,7 +42,7 @@ pub(crate) fn kind_name(material: &Material) -> String {
     }
 }
 
-/// Appends a material's fields. Whether some colours come from textures, which cannot be edited.
+/// Appends a material's fields. Whether some values come from textures, which cannot be edited.
 pub(crate) fn fields(material: &Material, out: &mut Fields) -> bool {
     let mut textured = side_fields(&material.front, Side::Front, out);
     if let Some(back) = material.back.filter(|b| *b != material.front && !material.front.transmits()) {
@@ -75,8 +75,8 @@ fn side_fields(bsdf: &Bsdf, side: Side, out: &mut Fields) -> bool {
                     out.advance();
                 }
             }
-            Slot::Share(Colour::Texture(_)) => textured = true,
-            Slot::Number(x) | Slot::Refraction(x) => {
+            Slot::Share(Colour::Texture(_)) | Slot::Number(Number::Texture(_)) => textured = true,
+            Slot::Number(Number::Constant(x)) | Slot::Refraction(x) => {
                 out.parameter(own, parameter, f64::from(*x));
                 // Outside is nearly always air.
                 if parameter.role == Some(Role::OutsideIor) {
@@ -88,7 +88,7 @@ fn side_fields(bsdf: &Bsdf, side: Side, out: &mut Fields) -> bool {
                 out.advance();
             }
             Slot::Metal { eta, k } => metal_fields(side, parameters, [*eta, *k], out),
-            Slot::Roughness(roughness) => roughness_fields(side, parameters, *roughness, out),
+            Slot::Roughness(roughness) => textured |= roughness_fields(side, parameters, *roughness, out),
         }
     }
     textured
@@ -134,24 +134,30 @@ fn metal_fields(side: Side, parameters: &'static [Parameter], [eta, k]: [Rgb; 2]
     }
 }
 
+/// The fields of a roughness; whether it comes from a texture.
 fn roughness_fields(
     side: Side,
     parameters: &'static [Parameter],
     roughness: Option<Microfacets>,
     out: &mut Fields,
-) {
+) -> bool {
     let id = |p| FieldId::Material(side, p);
     let help = "A smooth surface makes sharp images and caustics; a rough one blurs both.";
     out.toggle(id(Property::Rough), "Rough", roughness.is_some(), help);
-    let Some(Microfacets { distribution, alpha_u, alpha_v }) = roughness else { return };
-    let alphas: &[(&'static str, f32)] = if alpha_u == alpha_v {
+    let Some(Microfacets { distribution, alpha_u, alpha_v }) = roughness else { return false };
+    let alphas: &[(&'static str, Number)] = if alpha_u == alpha_v {
         &[("alpha", alpha_u)]
     } else {
         &[("alpha_u", alpha_u), ("alpha_v", alpha_v)]
     };
+    let mut textured = false;
     for &(name, value) in alphas {
-        if let Some(parameter) = named(parameters, name) {
-            out.parameter(id(Property::Parameter(name)), parameter, f64::from(value));
+        match (named(parameters, name), value) {
+            (Some(parameter), Number::Constant(x)) => {
+                out.parameter(id(Property::Parameter(name)), parameter, f64::from(x));
+            }
+            (_, Number::Texture(_)) => textured = true,
+            (None, _) => {}
         }
     }
     if let Some(parameter) = named(parameters, "distribution") {
@@ -160,6 +166,7 @@ fn roughness_fields(
         out.choice(id, parameter.label, distribution as usize, options, parameter.help);
         out.advance();
     }
+    textured
 }
 
 /// Sets what a field of a side says; the value fits the field.
@@ -202,7 +209,8 @@ fn set_side(bsdf: &mut Bsdf, property: Property, value: Value) {
         let is_it = property == Property::Parameter(parameters[0].name);
         match (slot, value) {
             (Slot::Share(share), Value::Colour(c)) if is_it => *share = Rgb::from_array(c).into(),
-            (Slot::Number(place) | Slot::Refraction(place), Value::Number(x)) if is_it => *place = x as f32,
+            (Slot::Number(place), Value::Number(x)) if is_it => *place = (x as f32).into(),
+            (Slot::Refraction(place), Value::Number(x)) if is_it => *place = x as f32,
             (Slot::Boolean(flag), Value::Toggle(on)) if is_it => *flag = on,
             (Slot::Metal { eta, k }, _) => set_metal([eta, k], property, value),
             (Slot::Roughness(roughness), _) => set_roughness(roughness, property, value),
@@ -234,12 +242,13 @@ fn set_roughness(roughness: &mut Option<Microfacets>, property: Property, value:
             *roughness = on.then(|| roughness.unwrap_or(Microfacets::PRESET));
         }
         (Property::Parameter("alpha"), Value::Number(x), Some(r)) => {
-            (r.alpha_u, r.alpha_v) = (x as f32, x as f32);
+            let alpha = Number::Constant(x as f32);
+            (r.alpha_u, r.alpha_v) = (alpha, alpha);
         }
-        (Property::Parameter("alpha_u"), Value::Number(x), Some(r)) => r.alpha_u = x as f32,
-        (Property::Parameter("alpha_v"), Value::Number(x), Some(r)) => r.alpha_v = x as f32,
+        (Property::Parameter("alpha_u"), Value::Number(x), Some(r)) => r.alpha_u = (x as f32).into(),
+        (Property::Parameter("alpha_v"), Value::Number(x), Some(r)) => r.alpha_v = (x as f32).into(),
         (Property::Parameter("distribution"), Value::Choice(i), Some(r)) => {
-            r.distribution = MicrofacetDistribution::ALL[i.min(1)];
+            r.distribution = MicrofacetDistribution::ALL[i.min(MicrofacetDistribution::ALL.len() - 1)];
         }
         _ => {}
     }
@@ -258,6 +267,7 @@ fn of_kind(kind: usize, old: &Bsdf) -> Bsdf {
         let Some(from) = before.iter().find(|b| b.parameters[0].role == Some(role)) else { continue };
         match (slot, &from.slot) {
             (Slot::Share(new), Slot::Share(old)) => *new = **old,
+            (Slot::Number(new), Slot::Number(old)) => *new = **old,
             (Slot::Refraction(new), Slot::Refraction(old)) => *new = **old,
             (Slot::Roughness(new), Slot::Roughness(old)) => {
                 let is_isotropic = named(parameters, "alpha_v").is_none();

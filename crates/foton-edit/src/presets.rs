@@ -39,7 +39,7 @@ fn clear(int_ior: f32, transmittance: Rgb, alpha: Option<f32>) -> Bsdf {
 }
 
 fn rough(alpha: f32) -> Microfacets {
-    Microfacets { distribution: MicrofacetDistribution::Ggx, alpha_u: alpha, alpha_v: alpha }
+    Microfacets::isotropic(MicrofacetDistribution::Ggx, alpha)
 }
 
 fn metal(eta: [f32; 3], k: [f32; 3]) -> Bsdf {

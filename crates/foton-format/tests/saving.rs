@@ -29,7 +29,7 @@ const SCENE: &str = r#"<!-- A test scene, with a comment before it. -->
         <ref name="diffuse_reflectance" id="squares"/>
         <float name="alpha" value="0.2"/>
     </bsdf></bsdf>
-    <bsdf type="roughconductor" id="metal"><string name="material" value="Au"/></bsdf>
+    <bsdf type="roughconductor" id="metal"><string name="material" value="Au"/><ref name="alpha" id="squares"/></bsdf>
     <shape type="sphere" id="ball">
         <point name="center" x="0" y="1" z="0"/> <!-- The middle. -->
         <ref id="glass"/>
@@ -179,7 +179,7 @@ fn values_of_materials_change_and_textures_stay() {
         let Bsdf::Plastic(Plastic { roughness: Some(r), .. }) = &mut d.materials[1].front else {
             panic!("plastic")
         };
-        (r.alpha_u, r.alpha_v) = (0.3, 0.3);
+        (r.alpha_u, r.alpha_v) = (0.3.into(), 0.3.into());
         d.materials[1].back = Some(d.materials[1].front);
     });
     assert_eq!(lines, ["<float name=\"alpha\" value=\"0.3\"/>"]);
@@ -188,6 +188,19 @@ fn values_of_materials_change_and_textures_stay() {
         k.b = 2.5;
     });
     assert!(lines[0].contains("eta") && !lines[0].contains("Au"), "{lines:?}");
+    assert!(lines[0].contains("<ref name=\"alpha\" id=\"squares\"/>"), "{lines:?}");
+    let rough = |change: fn(&mut Microfacets)| {
+        changed_lines(&folder, |d| {
+            let Bsdf::Conductor(Conductor { roughness: Some(r), .. }) = &mut d.materials[2].front else {
+                panic!("a rough metal")
+            };
+            change(r);
+        })
+    };
+    let lines = rough(|r| r.distribution = MicrofacetDistribution::Ggx);
+    assert!(lines[0].contains("id=\"squares\"") && lines[0].contains("ggx"), "{lines:?}");
+    let lines = rough(|r| (r.alpha_u, r.alpha_v) = (0.3.into(), 0.3.into()));
+    assert!(!lines[0].contains("squares") && lines[0].contains("name=\"alpha\" value=\"0.3\""), "{lines:?}");
 }
 
 #[test]
@@ -198,7 +211,7 @@ fn smooth_becomes_rough_and_one_kind_another_in_the_same_place() {
             panic!("glass")
         };
         let distribution = MicrofacetDistribution::Ggx;
-        *roughness = Some(Microfacets { distribution, alpha_u: 0.1, alpha_v: 0.2 });
+        *roughness = Some(Microfacets { distribution, alpha_u: 0.1.into(), alpha_v: 0.2.into() });
     });
     assert!(
         lines[0].contains("type=\"roughdielectric\" id=\"glass\"") && lines[0].contains("$ior"),

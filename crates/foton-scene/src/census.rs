@@ -23,7 +23,7 @@ pub struct Census {
     pub straight: bool,
     /// Whether any coat is rough: what gets through it is integrated beforehand.
     pub rough_coats: bool,
-    /// Whether any colour comes from a texture.
+    /// Whether any colour or number comes from a texture.
     pub textures: bool,
     /// Whether any surface is blended of several materials.
     pub mixtures: bool,

@@ -86,6 +86,22 @@ impl Sampler {
     }
 }
 
+impl Sampler {
+    /// The least and the greatest of [`Sampler::scalar`].
+    pub(crate) fn scalar_range(&self) -> [f32; 2] {
+        let of = |numbers: &mut dyn Iterator<Item = f32>| {
+            let [least, most] =
+                numbers.fold([f32::INFINITY, f32::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+            if least <= most { [least, most] } else { [0.0, 0.0] }
+        };
+        match &self.kind {
+            // Interpolation lies between pixels.
+            Kind::Bitmap { bitmap, .. } => of(&mut bitmap.pixels.iter().map(|p| p.luminance())),
+            Kind::Checkerboard { colours } => of(&mut colours.iter().map(|c| c.mean())),
+        }
+    }
+}
+
 /// The pixel that a coordinate beyond the picture shows.
 fn wrapped(i: i64, size: u32, wrap: Wrap) -> usize {
     let n = i64::from(size);

@@ -4,6 +4,7 @@
 //! [`LobeUse`]. The rule holds for the whole render: emission counts where eye paths meet emitters by specular lobes, and photons
 //! count where hit points gather, so nothing counts twice.
 
+use foton_math::Rgb;
 use foton_scene::{Bsdf, Census, LobeFlags};
 
 /// The rule by which lobes are divided: *specular* ones, which eye paths follow, and *gathered* ones, for which hit points gather
@@ -26,8 +27,8 @@ pub struct LobeSplit {
 impl LobePolicy {
     /// How the lobes of a BSDF are divided, by the parameters that it has at a point.
     #[must_use]
-    pub fn split<C: Copy>(&self, bsdf: &Bsdf<C>) -> LobeSplit {
-        self.split_flags(bsdf.flags(), bsdf.roughness().map(|r| r.widest()))
+    pub fn split(&self, bsdf: &Bsdf<Rgb, f32>) -> LobeSplit {
+        self.split_flags(bsdf.flags(), bsdf.gloss())
     }
 
     /// Delta lobes are specular, diffuse ones gathered. Of glossy ones, narrow reflections are specular, and so is all that rough
@@ -139,16 +140,15 @@ impl LobeUse {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use foton_math::Rgb;
     use foton_scene::bsdf::{Dielectric, Diffuse, MicrofacetDistribution, Microfacets, Null, Plastic};
 
     const POLICY: LobePolicy = LobePolicy { max_specular_roughness: 0.1 };
 
-    fn rough(alpha: f32) -> Option<Microfacets> {
+    fn rough(alpha: f32) -> Option<Microfacets<f32>> {
         Some(Microfacets::isotropic(MicrofacetDistribution::Ggx, alpha))
     }
 
-    fn plastic(roughness: Option<Microfacets>) -> Bsdf<Rgb> {
+    fn plastic(roughness: Option<Microfacets<f32>>) -> Bsdf<Rgb, f32> {
         let white = Rgb::WHITE;
         Bsdf::Plastic(Plastic {
             int_ior: 1.5,

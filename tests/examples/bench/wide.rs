@@ -90,9 +90,7 @@ fn textured(mut description: SceneDescription) -> SceneDescription {
 
 /// Walls of rough plastic, and a ball of rough metal where the chalk was.
 fn rough(mut description: SceneDescription) -> SceneDescription {
-    let microfacets = |alpha| {
-        Some(Microfacets { distribution: MicrofacetDistribution::Ggx, alpha_u: alpha, alpha_v: alpha })
-    };
+    let microfacets = |alpha| Some(Microfacets::isotropic(MicrofacetDistribution::Ggx, alpha));
     for material in &mut description.materials {
         let is_chalk = material.name == "chalk";
         for bsdf in [Some(&mut material.front), material.back.as_mut()].into_iter().flatten() {

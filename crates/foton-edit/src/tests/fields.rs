@@ -1,6 +1,7 @@
 //! The inspector's fields: what they show, and what setting them does.
 
 use super::*;
+use foton_scene::description::{Conductor, Microfacets, Number};
 
 #[test]
 fn powers_are_those_by_which_the_scene_shares_its_photons() {
@@ -113,6 +114,23 @@ fn a_kind_of_material_offers_its_own_fields() {
         fields.iter().find(|f| f.id == field(Property::Parameter("material"))).unwrap().value,
         Value::Choice(0)
     );
+}
+
+#[test]
+fn a_number_that_comes_from_a_texture_is_no_field_until_its_kind_changes() {
+    let field = |property| FieldId::Material(Side::Front, property);
+    let mut metal = set(&scene(), BALL, field(Property::Kind), Value::Choice(4));
+    let textured = Microfacets { alpha_v: Number::Texture(0), ..Microfacets::PRESET };
+    if let Bsdf::Conductor(Conductor { roughness, .. }) = &mut metal.materials[1].front {
+        *roughness = Some(textured);
+    }
+    let inspection = inspect(&metal, BALL).unwrap();
+    let has = |name| inspection.fields.iter().any(|f| f.id == field(Property::Parameter(name)));
+    assert!(has("alpha_u") && !has("alpha_v") && has("distribution"));
+    assert!(inspection.notes.iter().any(|n| n == "Values that come from textures cannot be edited here."));
+    let glass = set(&metal, BALL, field(Property::Kind), Value::Choice(1));
+    let Bsdf::Dielectric(glass) = glass.materials[1].front else { panic!("glass") };
+    assert_eq!(glass.roughness, Some(textured), "it keeps its roughness");
 }
 
 #[test]

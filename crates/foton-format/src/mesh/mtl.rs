@@ -254,7 +254,7 @@ impl Statements {
             diffuse_reflectance: self.kd.into(),
             specular_reflectance: self.ks.into(),
             nonlinear: false,
-            roughness: Some(Microfacets { distribution, alpha_u: alpha, alpha_v: alpha }),
+            roughness: Some(Microfacets::isotropic(distribution, alpha)),
         })
     }
 }

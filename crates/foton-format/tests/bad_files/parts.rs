@@ -29,12 +29,12 @@ fn materials_that_cannot_be_are_errors() {
             &rough("<string name='distribution' value='gxg'/>"),
             &["s.xml:2:64: no distribution \"gxg\" is known, did you mean \"ggx\"?"],
         ),
-        (&rough(&alpha("alpha", "-1")), &["s.xml:2:56: \"alpha\" must not be negative or above a million"]),
+        (&rough(&alpha("alpha", "-1")), &["s.xml:2:56: \"alpha\" must lie between 0 and 1000000"]),
         (&rough(&alpha("alpha_u", "0.1")), &[both]),
         (&rough(&(alpha("alpha", "0.1") + &alpha("alpha_u", "0.1") + &alpha("alpha_v", "0.2"))), &[both]),
         (
-            &rough("<texture type='checkerboard' name='alpha'/>"),
-            &["s.xml:2:29: a texture as \"alpha\" of \"roughconductor\" is not supported yet"],
+            &rough("<texture type='checkerboard' name='eta'/>"),
+            &["s.xml:2:29: a texture as \"eta\" of \"roughconductor\" is not supported yet"],
         ),
         (
             "<bsdf type='roughplastic'><float name='alpha_u' value='0.1'/></bsdf>",

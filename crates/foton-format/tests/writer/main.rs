@@ -10,10 +10,10 @@ use foton_format::{Options, open, write_scene};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
-    Bitmap, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, EmitterDescription, EmitterKind, Filter,
-    FovAxis, Geometry, Hidden, Keyframes, Lens, Material, Mesh, MicrofacetDistribution, Microfacets, Mirror,
-    Motion, Null, Plastic, SceneDescription, SensorDescription, ShapeDescription, Texture, TextureKind,
-    ThinDielectric, Wrap,
+    Bitmap, Blend, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, EmitterDescription, EmitterKind,
+    Filter, FovAxis, Geometry, Hidden, Keyframes, Lens, Material, Mesh, MicrofacetDistribution, Microfacets,
+    Mirror, Motion, Null, Number, Plastic, Relief, ReliefKind, SceneDescription, SensorDescription,
+    ShapeDescription, Texture, TextureKind, ThinDielectric, Wrap,
 };
 
 use same::assert_same;
@@ -62,7 +62,11 @@ const fn colour(r: f32, g: f32, b: f32) -> Colour {
 }
 
 fn bsdfs() -> Vec<Bsdf> {
-    let roughness = |distribution, alpha_u, alpha_v| Some(Microfacets { distribution, alpha_u, alpha_v });
+    let roughness = |distribution, alpha_u: f32, alpha_v: f32| {
+        Some(Microfacets { distribution, alpha_u: alpha_u.into(), alpha_v: alpha_v.into() })
+    };
+    let textured =
+        |alpha_u, alpha_v| Some(Microfacets { distribution: MicrofacetDistribution::Ggx, alpha_u, alpha_v });
     let (specular_reflectance, specular_transmittance) = (colour(1.0, 1.0, 1.0), colour(0.5, 0.6, 0.7));
     let plastic = |nonlinear, roughness| {
         Bsdf::Plastic(Plastic {
@@ -102,6 +106,9 @@ fn bsdfs() -> Vec<Bsdf> {
         Bsdf::Mirror(Mirror { reflectance: colour(0.999, 0.999, 0.999) }),
         metal(None),
         metal(roughness(MicrofacetDistribution::Ggx, 0.02, 0.02)),
+        metal(textured(Number::Texture(0), Number::Texture(0))),
+        glass(textured(Number::Constant(0.1), Number::Texture(1))),
+        plastic(true, textured(Number::Texture(1), Number::Texture(1))),
         Bsdf::Null(Null),
     ]
 }
@@ -126,8 +133,23 @@ fn materials() -> Vec<Material> {
         opacity,
         ..Material::default()
     };
-    sides.into_iter().map(material).collect()
+    let mut materials: Vec<Material> = sides.into_iter().map(material).collect();
+    let count = materials.len();
+    let blend = |material, weight| Blend { material, weight };
+    let relief = |kind, same_behind| Some(Relief { texture: 0, kind, same_behind });
+    materials[0].mixture = vec![blend(count, Number::Constant(0.1)), blend(count + 1, Number::Texture(1))];
+    materials[0].relief = relief(ReliefKind::Bump { scale: -1.0 / 3.0 }, false);
+    materials[1].relief = relief(ReliefKind::Normal, true);
+    materials[2].relief = relief(ReliefKind::Normal, false);
+    materials
+        .push(Material { mixture: vec![blend(count + 1, Number::Constant(0.7))], ..materials[3].clone() });
+    materials
+        .push(Material { relief: relief(ReliefKind::Bump { scale: 2.0 }, true), ..materials[1].clone() });
+    materials
 }
+
+/// Materials that are only blended with others, the last ones of [`materials`].
+const COMPONENTS: usize = 2;
 
 fn odd_mesh(narrow: bool, normals: bool) -> Geometry {
     let value = |i| if narrow { f64::from(odd(i) as f32) } else { odd(i) };
@@ -217,7 +239,7 @@ fn everything() -> SceneDescription {
         EmitterKind::Environment { to_world: DAffine3::from_rotation_y(odd(1)), bitmap, scale: 0.7 },
     ];
     let materials = materials();
-    let mut shapes = shapes(materials.len());
+    let mut shapes = shapes(materials.len() - COMPONENTS);
     shapes[2].to_world = flight().all()[0].1;
     SceneDescription {
         sensors: sensors(),
@@ -335,8 +357,10 @@ fn scenes_that_are_written_read_back_equal() {
     scene_files(&crate_folder.join("../../assets"), &mut paths);
     scene_files(&crate_folder.join("../../tests/scenes"), &mut paths);
     scene_files(&crate_folder.join("../../../shared/scenes"), &mut paths);
-    // Meshes of other scenes are no scenes of their own.
-    paths.retain(|p| !["meshes", "models"].iter().any(|f| p.components().any(|c| c.as_os_str() == *f)));
+    // Meshes of other scenes are no scenes of their own, nor are the parts that they include.
+    paths.retain(|p| {
+        !["meshes", "models", "parts"].iter().any(|f| p.components().any(|c| c.as_os_str() == *f))
+    });
     for (i, path) in paths.iter().enumerate() {
         let scene = open(path, &Options::default()).unwrap_or_else(|e| panic!("{e}")).description;
         let again = written_and_read(&scene, &folder, &format!("{i}.xml"));

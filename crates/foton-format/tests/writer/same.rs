@@ -67,8 +67,12 @@ fn bitmap_text(bitmap: &Bitmap) -> String {
 
 /// What a material is, textures included, with numbers to all digits.
 fn material(scene: &SceneDescription, index: usize) -> String {
-    let Material { front, back, opacity, .. } = &scene.materials[index];
-    let mut text = format!("{front:?} {back:?} {opacity:?}");
+    let Material { front, back, opacity, relief, mixture, .. } = &scene.materials[index];
+    let relief = relief.map(|r| format!("{:?} {} {:?}", r.kind, r.same_behind, Colour::Texture(r.texture)));
+    let mut text = format!("{front:?} {back:?} {opacity:?} {relief:?}");
+    for Blend { material: other, weight } in mixture {
+        text += &format!(" {weight:?} of ({})", material(scene, *other));
+    }
     while let Some(at) = text.find("Texture(") {
         let end = at + text[at..].find(')').unwrap();
         let Texture { to_uv, kind, .. } = &scene.textures[text[at + 8..end].parse::<usize>().unwrap()];

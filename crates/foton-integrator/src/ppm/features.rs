@@ -116,7 +116,7 @@ fn surfaces(census: &Census, lobes: LobeUse) -> [Feature; 5] {
         Feature::new(
             "textures",
             census.textures,
-            ["colours come from textures", "all colours are constant"],
+            ["colours or numbers come from textures", "all colours and numbers are constant"],
             "a lookup at each surface, 24 bytes per triangle",
         ),
         Feature::new(

@@ -7,7 +7,7 @@ use foton_math::Frame;
 use foton_math::glam::{Vec2, Vec3};
 
 use super::fresnel;
-use super::microfacet::Microfacets;
+use super::microfacet::{MicrofacetDistribution, Microfacets};
 
 /// Terms of the series. With eight the error is below 4·10⁻³ at a roughness of 0.05, below 2·10⁻³ from 0.1 on.
 const TERMS: usize = 8;
@@ -17,6 +17,11 @@ const NODES: usize = 24;
 const BELOW: usize = 96;
 /// Points per axis of the square over which facets are sampled.
 const FACETS: usize = 32;
+
+/// Roughnesses at which a coat is integrated whose roughness a texture gives.
+const ROUGHNESSES: usize = 12;
+/// The last of them.
+const ROUGHEST: f32 = 2.0;
 
 /// A rough boundary of two dielectrics as the diffuse base below it sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +34,7 @@ pub struct Coat {
 
 impl Coat {
     /// Integrates a boundary of two indices of refraction.
-    pub(super) fn new(r: &Microfacets, int_ior: f32, ext_ior: f32) -> Self {
+    pub(super) fn new(r: &Microfacets<f32>, int_ior: f32, ext_ior: f32) -> Self {
         // The rest is kept by the boundary: 4 ∫ R(s²) s³ ds, with cos = s².
         let inside: f64 = (0..BELOW)
             .map(|i| (i as f64 + 0.5) / BELOW as f64)
@@ -50,6 +55,52 @@ impl Coat {
     }
 }
 
+/// The coats of a surface whose roughness lies between two ends: one where it is the same everywhere, or several in between.
+#[derive(Clone, Debug)]
+pub(crate) struct Coats {
+    ends: [f32; 2],
+    /// Evenly over the square root of α.
+    coats: Vec<Coat>,
+}
+
+impl Coats {
+    pub(super) fn new(
+        distribution: MicrofacetDistribution,
+        ends: [f32; 2],
+        int_ior: f32,
+        ext_ior: f32,
+    ) -> Self {
+        // Above 1 nothing changes much.
+        let ends = if ends[0] < ends[1] { [ends[0].min(ROUGHEST), ends[1].min(ROUGHEST)] } else { ends };
+        let count = if ends[0] < ends[1] { ROUGHNESSES } else { 1 };
+        let [low, high] = ends.map(f32::sqrt);
+        let coats = (0..count).map(|i| {
+            let root = low + (high - low) * i as f32 / (ROUGHNESSES - 1) as f32;
+            let alpha = if count == 1 { ends[0] } else { root * root };
+            Coat::new(&Microfacets::isotropic(distribution, alpha), int_ior, ext_ior)
+        });
+        Self { ends, coats: coats.collect() }
+    }
+
+    /// The coat of a roughness, between its neighbours.
+    pub(crate) fn at(&self, alpha: f32) -> Coat {
+        let [first, .., last] = &self.coats[..] else { return self.coats[0] };
+        let [low, high] = self.ends.map(f32::sqrt);
+        let place = (alpha.sqrt() - low) / (high - low) * (self.coats.len() - 1) as f32;
+        if place.is_nan() || place <= 0.0 {
+            return *first;
+        }
+        let below = place as usize;
+        let Some([a, b]) = self.coats.get(below..below + 2) else { return *last };
+        let share = place - below as f32;
+        let between = |a: f32, b: f32| a + (b - a) * share;
+        Coat {
+            series: std::array::from_fn(|i| between(a.series[i], b.series[i])),
+            inside: between(a.inside, b.inside),
+        }
+    }
+}
+
 /// Shares of light that a rough boundary passes on.
 #[derive(Default)]
 struct Passage {
@@ -58,7 +109,7 @@ struct Passage {
 }
 
 /// Integrates over the facets that are seen at a cosine, `beyond` being the index on the other side.
-fn passage(r: &Microfacets, cos: f64, beyond: f32, here: f32) -> Passage {
+fn passage(r: &Microfacets<f32>, cos: f64, beyond: f32, here: f32) -> Passage {
     let cos = cos.max(1e-6);
     let wo = Vec3::new((1.0 - cos * cos).sqrt() as f32, 0.0, cos as f32);
     let mut sum = Passage::default();
@@ -99,7 +150,7 @@ mod tests {
     use super::*;
     use crate::bsdf::MicrofacetDistribution::{Beckmann, Ggx};
 
-    fn plastic(facets: Microfacets) -> Coat {
+    fn plastic(facets: Microfacets<f32>) -> Coat {
         Coat::new(&facets, 1.5, 1.0)
     }
 
@@ -113,6 +164,23 @@ mod tests {
                 let exact = passage(&facets, cos, 1.5, 1.0).transmitted;
                 let got = f64::from(coat.transmittance(cos as f32));
                 assert!((got - exact).abs() < 3e-3, "{facets:?} at {cos}: {got} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn coats_between_two_roughnesses_are_what_is_integrated_there() {
+        for distribution in [Ggx, Beckmann] {
+            let coats = Coats::new(distribution, [0.02, 0.9], 1.5, 1.0);
+            for alpha in [0.01f32, 0.02, 0.05, 0.13, 0.4, 0.77, 0.9, 2.0] {
+                let exact = plastic(Microfacets::isotropic(distribution, alpha.clamp(0.02, 0.9)));
+                let got = coats.at(alpha);
+                assert!((got.inside - exact.inside).abs() < 2e-3, "{distribution:?} {alpha}: {}", got.inside);
+                for i in 0..=20 {
+                    let cos = i as f32 / 20.0;
+                    let (a, b) = (got.transmittance(cos), exact.transmittance(cos));
+                    assert!((a - b).abs() < 6e-3, "{distribution:?} {alpha} at {cos}: {a} {b}");
+                }
             }
         }
     }

@@ -10,13 +10,13 @@ use super::lobe_sample::{LobeSample, LobeSamples, Transport};
 use super::microfacet::{Microfacets, ROUGHNESS};
 use super::model::Model;
 use super::reflect::{facet_pdf, mirrored, reflect_by_facet, same_side, upward};
-use crate::description::Colour;
+use crate::description::{Colour, Number};
 use crate::metals::METALS;
 use crate::parameter::{Binding, Kind, Parameter, Slot};
 
 /// A metal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Conductor<C = Colour> {
+pub struct Conductor<C = Colour, N = Number> {
     /// Real part of the index of refraction per channel, relative to the outside.
     pub eta: Rgb,
     /// Imaginary part per channel.
@@ -24,7 +24,7 @@ pub struct Conductor<C = Colour> {
     /// Factor on reflected light, physically 1.
     pub specular_reflectance: C,
     /// `None`: smooth.
-    pub roughness: Option<Microfacets>,
+    pub roughness: Option<Microfacets<N>>,
 }
 
 /// The metal that a surface becomes in the window.
@@ -85,11 +85,16 @@ impl Described for Conductor {
     }
 }
 
-impl<C: Copy> Conductor<C> {
+impl<C: Copy, N: Copy> Conductor<C, N> {
     #[inline(always)]
-    pub(super) fn map<D>(&self, mut f: impl FnMut(C) -> D) -> Conductor<D> {
+    pub(super) fn map<D, M>(
+        &self,
+        mut colours: impl FnMut(C) -> D,
+        numbers: impl FnMut(N, [f32; 2]) -> M,
+    ) -> Conductor<D, M> {
         let Self { eta, k, specular_reflectance, roughness } = *self;
-        Conductor { eta, k, specular_reflectance: f(specular_reflectance), roughness }
+        let roughness = roughness.map(|r| r.map(numbers));
+        Conductor { eta, k, specular_reflectance: colours(specular_reflectance), roughness }
     }
 
     pub(super) const fn flags(&self) -> LobeFlags {
@@ -98,9 +103,13 @@ impl<C: Copy> Conductor<C> {
     }
 }
 
-impl Model for Conductor<Rgb> {
+impl Model for Conductor<Rgb, f32> {
     fn flags(&self) -> LobeFlags {
         Self::flags(self)
+    }
+
+    fn gloss(&self) -> Option<f32> {
+        self.roughness.map(|r| r.widest())
     }
 
     fn eval(&self, wo: Vec3, wi: Vec3, lobes: LobeFlags) -> Rgb {

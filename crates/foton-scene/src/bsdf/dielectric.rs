@@ -10,12 +10,12 @@ use super::lobe_sample::{LobeSample, LobeSamples, Transport};
 use super::microfacet::{Microfacets, ROUGHNESS};
 use super::model::Model;
 use super::reflect::mirrored;
-use crate::description::Colour;
+use crate::description::{Colour, Number};
 use crate::parameter::{Binding, Parameter, Role, Slot};
 
 /// A boundary of two transparent media.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dielectric<C = Colour> {
+pub struct Dielectric<C = Colour, N = Number> {
     /// Index of refraction on the side away from the normal.
     pub int_ior: f32,
     /// Index of refraction on the side that the normal points to.
@@ -25,7 +25,7 @@ pub struct Dielectric<C = Colour> {
     /// Factor on refracted light, physically 1.
     pub specular_transmittance: C,
     /// `None`: smooth.
-    pub roughness: Option<Microfacets>,
+    pub roughness: Option<Microfacets<N>>,
 }
 
 /// The index of refraction of air.
@@ -85,16 +85,20 @@ impl Described for Dielectric {
     }
 }
 
-impl<C: Copy> Dielectric<C> {
+impl<C: Copy, N: Copy> Dielectric<C, N> {
     #[inline(always)]
-    pub(super) fn map<D>(&self, mut f: impl FnMut(C) -> D) -> Dielectric<D> {
+    pub(super) fn map<D, M>(
+        &self,
+        mut colours: impl FnMut(C) -> D,
+        numbers: impl FnMut(N, [f32; 2]) -> M,
+    ) -> Dielectric<D, M> {
         let Self { int_ior, ext_ior, specular_reflectance, specular_transmittance, roughness } = *self;
         Dielectric {
             int_ior,
             ext_ior,
-            specular_reflectance: f(specular_reflectance),
-            specular_transmittance: f(specular_transmittance),
-            roughness,
+            specular_reflectance: colours(specular_reflectance),
+            specular_transmittance: colours(specular_transmittance),
+            roughness: roughness.map(|r| r.map(numbers)),
         }
     }
 
@@ -104,9 +108,13 @@ impl<C: Copy> Dielectric<C> {
     }
 }
 
-impl Model for Dielectric<Rgb> {
+impl Model for Dielectric<Rgb, f32> {
     fn flags(&self) -> LobeFlags {
         Self::flags(self)
+    }
+
+    fn gloss(&self) -> Option<f32> {
+        self.roughness.map(|r| r.widest())
     }
 
     fn eval(&self, wo: Vec3, wi: Vec3, lobes: LobeFlags) -> Rgb {
@@ -125,7 +133,7 @@ impl Model for Dielectric<Rgb> {
     }
 }
 
-impl Dielectric<Rgb> {
+impl Dielectric<Rgb, f32> {
     /// Reflection and refraction at glass, by the surface's normal or by a facet's.
     fn sampled(&self, wo: Vec3, transport: Transport, u: Vec2) -> LobeSamples {
         let Self {
@@ -165,7 +173,7 @@ impl Dielectric<Rgb> {
     }
 
     /// `f(wo, wi)` of rough glass for radiance, reflection and refraction. `[WML07]` equations 20 and 21
-    fn eval_rough(&self, r: &Microfacets, wo: Vec3, wi: Vec3) -> Rgb {
+    fn eval_rough(&self, r: &Microfacets<f32>, wo: Vec3, wi: Vec3) -> Rgb {
         let Some(facet) = GlassFacet::between(wo, wi, self.int_ior, self.ext_ior) else { return Rgb::BLACK };
         let g = r.visible(wo, facet.normal) * r.visible(wi, facet.normal);
         let d = r.density(facet.normal) * g / (wo.z * wi.z).abs();
@@ -179,7 +187,7 @@ impl Dielectric<Rgb> {
     }
 
     /// The pdf (sr⁻¹) of sampling rough glass.
-    fn pdf_rough(&self, r: &Microfacets, wo: Vec3, wi: Vec3) -> f32 {
+    fn pdf_rough(&self, r: &Microfacets<f32>, wo: Vec3, wi: Vec3) -> f32 {
         let Some(facet) = GlassFacet::between(wo, wi, self.int_ior, self.ext_ior) else { return 0.0 };
         let side = 1f32.copysign(wo.z);
         let pdf = r.pdf(wo * side, facet.normal);

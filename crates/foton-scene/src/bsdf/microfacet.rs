@@ -8,17 +8,18 @@ use std::f32::consts::PI;
 use foton_math::Rgb;
 use foton_math::glam::{Vec2, Vec3};
 
+use crate::description::Number;
 use crate::parameter::{Parameter, Role};
 
-/// A distribution of microfacet normals.
+/// A distribution of microfacet normals, over numbers `N`: [`Number`] in a description, [`f32`] at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Microfacets {
+pub struct Microfacets<N = Number> {
     /// Its shape.
     pub distribution: MicrofacetDistribution,
     /// Roughness α along the texture's u, above 0.
-    pub alpha_u: f32,
+    pub alpha_u: N,
     /// Roughness α along the texture's v, above 0.
-    pub alpha_v: f32,
+    pub alpha_v: N,
 }
 
 /// The shape of a distribution of microfacet normals.
@@ -62,7 +63,11 @@ const ALPHA: Parameter = Parameter::number("alpha", 0.1, (0.0, 1e6))
     .label("Roughness")
     .help("Spread of the surface's slopes. Up to 0.1 eye paths follow the lobe; above that, gathered photons do.")
     .slider(0.001, 1.0, true)
+    .textured()
     .role(Role::Roughness);
+
+/// What a texture's roughness is brought into. Mitsuba takes smaller values for the lower end.
+pub(super) const ALPHAS: [f32; 2] = [1e-4, 1e6];
 
 const SAMPLE_VISIBLE: Parameter = Parameter::ignored("sample_visible", "Visible normals are always sampled.");
 
@@ -92,16 +97,36 @@ pub const ISOTROPIC_ROUGHNESS: &[Parameter] = &[ALPHA, DISTRIBUTION, SAMPLE_VISI
 
 impl Microfacets {
     /// Those of a rough surface in a file that says nothing else.
-    pub const DEFAULT: Self = Self::isotropic(MicrofacetDistribution::Beckmann, ALPHA.default_number());
+    pub const DEFAULT: Self = Self::stated(MicrofacetDistribution::Beckmann);
     /// Those of a surface that is made rough in the window.
-    pub const PRESET: Self = Self::isotropic(MicrofacetDistribution::Ggx, ALPHA.default_number());
+    pub const PRESET: Self = Self::stated(MicrofacetDistribution::Ggx);
 
-    /// The same roughness along both axes.
-    #[must_use]
-    pub const fn isotropic(distribution: MicrofacetDistribution, alpha: f32) -> Self {
+    /// Of the roughness in a file that says nothing else.
+    const fn stated(distribution: MicrofacetDistribution) -> Self {
+        let alpha = Number::Constant(ALPHA.default_number());
         Self { distribution, alpha_u: alpha, alpha_v: alpha }
     }
+}
 
+impl<N: Copy> Microfacets<N> {
+    /// The same roughness along both axes.
+    #[must_use]
+    pub fn isotropic(distribution: MicrofacetDistribution, alpha: f32) -> Self
+    where
+        N: From<f32>,
+    {
+        Self { distribution, alpha_u: alpha.into(), alpha_v: alpha.into() }
+    }
+
+    /// The same with its numbers replaced, by what they are and the range that they may have.
+    #[inline(always)]
+    pub(super) fn map<M>(&self, mut numbers: impl FnMut(N, [f32; 2]) -> M) -> Microfacets<M> {
+        let Self { distribution, alpha_u, alpha_v } = *self;
+        Microfacets { distribution, alpha_u: numbers(alpha_u, ALPHAS), alpha_v: numbers(alpha_v, ALPHAS) }
+    }
+}
+
+impl Microfacets<f32> {
     /// The larger roughness.
     #[must_use]
     pub const fn widest(&self) -> f32 {
@@ -261,7 +286,7 @@ mod tests {
     use super::*;
     use foton_math::{Purpose, Stream};
 
-    fn all() -> Vec<Microfacets> {
+    fn all() -> Vec<Microfacets<f32>> {
         use MicrofacetDistribution::{Beckmann, Ggx};
         let isotropic =
             [0.05, 0.3, 0.9].into_iter().flat_map(|a| [Beckmann, Ggx].map(|d| Microfacets::isotropic(d, a)));
@@ -276,7 +301,7 @@ mod tests {
     }
 
     /// ∫ f over normals, in slope space where the densities are smooth.
-    fn integrate(m: &Microfacets, mut f: impl FnMut(Vec3) -> f64) -> f64 {
+    fn integrate(m: &Microfacets<f32>, mut f: impl FnMut(Vec3) -> f64) -> f64 {
         // x = α tan: the plane mapped from polar coordinates, radius r/(1−r).
         let (rings, sectors) = (1500, 128);
         let mut sum = 0.0;

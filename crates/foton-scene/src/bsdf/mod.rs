@@ -21,38 +21,42 @@ mod reflect;
 mod scattering;
 mod thin_dielectric;
 
-use crate::description::Colour;
+use crate::description::{Colour, Number};
 use crate::parameter::Binding;
 pub use coat::Coat;
+pub(crate) use coat::Coats;
 pub use conductor::Conductor;
 pub use dielectric::Dielectric;
 pub use diffuse::Diffuse;
 pub use flags::LobeFlags;
+use foton_math::Rgb;
 pub use info::BsdfInfo;
 use info::Described;
 pub use lobe_sample::{BsdfSample, LobeSample, LobeSamples, Transport};
 pub use microfacet::{DISTRIBUTIONS, ISOTROPIC_ROUGHNESS, MicrofacetDistribution, Microfacets, ROUGHNESS};
 pub use mirror::Mirror;
+
 pub use null::Null;
 pub use plastic::Plastic;
 pub use scattering::Scattering;
 pub use thin_dielectric::ThinDielectric;
 
-/// A bidirectional scattering distribution function, over colours `C`: [`Colour`] in a description, [`Rgb`](foton_math::Rgb) at a point.
+/// A bidirectional scattering distribution function, over colours `C` and numbers `N`: [`Colour`] and [`Number`] in a description,
+/// [`Rgb`] and [`f32`] at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Bsdf<C = Colour> {
+pub enum Bsdf<C = Colour, N = Number> {
     /// Lambertian reflection.
     Diffuse(Diffuse<C>),
     /// A boundary of two transparent media.
-    Dielectric(Dielectric<C>),
+    Dielectric(Dielectric<C, N>),
     /// A thin pane of glass.
     ThinDielectric(ThinDielectric<C>),
     /// A smooth mirror that reflects the same share at every angle.
     Mirror(Mirror<C>),
     /// A metal.
-    Conductor(Conductor<C>),
+    Conductor(Conductor<C, N>),
     /// A clear coat over a diffuse base.
-    Plastic(Plastic<C>),
+    Plastic(Plastic<C, N>),
     /// Nothing: light passes as if there were no surface.
     Null(Null),
 }
@@ -141,7 +145,7 @@ impl Bsdf {
     }
 }
 
-impl<C: Copy> Bsdf<C> {
+impl<C: Copy, N: Copy> Bsdf<C, N> {
     /// The lobes that it has.
     #[must_use]
     pub const fn flags(&self) -> LobeFlags {
@@ -156,7 +160,7 @@ impl<C: Copy> Bsdf<C> {
 
     /// Its microfacets, if any.
     #[must_use]
-    pub const fn roughness(&self) -> Option<Microfacets> {
+    pub const fn roughness(&self) -> Option<Microfacets<N>> {
         match self {
             Self::Dielectric(Dielectric { roughness, .. })
             | Self::Conductor(Conductor { roughness, .. })
@@ -165,23 +169,21 @@ impl<C: Copy> Bsdf<C> {
         }
     }
 
-    /// What gets through its coat, integrated, where it has a rough one.
-    #[must_use]
-    pub fn rough_coat(&self) -> Option<Coat> {
-        if let Self::Plastic(plastic) = self { plastic.rough_coat() } else { None }
-    }
-
-    /// The same BSDF with its colours replaced.
+    /// The same BSDF with its colours and numbers replaced: numbers by what they are and the range that they may have.
     #[must_use]
     #[inline(always)]
-    pub fn map<D>(&self, f: impl FnMut(C) -> D) -> Bsdf<D> {
+    pub fn map<D, M>(
+        &self,
+        colours: impl FnMut(C) -> D,
+        numbers: impl FnMut(N, [f32; 2]) -> M,
+    ) -> Bsdf<D, M> {
         match self {
-            Self::Diffuse(model) => Bsdf::Diffuse(model.map(f)),
-            Self::Dielectric(model) => Bsdf::Dielectric(model.map(f)),
-            Self::ThinDielectric(model) => Bsdf::ThinDielectric(model.map(f)),
-            Self::Mirror(model) => Bsdf::Mirror(model.map(f)),
-            Self::Conductor(model) => Bsdf::Conductor(model.map(f)),
-            Self::Plastic(model) => Bsdf::Plastic(model.map(f)),
+            Self::Diffuse(model) => Bsdf::Diffuse(model.map(colours)),
+            Self::Dielectric(model) => Bsdf::Dielectric(model.map(colours, numbers)),
+            Self::ThinDielectric(model) => Bsdf::ThinDielectric(model.map(colours)),
+            Self::Mirror(model) => Bsdf::Mirror(model.map(colours)),
+            Self::Conductor(model) => Bsdf::Conductor(model.map(colours, numbers)),
+            Self::Plastic(model) => Bsdf::Plastic(model.map(colours, numbers)),
             Self::Null(model) => Bsdf::Null(*model),
         }
     }
@@ -190,6 +192,21 @@ impl<C: Copy> Bsdf<C> {
     #[must_use]
     pub const fn lambertian(&self) -> Option<C> {
         if let Self::Diffuse(Diffuse { reflectance }) = self { Some(*reflectance) } else { None }
+    }
+}
+
+impl Bsdf {
+    /// What gets through its coat, integrated, where it has a rough one; `ends` says between which numbers a number is.
+    pub(crate) fn rough_coats(&self, ends: impl Fn(Number, [f32; 2]) -> [f32; 2]) -> Option<Coats> {
+        if let Self::Plastic(plastic) = self { plastic.rough_coats(ends) } else { None }
+    }
+}
+
+impl Bsdf<Rgb, f32> {
+    /// The larger roughness α of its glossy lobes, if it has any: that of its microfacets, or of those that would be as wide.
+    #[must_use]
+    pub fn gloss(&self) -> Option<f32> {
+        each!(self, model => model::Model::gloss(model), plastic => plastic.roughness.map(|r| r.widest()))
     }
 }
 

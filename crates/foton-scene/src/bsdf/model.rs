@@ -14,6 +14,11 @@ pub(super) trait Model {
     /// The lobes that it has.
     fn flags(&self) -> LobeFlags;
 
+    /// The larger roughness α of its glossy lobes, if it has any: that of the microfacets, or of those that would be as wide.
+    fn gloss(&self) -> Option<f32> {
+        None
+    }
+
     /// The value `f(wo, wi)` of those of its `lobes` that are not delta ones, without the cosine (sr⁻¹).
     fn eval(&self, _wo: Vec3, _wi: Vec3, _lobes: LobeFlags) -> Rgb {
         Rgb::BLACK

@@ -5,21 +5,21 @@ use std::f32::consts::FRAC_1_PI;
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Rgb, warp};
 
-use super::coat::Coat;
+use super::coat::{Coat, Coats};
 use super::dielectric::{EXT_IOR, INT_IOR};
 use super::flags::LobeFlags;
 use super::fresnel;
 use super::info::{BsdfInfo, Described};
 use super::lobe_sample::{BsdfSample, LobeSample, LobeSamples, Transport};
-use super::microfacet::{ISOTROPIC_ROUGHNESS, Microfacets};
+use super::microfacet::{ALPHAS, ISOTROPIC_ROUGHNESS, Microfacets};
 use super::model::Model;
 use super::reflect::{cosine, facet_pdf, mirrored, reflect_by_facet, same_side, upward};
-use crate::description::Colour;
+use crate::description::{Colour, Number};
 use crate::parameter::{Binding, Parameter, Role, Slot};
 
 /// A clear coat over a diffuse base.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plastic<C = Colour> {
+pub struct Plastic<C = Colour, N = Number> {
     /// Index of refraction of the coat.
     pub int_ior: f32,
     /// Index of refraction outside.
@@ -31,7 +31,7 @@ pub struct Plastic<C = Colour> {
     /// Whether light that is reflected inside the coat takes on the base's colour each time.
     pub nonlinear: bool,
     /// `None`: a smooth coat.
-    pub roughness: Option<Microfacets>,
+    pub roughness: Option<Microfacets<N>>,
 }
 
 /// The index of refraction of polypropylene.
@@ -88,18 +88,22 @@ impl Described for Plastic {
     }
 }
 
-impl<C: Copy> Plastic<C> {
+impl<C: Copy, N: Copy> Plastic<C, N> {
     #[inline(always)]
-    pub(super) fn map<D>(&self, mut f: impl FnMut(C) -> D) -> Plastic<D> {
+    pub(super) fn map<D, M>(
+        &self,
+        mut colours: impl FnMut(C) -> D,
+        numbers: impl FnMut(N, [f32; 2]) -> M,
+    ) -> Plastic<D, M> {
         let Self { int_ior, ext_ior, diffuse_reflectance, specular_reflectance, nonlinear, roughness } =
             *self;
         Plastic {
             int_ior,
             ext_ior,
-            diffuse_reflectance: f(diffuse_reflectance),
-            specular_reflectance: f(specular_reflectance),
+            diffuse_reflectance: colours(diffuse_reflectance),
+            specular_reflectance: colours(specular_reflectance),
             nonlinear,
-            roughness,
+            roughness: roughness.map(|r| r.map(numbers)),
         }
     }
 
@@ -107,14 +111,19 @@ impl<C: Copy> Plastic<C> {
         let coat = if self.roughness.is_some() { LobeFlags::GLOSSY } else { LobeFlags::DELTA };
         LobeFlags::DIFFUSE.or(coat).or(LobeFlags::REFLECTION)
     }
+}
 
-    /// What gets through its coat, integrated, where that is rough.
-    pub(crate) fn rough_coat(&self) -> Option<Coat> {
-        self.roughness.map(|r| Coat::new(&r, self.int_ior, self.ext_ior))
+impl Plastic {
+    /// What gets through its coat, integrated, where that is rough; `ends` says between which numbers a number is.
+    pub(super) fn rough_coats(&self, ends: impl Fn(Number, [f32; 2]) -> [f32; 2]) -> Option<Coats> {
+        self.roughness.map(|r| {
+            let alphas = ends(r.alpha_u, ALPHAS);
+            Coats::new(r.distribution, alphas, self.int_ior, self.ext_ior)
+        })
     }
 }
 
-impl Plastic<Rgb> {
+impl Plastic<Rgb, f32> {
     /// With what gets through its coat, where that is rough.
     #[inline(always)]
     pub(super) const fn under<'a>(&'a self, coat: Option<&'a Coat>) -> Coated<'a> {
@@ -124,7 +133,7 @@ impl Plastic<Rgb> {
 
 /// A plastic with what gets through its coat.
 pub(super) struct Coated<'a> {
-    plastic: &'a Plastic<Rgb>,
+    plastic: &'a Plastic<Rgb, f32>,
     /// `None`: the coat is smooth.
     coat: Option<&'a Coat>,
 }
@@ -132,7 +141,7 @@ pub(super) struct Coated<'a> {
 impl Coated<'_> {
     /// Light reflected by a rough coat, above, and the pdf (sr⁻¹) of sampling it, its probability left out.
     #[inline(always)]
-    fn coat_with_pdf(&self, r: &Microfacets, wo: Vec3, wi: Vec3) -> (Rgb, f32) {
+    fn coat_with_pdf(&self, r: &Microfacets<f32>, wo: Vec3, wi: Vec3) -> (Rgb, f32) {
         let (value, pdf) = r.reflect_with_pdf(wo, wi, |cos| Rgb::splat(self.fresnel(cos)));
         (value * self.plastic.specular_reflectance, pdf)
     }
@@ -179,7 +188,7 @@ impl Coated<'_> {
     }
 
     /// One direction of either lobe, both weighted together.
-    fn sample_together(&self, r: &Microfacets, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
+    fn sample_together(&self, r: &Microfacets<f32>, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
         let enters = self.enters(wo.z.abs());
         let probability = self.coat_probability(enters);
         let wi = if u_lobe < probability { self.coat_sample(wo, u)?.wi } else { cosine(wo, u) };
@@ -198,6 +207,10 @@ impl Coated<'_> {
 impl Model for Coated<'_> {
     fn flags(&self) -> LobeFlags {
         self.plastic.flags()
+    }
+
+    fn gloss(&self) -> Option<f32> {
+        self.plastic.roughness.map(|r| r.widest())
     }
 
     fn eval(&self, wo: Vec3, wi: Vec3, lobes: LobeFlags) -> Rgb {

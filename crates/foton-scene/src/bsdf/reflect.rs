@@ -7,7 +7,7 @@ use super::lobe_sample::LobeSample;
 use super::microfacet::Microfacets;
 
 /// The pdf (sr⁻¹) of reflecting `wo` into `wi` by a facet that is seen; both above.
-pub(super) fn facet_pdf(r: &Microfacets, wo: Vec3, wi: Vec3) -> f32 {
+pub(super) fn facet_pdf(r: &Microfacets<f32>, wo: Vec3, wi: Vec3) -> f32 {
     r.reflect_pdf(wo, (wo + wi).normalize())
 }
 
@@ -35,7 +35,7 @@ pub(super) fn cosine(wo: Vec3, u: Vec2) -> Vec3 {
 
 /// Reflection by a facet normal chosen as `wo` sees them; its weight is F G₁(wi).
 pub(super) fn reflect_by_facet(
-    r: &Microfacets,
+    r: &Microfacets<f32>,
     wo: Vec3,
     u: Vec2,
     fresnel: impl FnOnce(f32) -> Rgb,

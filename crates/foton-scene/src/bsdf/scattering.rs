@@ -15,7 +15,7 @@ use super::{Bsdf, each};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scattering {
     /// The BSDF.
-    pub bsdf: Bsdf<Rgb>,
+    pub bsdf: Bsdf<Rgb, f32>,
     /// Share of light that meets the surface; the rest passes straight through.
     pub opacity: f32,
     /// What gets through its coat, where that is rough.

@@ -9,11 +9,13 @@ use foton_math::{Purpose, Rgb, Stream, warp};
 const ALL: LobeFlags = LobeFlags::ALL;
 const TOGETHER: LobeFlags = LobeFlags::NONE;
 
-fn at(bsdf: Bsdf<Rgb>) -> Scattering {
-    Scattering { bsdf, opacity: 1.0, coat: bsdf.rough_coat() }
+fn at(bsdf: Bsdf<Rgb, f32>) -> Scattering {
+    let coats =
+        Bsdf::map(&bsdf, |c| c.into(), |n, _| n.into()).rough_coats(|n, _| [n.constant().unwrap_or(0.0); 2]);
+    Scattering { bsdf, opacity: 1.0, coat: coats.map(|c| c.at(0.0)) }
 }
 
-fn glass(roughness: Option<Microfacets>) -> Bsdf<Rgb> {
+fn glass(roughness: Option<Microfacets<f32>>) -> Bsdf<Rgb, f32> {
     let (specular_reflectance, specular_transmittance) = (Rgb::WHITE, Rgb::WHITE);
     Bsdf::Dielectric(Dielectric {
         int_ior: 1.5,
@@ -24,16 +26,16 @@ fn glass(roughness: Option<Microfacets>) -> Bsdf<Rgb> {
     })
 }
 
-fn rough(distribution: MicrofacetDistribution, alpha: f32) -> Option<Microfacets> {
+fn rough(distribution: MicrofacetDistribution, alpha: f32) -> Option<Microfacets<f32>> {
     Some(Microfacets::isotropic(distribution, alpha))
 }
 
-fn gold(roughness: Option<Microfacets>) -> Bsdf<Rgb> {
+fn gold(roughness: Option<Microfacets<f32>>) -> Bsdf<Rgb, f32> {
     let (eta, k) = (Rgb::new(0.143, 0.375, 1.442), Rgb::new(3.983, 2.386, 1.603));
     Bsdf::Conductor(Conductor { eta, k, specular_reflectance: Rgb::WHITE, roughness })
 }
 
-fn plastic(nonlinear: bool, roughness: Option<Microfacets>) -> Bsdf<Rgb> {
+fn plastic(nonlinear: bool, roughness: Option<Microfacets<f32>>) -> Bsdf<Rgb, f32> {
     Bsdf::Plastic(Plastic {
         int_ior: 1.49,
         ext_ior: 1.0,

@@ -165,14 +165,15 @@ pub(super) fn check_textures(description: &SceneDescription) -> Result<(), Build
 /// Whether a material's numbers are such as a surface can have, and its textures are there.
 pub(super) fn check_material(material: &Material, description: &SceneDescription) -> Result<(), BuildError> {
     for colour in material.colours() {
-        let good = match colour {
-            Colour::Constant(c) if is_share(c) => continue,
-            Colour::Constant(_) => return Err(BuildError::BadMaterial(material.name.clone())),
-            Colour::Texture(index) => match description.textures.get(index).map(|t| &t.kind) {
-                Some(TextureKind::Bitmap { bitmap, .. }) => bitmap.is_sound(),
-                Some(_) => true,
-                None => false,
-            },
+        if matches!(colour, Colour::Constant(c) if !is_share(c)) {
+            return Err(BuildError::BadMaterial(material.name.clone()));
+        }
+    }
+    for index in material.textures() {
+        let good = match description.textures.get(index).map(|t| &t.kind) {
+            Some(TextureKind::Bitmap { bitmap, .. }) => bitmap.is_sound(),
+            Some(_) => true,
+            None => false,
         };
         if !good {
             return Err(BuildError::NoTexture(material.name.clone()));

@@ -80,13 +80,15 @@ impl Scene {
         let mixtures = Mixtures::new(&description.materials)?;
         let gauge = options.step(BuildStep::Shapes, description.primitives());
         let mut gathered = Gathered::new(options.forced.clone());
+        let textures: Arc<[Sampler]> = description.textures.iter().map(Sampler::new).collect();
         for material in &description.materials {
             check_material(material, description)?;
             gathered.census.textures |= material.textures().next().is_some();
             gathered.census.anisotropy |= material.is_anisotropic();
         }
         let (shapes, emitters) = (Vec::new(), Vec::new());
-        let mut parts = Parts { gathered, mixtures: &mixtures, shapes, emitters, casters: Aabb::EMPTY };
+        let of = (&mixtures, &*textures);
+        let mut parts = Parts { gathered, of, shapes, emitters, casters: Aabb::EMPTY };
         for (i, shape) in description.shapes.iter().enumerate() {
             parts.add(i as u32, shape, description, &normalisation, &gauge)?;
         }
@@ -105,7 +107,7 @@ impl Scene {
         emitters.retain(|_| !index.next().is_some_and(is_hidden));
         let mut scene = gathered.into_scene(normalisation, bounds, options)?;
         scene.shapes = shapes;
-        scene.textures = description.textures.iter().map(Sampler::new).collect();
+        scene.textures = textures;
         scene.materials.clone_from(&description.materials);
         scene.mixtures = mixtures;
         scene.max_depth = description.max_depth;
@@ -124,7 +126,7 @@ impl Scene {
         options: &BuildOptions<'_>,
     ) -> Result<(), BuildError> {
         if self.census.rough_coats {
-            self.coats = self.materials.iter().map(Material::coats).collect();
+            self.coats = self.materials.iter().map(|m| m.coats(&self.textures)).collect();
         }
         self.lambertian =
             self.shapes.iter().map(|s| self.materials[s.material as usize].lambertian()).collect();
@@ -195,7 +197,8 @@ fn steps_across(extent: &Aabb) -> f32 {
 /// What shapes bring to a scene.
 struct Parts<'a> {
     gathered: Gathered,
-    mixtures: &'a Mixtures,
+    /// What materials are blended of, and textures.
+    of: (&'a Mixtures, &'a [Sampler]),
     shapes: Vec<Shape>,
     emitters: Vec<Emitter>,
     /// A box around what throws caustics.
@@ -211,7 +214,7 @@ impl Parts<'_> {
         normalisation: &Normalisation,
         gauge: &Gauge<'_>,
     ) -> Result<(), BuildError> {
-        let Self { gathered, mixtures, shapes, emitters, casters } = self;
+        let Self { gathered, of: (mixtures, textures), shapes, emitters, casters } = self;
         let first = gathered.primitives.len();
         let is_hidden = description.hidden.shapes.contains(&(index as usize));
         if !is_hidden {
@@ -227,10 +230,10 @@ impl Parts<'_> {
         let mut materials = mixtures.materials(shape.material).map(|i| &description.materials[i]);
         let smooth = gathered.vertex_normals[first..].iter().any(|n| n[0] != Vec3::ZERO);
         if !is_hidden {
-            materials.clone().for_each(|material| gathered.census.count(material, smooth));
+            materials.clone().for_each(|material| gathered.census.count(material, textures, smooth));
         }
         let primitives = &gathered.primitives[first..];
-        if materials.any(Material::casts) {
+        if materials.any(|material| material.casts(textures)) {
             *casters = primitives.iter().fold(*casters, |b, p| b.union(p.bounds()));
         }
         let emitter = shape.radiance.filter(|r| !r.is_black() && !is_hidden).map(|radiance| {

@@ -1,11 +1,11 @@
 //! Which of several surfaces in one place a ray meets.
 
 use foton_math::glam::DVec3;
-use foton_math::{Aabb, Ray};
+use foton_math::{Aabb, Ray, Rgb};
 
 use super::share::MAX_NEAR;
 use super::sheet::{Sheet, meet_at, tolerance, weights};
-use crate::description::{Bsdf, Colour, Dielectric, Material, Null};
+use crate::description::{Bsdf, Dielectric, Material, Null};
 use crate::scene::Scene;
 use crate::surface::Surface;
 
@@ -149,21 +149,12 @@ impl Material {
 impl Surface {
     /// A BSDF with the indices of what lies on both sides here.
     #[inline(always)]
-    pub(crate) fn between(&self, bsdf: Bsdf<Colour>) -> Bsdf<Colour> {
-        match (self.interface, bsdf) {
-            (
-                Some([int_ior, ext_ior]),
-                Bsdf::Dielectric(Dielectric {
-                    specular_reflectance, specular_transmittance, roughness, ..
-                }),
-            ) => Bsdf::Dielectric(Dielectric {
-                int_ior,
-                ext_ior,
-                specular_reflectance,
-                specular_transmittance,
-                roughness,
-            }),
-            _ => bsdf,
+    pub(crate) fn between(&self, mut bsdf: Bsdf<Rgb, f32>) -> Bsdf<Rgb, f32> {
+        if let (Some([inside, outside]), Bsdf::Dielectric(Dielectric { int_ior, ext_ior, .. })) =
+            (self.interface, &mut bsdf)
+        {
+            (*int_ior, *ext_ior) = (inside, outside);
         }
+        bsdf
     }
 }

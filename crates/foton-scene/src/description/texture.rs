@@ -1,4 +1,4 @@
-//! Colours, and pictures of them over texture coordinates.
+//! Colours and numbers, and pictures of them over texture coordinates.
 
 use std::sync::Arc;
 
@@ -20,13 +20,24 @@ impl From<Rgb> for Colour {
     }
 }
 
-/// A number that is the same everywhere, or comes from a texture: luminance of a bitmap, the mean channel of other textures.
+/// A number that is the same everywhere, or comes from a texture.
+///
+/// A texture's number is the luminance of a bitmap and the mean channel of other colours, as in Mitsuba 3, brought into the range of
+/// what it stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Number {
     /// The same everywhere.
     Constant(f32),
     /// Index into [`SceneDescription::textures`](super::SceneDescription::textures).
     Texture(usize),
+}
+
+impl Number {
+    /// The number where it is the same everywhere.
+    #[must_use]
+    pub const fn constant(self) -> Option<f32> {
+        if let Self::Constant(x) = self { Some(x) } else { None }
+    }
 }
 
 impl From<f32> for Number {

@@ -4,7 +4,7 @@ use foton_math::Rgb;
 
 use super::declaration::Parameter;
 use crate::bsdf::Microfacets;
-use crate::description::Colour;
+use crate::description::{Colour, Number};
 
 /// Parameters of a BSDF with the place of what they say.
 #[derive(Debug)]
@@ -20,8 +20,8 @@ pub struct Binding<'a> {
 pub enum Slot<'a> {
     /// A share of light.
     Share(&'a mut Colour),
-    /// A number.
-    Number(&'a mut f32),
+    /// A number that a texture may give.
+    Number(&'a mut Number),
     /// An index of refraction.
     Refraction(&'a mut f32),
     /// True or false.
@@ -53,11 +53,13 @@ impl<'a> Binding<'a> {
         let positive = |x: f32| x.is_finite() && x > 0.0;
         match &self.slot {
             Slot::Share(Colour::Constant(c)) => is_within(c),
-            Slot::Share(Colour::Texture(_)) | Slot::Boolean(_) => true,
-            Slot::Number(x) => range.holds(f64::from(**x)),
+            Slot::Share(Colour::Texture(_)) | Slot::Boolean(_) | Slot::Number(Number::Texture(_)) => true,
+            Slot::Number(Number::Constant(x)) => range.holds(f64::from(*x)),
             Slot::Refraction(x) => positive(**x),
             Slot::Metal { eta, k } => is_within(eta) && is_within(k),
-            Slot::Roughness(r) => r.is_none_or(|r| positive(r.alpha_u) && positive(r.alpha_v)),
+            Slot::Roughness(r) => r.is_none_or(|r| {
+                [r.alpha_u, r.alpha_v].into_iter().filter_map(Number::constant).all(positive)
+            }),
         }
     }
 }

@@ -193,6 +193,12 @@ impl Parameter {
         Self { excludes, ..self }
     }
 
+    /// For which a texture may stand.
+    #[must_use]
+    pub const fn textured(self) -> Self {
+        Self { textured: true, ..self }
+    }
+
     /// With what survives when its surface becomes another model.
     #[must_use]
     pub const fn role(self, role: Role) -> Self {

@@ -17,7 +17,7 @@ use foton_math::glam::{Mat3, Vec2, Vec3};
 use foton_math::{Aabb, Ray};
 
 use crate::accel::{Accel, Hit};
-use crate::bsdf::Coat;
+use crate::bsdf::Coats;
 use crate::build::Patch;
 use crate::census::Census;
 use crate::coincident::Coincidences;
@@ -73,7 +73,7 @@ pub struct Scene {
     pub(crate) materials: Vec<Material>,
     pub(crate) mixtures: Mixtures,
     /// Front and back of each material; empty when no coat is rough.
-    pub(crate) coats: Vec<[Option<Coat>; 2]>,
+    pub(crate) coats: Vec<[Option<Coats>; 2]>,
     /// Colours of each shape's front and back where that is Lambertian and nothing else.
     pub(crate) lambertian: Vec<[Option<Colour>; 2]>,
     pub(crate) emitters: Arc<[Emitter]>,

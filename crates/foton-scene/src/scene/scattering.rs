@@ -1,10 +1,12 @@
-//! The BSDF at a point, its colours looked up.
+//! The BSDF at a point, its colours and numbers looked up.
+
+use std::cell::LazyCell;
 
 use foton_math::Rgb;
 
 use super::Scene;
 use crate::bsdf::Scattering;
-use crate::description::{Bsdf, Colour, Diffuse};
+use crate::description::{Bsdf, Colour, Diffuse, Number};
 use crate::surface::Surface;
 
 /// The side that a material does not describe.
@@ -12,7 +14,7 @@ const BLACK: Bsdf = Bsdf::Diffuse(Diffuse { reflectance: Colour::Constant(Rgb::B
 
 impl Scene {
     /// How the surface scatters light on the side of `outward` (whether the light's direction is on the normal's side), with
-    /// its colours looked up. `None`: that side is black. A side without a BSDF takes all light that meets it, and where there is
+    /// its colours and numbers looked up. `None`: that side is black. A side without a BSDF takes all light that meets it, and where there is
     /// an opacity the rest passes it all the same.
     #[must_use]
     #[inline(always)]
@@ -27,23 +29,31 @@ impl Scene {
             None => return None,
         };
         let coats = self.coats.get(index);
-        let coat = coats.and_then(|c| c[usize::from(!front)]);
+        let coats = coats.and_then(|c| c[usize::from(!front)].as_ref());
+        let complete = |bsdf: Bsdf<Rgb, f32>, opacity: f32| {
+            let coat = coats.map(|coats| coats.at(bsdf.gloss().unwrap_or(0.0)));
+            Some(Scattering { bsdf: surface.between(bsdf), opacity, coat })
+        };
         if !self.census.textures {
             let constant = |c: Colour| if let Colour::Constant(c) = c { c } else { Rgb::BLACK };
             let opacity = material.opacity.map_or(1.0, |c| constant(c).mean());
-            return Some(Scattering { bsdf: surface.between(*bsdf).map(constant), opacity, coat });
+            let number = |n: Number, _| if let Number::Constant(x) = n { x } else { 0.0 };
+            return complete(bsdf.map(constant, number), opacity);
         }
-        let mut known = None;
-        let mut uv = || *known.get_or_insert_with(|| self.texture_coordinate(surface));
+        let uv = LazyCell::new(|| self.texture_coordinate(surface));
         let opacity = material.opacity.map_or(1.0, |c| match c {
             Colour::Constant(c) => c.mean(),
-            Colour::Texture(t) => self.textures[t].scalar(uv()),
+            Colour::Texture(t) => self.textures[t].scalar(*uv),
         });
         let colour = |c: Colour| match c {
             Colour::Constant(c) => c,
-            Colour::Texture(t) => self.textures[t].colour(uv()),
+            Colour::Texture(t) => self.textures[t].colour(*uv),
         };
-        Some(Scattering { bsdf: surface.between(*bsdf).map(colour), opacity: opacity.clamp(0.0, 1.0), coat })
+        let number = |n: Number, [low, high]: [f32; 2]| match n {
+            Number::Constant(x) => x,
+            Number::Texture(t) => self.textures[t].scalar(*uv).clamp(low, high),
+        };
+        complete(bsdf.map(colour, number), opacity.clamp(0.0, 1.0))
     }
 
     /// The reflectance of a side that is Lambertian and nothing else, its colour looked up: what most photons meet, and with a

@@ -273,7 +273,7 @@ impl<'a, 'b> Walk<'a, 'b> {
         let Some(weight) = self.roulette(branch) else { return };
         let wo = -branch.ray.direction;
         let (frame, local) = shading_view(self.pass.scene, surface, wo);
-        let facet = match scattering.bsdf.roughness() {
+        let facet = match scattering.bsdf.gloss() {
             Some(_) => Some(self.facet.take().unwrap_or_else(|| self.stream.next_2d())),
             None => None,
         };

@@ -3,7 +3,7 @@
 use foton_input::quoted;
 use foton_math::Rgb;
 use foton_scene::bsdf::{DISTRIBUTIONS, MicrofacetDistribution, Microfacets};
-use foton_scene::description::{Bsdf, Conductor, Mirror};
+use foton_scene::description::{Bsdf, Conductor, Mirror, Number};
 use foton_scene::parameter::{Binding, Parameter, Slot};
 
 use crate::mitsuba::names::REFRACTION;
@@ -58,13 +58,18 @@ impl Reader<'_> {
         Some(())
     }
 
-    /// A number within its range.
+    /// A number within its range, or the texture that gives it.
     #[allow(clippy::cast_possible_truncation, reason = "optics is single precision")]
-    pub(super) fn number(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Option<f32> {
+    pub(super) fn number(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Option<Number> {
         let Parameter { name, range: (min, max), .. } = *parameter;
-        let Some(found) = p.number(name, &mut self.report) else { return Some(parameter.default_number()) };
+        if let Some(texture) = p.texture(name).filter(|_| parameter.textured) {
+            return self.texture(texture).map(Number::Texture);
+        }
+        let Some(found) = p.number(name, &mut self.report) else {
+            return Some(parameter.default_number().into());
+        };
         if parameter.holds(found.value) {
-            return Some(found.value as f32);
+            return Some((found.value as f32).into());
         }
         self.report.error(found.place, format!("\"{name}\" must lie between {min} and {max}"));
         None
@@ -125,9 +130,9 @@ impl Reader<'_> {
             alphas = (alpha, alpha);
         }
         if let (Some(u), Some(v)) = (declared("alpha_u"), declared("alpha_v"))
-            && (p.has(u.name) || p.has(v.name))
+            && (p.states(u.name) || p.states(v.name))
         {
-            if !(p.has(u.name) && p.has(v.name)) || p.has("alpha") {
+            if !(p.states(u.name) && p.states(v.name)) || p.states("alpha") {
                 let message = "a rough surface has an \"alpha\", or both \"alpha_u\" and \"alpha_v\"";
                 self.report.error(p.place, message);
             }
@@ -154,14 +159,10 @@ impl Reader<'_> {
         known
     }
 
-    #[allow(clippy::cast_possible_truncation, reason = "optics is single precision")]
-    fn alpha(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Option<f32> {
-        let name = parameter.name;
-        let Some(alpha) = p.number(name, &mut self.report) else { return Some(parameter.default_number()) };
-        if !parameter.holds(alpha.value) {
-            self.report.error(alpha.place, format!("\"{name}\" must not be negative or above a million"));
-            return None;
-        }
-        Some((alpha.value as f32).max(MIN_ALPHA))
+    fn alpha(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Option<Number> {
+        Some(match self.number(p, parameter)? {
+            Number::Constant(alpha) => alpha.max(MIN_ALPHA).into(),
+            texture @ Number::Texture(_) => texture,
+        })
     }
 }

@@ -194,6 +194,11 @@ impl<'a> Properties<'a> {
         self.values.iter().any(|v| v.name == name)
     }
 
+    /// Whether the value is there, or a texture for it.
+    pub(crate) fn states(&self, name: &str) -> bool {
+        self.has(name) || self.objects.iter().any(|o| o.name == name && is_texture(&o.element.name))
+    }
+
     /// Whether the value is there and written as a `<string>`.
     pub(crate) fn is_string(&self, name: &str) -> bool {
         self.values.iter().any(|v| v.name == name && v.element.name == "string")

@@ -69,14 +69,12 @@ impl Reader<'_> {
             [first, second] => {
                 let (front, back) = (self.reflecting(first), self.reflecting(second));
                 let (front, back) = (front?, back?);
-                if !front.mixture.is_empty() || !back.mixture.is_empty() || front.relief != back.relief {
-                    let message = "a twosided bsdf with two different sides takes no blends, and no bump or normal map, inside: \
-                                   put them around it";
-                    self.report.error(second.place, message);
-                    return None;
+                if front.relief != back.relief {
+                    let message =
+                        "of two sides with different bump or normal maps the back takes that of the front";
+                    self.report.warning(second.place, message);
                 }
-                let relief = front.relief.map(|relief| Relief { same_behind: true, ..relief });
-                Some(Sides { back: Some(back.front), relief, ..front })
+                Some(two_sides(&front, &back))
             }
             _ => {
                 let message = format!("a twosided bsdf needs one or two bsdfs inside, not {}", nested.len());
@@ -104,10 +102,7 @@ impl Reader<'_> {
 
     /// Two BSDFs, the second of which has the weight.
     fn blend(&mut self, p: &mut Properties<'_>) -> Option<Sides> {
-        let weight = match p.texture(WEIGHT.name) {
-            Some(texture) => self.texture(texture).map(Number::Texture),
-            None => self.number(p, &WEIGHT).map(Number::Constant),
-        };
+        let weight = self.number(p, &WEIGHT);
         let nested = p.nested("bsdf");
         let [first, second] = nested[..] else {
             self.report.error(p.place, format!("a blendbsdf needs two bsdfs inside, not {}", nested.len()));
@@ -160,7 +155,7 @@ impl Reader<'_> {
     /// A surface whose normals follow a height.
     fn bump_map(&mut self, p: &mut Properties<'_>) -> Option<Sides> {
         p.leave_out(BUMPMAP.parameters, &mut self.report);
-        let scale = self.number(p, &SCALE)?;
+        let scale = self.number(p, &SCALE)?.constant()?;
         let textures = p.nested("texture");
         let [texture] = textures[..] else {
             let message = format!("a bumpmap needs one texture inside, not {}", textures.len());
@@ -250,4 +245,17 @@ impl Reader<'_> {
         let is_here = nested.place == nested.element.place;
         Some(Sides { node: sides.node.or(Some(nested.node)).filter(|_| is_here), ..sides })
     }
+}
+
+/// A material that is one in front and another behind: each material that the back is blended of stands behind all that the front is
+/// blended of.
+fn two_sides(front: &Sides, back: &Sides) -> Sides {
+    let mut both = front.clone();
+    let _ = both.for_each(&mut |sides| {
+        sides.back = Some(back.front);
+        sides.relief.iter_mut().for_each(|relief| relief.same_behind = true);
+        Ok::<_, ()>(())
+    });
+    both.mixture.extend(back.mixture.iter().map(|(other, weight)| (two_sides(front, other), *weight)));
+    both
 }

@@ -1,13 +1,13 @@
 //! Changed materials in a document: the values that changed, or where their structure did, the whole element anew.
 
-use foton_scene::description::{Bsdf, Colour, Material};
+use foton_scene::description::{Bsdf, Colour, Material, Number};
 use foton_scene::parameter::{Binding, Kind, Parameter, Slot};
 use foton_scene::plugins::wrappers::{self, OPACITY};
 
 use super::tree::Obstacle;
 use crate::mitsuba::document::{Document, NodeId};
 use crate::mitsuba::write::material_xml;
-use crate::mitsuba::write::surfaces::{Stated, mean, stated};
+use crate::mitsuba::write::surfaces::{Stated, mean, stated, textures_of};
 use crate::mitsuba::write::xml::single;
 
 /// Makes the `<bsdf>` of one material that of another.
@@ -44,7 +44,10 @@ pub(super) fn change(
 pub(super) fn build(document: &mut Document, new: &Material, indentation: &str) -> Result<NodeId, Obstacle> {
     let mut textured = matches!(new.opacity, Some(Colour::Texture(_))) || new.relief.is_some();
     for bsdf in [Some(new.front), new.back].into_iter().flatten() {
-        let _ = bsdf.map(|c| textured |= matches!(c, Colour::Texture(_)));
+        let mut of_numbers = false;
+        let is_texture = |n, _| of_numbers |= matches!(n, Number::Texture(_));
+        let _ = bsdf.map(|c| textured |= matches!(c, Colour::Texture(_)), is_texture);
+        textured |= of_numbers;
     }
     if !new.mixture.is_empty() {
         return Err(format!("the material \"{}\" is a blend and changed its kind", new.name));
@@ -127,16 +130,24 @@ fn change_side(document: &mut Document, node: NodeId, old: &Bsdf, new: &Bsdf) ->
 
 fn change_value(document: &mut Document, node: NodeId, old: &Binding<'_>, new: &Binding<'_>) -> Option<()> {
     let (before, after) = (stated(old), stated(new));
-    // A texture stays as it is.
-    if before == after {
+    let textures = textures_of(new);
+    let textures_before = textures_of(old);
+    if textures.iter().any(|texture| !textures_before.contains(texture)) {
+        return None;
+    }
+    // A texture that gives the same value stays as it is.
+    if (before == after) && textures == textures_before {
         return Some(());
     }
-    let is_said = |name: &str| after.iter().any(|s| s.name == name);
+    let is_said = |name: &str| {
+        after.iter().any(|s| s.name == name) || textures.iter().any(|(textured, _)| *textured == name)
+    };
     for parameter in alternatives(new).filter(|p| !is_said(p.name)) {
         document.set_value(node, "", parameter.name, None).ok()?;
     }
-    for gone in before.iter().filter(|s| !is_said(s.name)) {
-        document.set_value(node, "", gone.name, None).ok()?;
+    let names = before.iter().map(|s| s.name).chain(textures_before.iter().map(|(name, _)| *name));
+    for gone in names.filter(|name| !is_said(name)) {
+        document.set_value(node, "", gone, None).ok()?;
     }
     // A metal that had a name gets both of its indices; what else did not change may be said by a default.
     let is_metal = matches!(new.slot, Slot::Metal { .. });

@@ -128,26 +128,35 @@ fn same_relief(
         && same_colour((a, Colour::Texture(x.texture)), (b, Colour::Texture(y.texture)))
 }
 
+fn same_bsdf((a, x): (&SceneDescription, &Bsdf), (b, y): (&SceneDescription, &Bsdf)) -> bool {
+    let values = |bsdf: &Bsdf| {
+        let (mut colours, mut numbers) = (Vec::new(), Vec::new());
+        let rest = bsdf.map(
+            |c| {
+                colours.push(c);
+                Rgb::BLACK
+            },
+            |n, _| {
+                numbers.push(n);
+                0.0
+            },
+        );
+        (colours, numbers, rest)
+    };
+    let ((colours, numbers, x), (its_colours, its_numbers, y)) = (values(x), values(y));
+    x == y
+        && (colours.len(), numbers.len()) == (its_colours.len(), its_numbers.len())
+        && colours.iter().zip(&its_colours).all(|(x, y)| same_colour((a, *x), (b, *y)))
+        && numbers.iter().zip(&its_numbers).all(|(x, y)| same_number((a, *x), (b, *y)))
+}
+
 fn same_number((a, x): (&SceneDescription, Number), (b, y): (&SceneDescription, Number)) -> bool {
     match (x, y) {
         (Number::Texture(x), Number::Texture(y)) => {
             same_colour((a, Colour::Texture(x)), (b, Colour::Texture(y)))
         }
-        (x, y) => x == y,
+        _ => x == y,
     }
-}
-
-fn same_bsdf((a, x): (&SceneDescription, &Bsdf), (b, y): (&SceneDescription, &Bsdf)) -> bool {
-    let colours = |bsdf: &Bsdf| {
-        let mut colours = Vec::new();
-        let rest = bsdf.map(|c| {
-            colours.push(c);
-            Rgb::BLACK
-        });
-        (colours, rest)
-    };
-    let ((of_x, x), (of_y, y)) = (colours(x), colours(y));
-    x == y && of_x.len() == of_y.len() && of_x.iter().zip(&of_y).all(|(x, y)| same_colour((a, *x), (b, *y)))
 }
 
 fn same_colour((a, x): (&SceneDescription, Colour), (b, y): (&SceneDescription, Colour)) -> bool {

@@ -148,10 +148,12 @@ impl Writer<'_> {
             match &binding.slot {
                 // A factor need not stand where it changes nothing.
                 Slot::Share(share) if parameter.default == 1.0 && **share == parameter.default_colour() => {}
-                Slot::Share(share) => self.colour(parameter.name, **share),
                 _ => {
                     for Stated { tag, name, text } in stated(&binding) {
                         self.xml.value(tag, name, &text);
+                    }
+                    for (name, texture) in textures_of(&binding) {
+                        self.xml.leaf("ref", &[("name", name), ("id", &self.texture_ids[texture])]);
                     }
                 }
             }
@@ -178,26 +180,46 @@ pub(crate) struct Stated {
     pub(crate) text: String,
 }
 
+/// The textures that stand for parameters of a BSDF, with their names.
+pub(crate) fn textures_of(binding: &Binding<'_>) -> Vec<(&'static str, usize)> {
+    let name = binding.parameters[0].name;
+    let of = |name, number| if let Number::Texture(i) = number { Some((name, i)) } else { None };
+    match &binding.slot {
+        Slot::Share(Colour::Texture(i)) => vec![(name, *i)],
+        Slot::Number(number) => of(name, **number).into_iter().collect(),
+        Slot::Roughness(Some(r)) => {
+            alphas(r).into_iter().filter_map(|(name, alpha)| of(name, alpha)).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// The roughness as files state it: once where it is the same along both axes.
+fn alphas(r: &Microfacets) -> Vec<(&'static str, Number)> {
+    if r.alpha_u == r.alpha_v {
+        vec![("alpha", r.alpha_u)]
+    } else {
+        vec![("alpha_u", r.alpha_u), ("alpha_v", r.alpha_v)]
+    }
+}
+
 /// What stands in a file for parameters of a BSDF; nothing for a texture, which stands elsewhere.
 pub(crate) fn stated(binding: &Binding<'_>) -> Vec<Stated> {
     let name = binding.parameters[0].name;
     let of = |tag, name, text| Stated { tag, name, text };
+    let number = |name, number: Number| number.constant().map(|x| of("float", name, single(x)));
     match &binding.slot {
         Slot::Share(Colour::Constant(c)) => vec![of("rgb", name, colour(*c))],
         Slot::Share(Colour::Texture(_)) | Slot::Roughness(None) => Vec::new(),
-        Slot::Number(number) => vec![of("float", name, single(**number))],
+        Slot::Number(x) => number(name, **x).into_iter().collect(),
         Slot::Refraction(ior) => vec![of("float", name, single(**ior))],
         Slot::Boolean(flag) => vec![of("boolean", name, flag.to_string())],
         Slot::Metal { eta, k } => vec![of("rgb", "eta", colour(**eta)), of("rgb", "k", colour(**k))],
-        Slot::Roughness(Some(Microfacets { distribution, alpha_u, alpha_v })) => {
-            let mut all = vec![of("string", "distribution", distribution.name().to_owned())];
-            if alpha_u == alpha_v {
-                all.push(of("float", "alpha", single(*alpha_u)));
-            } else {
-                all.push(of("float", "alpha_u", single(*alpha_u)));
-                all.push(of("float", "alpha_v", single(*alpha_v)));
-            }
-            all
+        Slot::Roughness(Some(r)) => {
+            let distribution = of("string", "distribution", r.distribution.name().to_owned());
+            std::iter::once(distribution)
+                .chain(alphas(r).into_iter().filter_map(|(n, x)| number(n, x)))
+                .collect()
         }
     }
 }

@@ -1,5 +1,7 @@
 //! What materials and textures of a scene file mean, against values worked out by hand or printed by Mitsuba 3.9.1.
 
+mod blends;
+
 use std::io::{self, Cursor};
 use std::path::Path;
 use std::sync::Arc;
@@ -9,7 +11,7 @@ use foton_math::Rgb;
 use foton_math::glam::DVec2;
 use foton_scene::description::{
     Bitmap, Bsdf, Colour, Conductor, Dielectric, Diffuse, EmitterKind, Material, MicrofacetDistribution,
-    Microfacets, Mirror, Null, Plastic, Texture, TextureKind, ThinDielectric, Wrap,
+    Microfacets, Mirror, Null, Number, Plastic, Texture, TextureKind, ThinDielectric, Wrap,
 };
 use image::ImageFormat;
 
@@ -72,7 +74,7 @@ fn grey(value: f32) -> Colour {
 }
 
 fn beckmann(alpha: f32) -> Microfacets {
-    Microfacets { distribution: MicrofacetDistribution::Beckmann, alpha_u: alpha, alpha_v: alpha }
+    Microfacets::isotropic(MicrofacetDistribution::Beckmann, alpha)
 }
 
 fn assert_close(found: Rgb, wanted: [f32; 3], tolerance: f32) {
@@ -144,7 +146,18 @@ fn roughness_is_one_alpha_or_two() {
         "<string name='distribution' value='ggx'/><float name='alpha_u' value='0.1'/><float name='alpha_v' value='0.3'/>",
     );
     let ggx = MicrofacetDistribution::Ggx;
-    assert_eq!(two, Microfacets { distribution: ggx, alpha_u: 0.1, alpha_v: 0.3 });
+    assert_eq!(two, Microfacets { distribution: ggx, alpha_u: 0.1.into(), alpha_v: 0.3.into() });
+    // A texture may stand for each, inside or by reference.
+    let board = "<texture type='checkerboard' name='alpha'/>";
+    let textured = Microfacets { alpha_u: Number::Texture(0), alpha_v: Number::Texture(0), ..beckmann(0.1) };
+    assert_eq!(of(board), textured);
+    let along_v = "<float name='alpha_u' value='0.1'/><texture type='checkerboard' name='alpha_v'/>";
+    assert_eq!(of(along_v), Microfacets { alpha_v: Number::Texture(0), ..beckmann(0.1) });
+    let shared = read(
+        "<texture type='checkerboard' id='t'/><bsdf type='roughplastic'><ref name='alpha' id='t'/></bsdf>",
+    );
+    let Bsdf::Plastic(plastic) = shared.description.materials[0].front else { panic!("plastic") };
+    assert_eq!(plastic.roughness, Some(textured));
 }
 
 #[test]
