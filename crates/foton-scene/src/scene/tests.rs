@@ -117,7 +117,7 @@ fn rough_by_texture() -> [Material; 2] {
         nonlinear: false,
         roughness: Some(Microfacets { distribution, alpha_u: board, alpha_v: board }),
     });
-    [metal, plastic].map(|front| Material { name: "rough".into(), front, back: None, opacity: None })
+    [metal, plastic].map(|front| Material { name: "rough".into(), front, back: None, ..Material::default() })
 }
 
 /// The scattering of a square at a place on it.
