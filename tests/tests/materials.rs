@@ -32,7 +32,7 @@ fn picture(sketch: &mut Sketch, size: u32, colour: impl Fn(DVec2) -> Rgb) -> usi
     let pixels = (0..size)
         .flat_map(|y| (0..size).map(move |x| (x, y)))
         .map(|(x, y)| colour(DVec2::new(at(x), 1.0 - at(y))));
-    let bitmap = Arc::new(Bitmap { width: size, height: size, pixels: pixels.collect() });
+    let bitmap = Arc::new(Bitmap::new(size, size, pixels.collect()));
     let kind = TextureKind::Bitmap { bitmap, wrap: Wrap::Repeat, bilinear: true };
     sketch.0.textures.push(Texture { name: "picture".into(), to_uv: DAffine2::IDENTITY, kind });
     sketch.0.textures.len() - 1

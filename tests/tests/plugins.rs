@@ -31,6 +31,7 @@ fn value(parameter: &Parameter) -> String {
         Kind::Numbers => format!(r#"<string name="{name}" value="1"/>"#),
         Kind::Texture => format!(r#"<texture name="{name}" type="checkerboard"/>"#),
         Kind::File => format!(r#"<string name="{name}" value="absent"/>"#),
+        Kind::Name => format!(r#"<string name="{name}" value="vertex_color"/>"#),
         Kind::Ignored | Kind::Unsupported => format!(r#"<string name="{name}" value="anything"/>"#),
     }
 }
@@ -48,6 +49,8 @@ fn said(plugin: &Declared, contents: &str) -> String {
         "thinlens" if !contents.contains("aperture_radius") => {
             r#"<float name="aperture_radius" value="0.1"/>"#
         }
+        "scale" => r#"<texture type="checkerboard"/>"#,
+        "mesh_attribute" if !contents.contains("\"name\"") => r#"<string name="name" value="vertex_color"/>"#,
         _ => "",
     };
     let Declared { tag, name, .. } = plugin;

@@ -11,6 +11,7 @@ mod sensor;
 mod shape;
 mod texture;
 
+pub use crate::bitmap::{Bitmap, Smaller, Wrap};
 pub use crate::bsdf::{
     Bsdf, Conductor, Dielectric, Diffuse, MicrofacetDistribution, Microfacets, Mirror, Null, Plastic,
     ThinDielectric,
@@ -20,8 +21,8 @@ pub use hidden::Hidden;
 pub use material::{Blend, Material, Relief, ReliefKind};
 pub use motion::{Keyframes, Motion};
 pub use sensor::{Crop, Filter, FovAxis, Lens, SensorDescription};
-pub use shape::{Geometry, Mesh, ShapeDescription};
-pub use texture::{Bitmap, Colour, Number, Texture, TextureKind, Wrap};
+pub use shape::{Attribute, Geometry, Mesh, ShapeDescription};
+pub use texture::{Colour, Number, Texture, TextureKind};
 
 /// Everything that a scene consists of.
 #[derive(Clone, Debug, Default)]

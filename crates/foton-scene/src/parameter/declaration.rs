@@ -66,6 +66,8 @@ pub enum Kind {
     Numbers,
     /// A texture.
     Texture,
+    /// The name of something.
+    Name,
     /// Read and without effect: it steers another renderer's sampling.
     Ignored,
     /// Refused where it is given, since leaving it out would change the image.

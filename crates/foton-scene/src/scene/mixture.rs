@@ -4,13 +4,13 @@
 //! Photons and path tracers choose it at random by the weights there; eye paths that hit points come from take every component with its
 //! weight.
 
-use foton_math::glam::Vec2;
+use std::cell::LazyCell;
 
 use super::Scene;
+use super::lookup::Footprint;
 use crate::build::BuildError;
 use crate::description::{Material, Number};
 use crate::surface::Surface;
-use crate::texture::Sampler;
 
 /// More components than this make no material.
 const MAX_COMPONENTS: usize = 64;
@@ -112,12 +112,22 @@ impl Scene {
     /// The components of a surface with their weights, which sum to 1: for most surfaces it is one, itself. `outward`: on which side the
     /// path is, whose normal a relief perturbs.
     pub fn components(&self, surface: &Surface, outward: bool) -> impl Iterator<Item = (Surface, f32)> {
+        self.components_seen(surface, outward, None)
+    }
+
+    /// The same, weights and normals the means over what an eye sample sees around the point.
+    pub fn components_seen(
+        &self,
+        surface: &Surface,
+        outward: bool,
+        footprint: Option<&Footprint>,
+    ) -> impl Iterator<Item = (Surface, f32)> {
         let components =
             if self.is_mixture(surface) { self.mixtures.of(self.own_material(surface)) } else { &[] };
-        let alone = components.is_empty().then(|| (self.relieved(*surface, outward), 1.0));
+        let alone = components.is_empty().then(|| (self.relieved(*surface, outward, footprint), 1.0));
         let all = (0u16..).zip(components).map(move |(component, it)| {
-            let weight = self.weight(surface, it);
-            (self.relieved(Surface { component, ..*surface }, outward), weight)
+            let weight = self.weight(surface, it, footprint);
+            (self.relieved(Surface { component, ..*surface }, outward, footprint), weight)
         });
         alone.into_iter().chain(all.filter(|(_, weight)| *weight > 0.0))
     }
@@ -126,12 +136,12 @@ impl Scene {
     #[must_use]
     pub fn choose_component(&self, surface: Surface, outward: bool, u: f32) -> (Surface, f32) {
         if !self.is_mixture(&surface) {
-            return (self.relieved(surface, outward), u);
+            return (self.relieved(surface, outward, None), u);
         }
         let mut left = u;
         let mut chosen = (0, 1.0);
         for (component, it) in (0u16..).zip(self.mixtures.of(self.own_material(&surface))) {
-            let weight = self.weight(&surface, it);
+            let weight = self.weight(&surface, it, None);
             if weight > 0.0 {
                 chosen = (component, weight);
                 if left < weight {
@@ -143,7 +153,7 @@ impl Scene {
         let (component, weight) = chosen;
         // Weights sum to 1 but for rounding.
         (
-            self.relieved(Surface { component, ..surface }, outward),
+            self.relieved(Surface { component, ..surface }, outward, None),
             (left / weight).clamp(0.0, 1.0 - f32::EPSILON),
         )
     }
@@ -160,27 +170,16 @@ impl Scene {
         (if surface.component == 0 { own } else { self.mixtures.material(own, surface.component) }) as usize
     }
 
-    fn weight(&self, surface: &Surface, component: &Component) -> f32 {
-        let mut uv = None;
+    fn weight(&self, surface: &Surface, component: &Component, footprint: Option<&Footprint>) -> f32 {
+        let lookup = LazyCell::new(|| self.lookup(surface, footprint));
         let factor = |factor: &Factor| {
             let weight = match factor.weight {
                 Number::Constant(weight) => weight,
-                Number::Texture(texture) => {
-                    let uv = *uv.get_or_insert_with(|| self.texture_coordinate(surface));
-                    self.textures[texture].scalar(uv)
-                }
+                Number::Texture(texture) => lookup.scalar(&self.textures[texture]),
             };
             let weight = weight.clamp(0.0, 1.0);
             if factor.is_rest { 1.0 - weight } else { weight }
         };
         component.factors.iter().map(factor).product()
-    }
-
-    /// Slope of a scalar texture at a surface, by its texture coordinates.
-    pub(super) fn slope(&self, texture: &Sampler, surface: &Surface) -> Vec2 {
-        let uv = self.texture_coordinate(surface);
-        let step = texture.step();
-        let along = |step: Vec2| texture.scalar(uv + step) - texture.scalar(uv - step);
-        Vec2::new(along(Vec2::new(step.x, 0.0)), along(Vec2::new(0.0, step.y))) / (2.0 * step)
     }
 }

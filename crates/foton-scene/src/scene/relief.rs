@@ -3,31 +3,39 @@
 use foton_math::glam::Vec3;
 
 use super::Scene;
+use super::lookup::Footprint;
 use crate::description::{Relief, ReliefKind};
 use crate::surface::Surface;
 
 impl Scene {
     /// The surface with the normal that its relief gives it, as seen from the side of `outward`.
     #[inline(always)]
-    pub(super) fn relieved(&self, surface: Surface, outward: bool) -> Surface {
+    pub(super) fn relieved(&self, surface: Surface, outward: bool, footprint: Option<&Footprint>) -> Surface {
         if !self.census.reliefs {
             return surface;
         }
         match self.materials[self.material_index(&surface)].relief {
-            Some(relief) => self.perturbed(surface, &relief, outward),
+            Some(relief) => self.perturbed(surface, &relief, outward, footprint),
             None => surface,
         }
     }
 
     #[inline(never)]
-    fn perturbed(&self, surface: Surface, relief: &Relief, outward: bool) -> Surface {
+    fn perturbed(
+        &self,
+        surface: Surface,
+        relief: &Relief,
+        outward: bool,
+        footprint: Option<&Footprint>,
+    ) -> Surface {
+        let lookup = self.lookup(&surface, footprint);
         let [dp_du, dp_dv] = self.derivatives(&surface);
         let n = surface.shading_normal;
         let texture = &self.textures[relief.texture];
         let perturbed = match relief.kind {
             ReliefKind::Bump { scale } => {
                 let factor = scale * self.normalisation.scale() as f32;
-                let slope = self.slope(texture, &surface) * factor;
+                let slope = lookup.slope(texture) * factor;
                 // What stands out along n tilts both tangents; they span the surface at its own height.
                 let tangent = |along: Vec3| along - n * n.dot(along);
                 let (u, v) = (tangent(dp_du) + n * slope.x, tangent(dp_dv) + n * slope.y);
@@ -36,7 +44,7 @@ impl Scene {
             }
             ReliefKind::Normal => {
                 let Some(tangent) = (dp_du - n * n.dot(dp_du)).try_normalize() else { return surface };
-                let c = texture.colour(self.texture_coordinate(&surface));
+                let c = lookup.colour(texture);
                 let local = Vec3::new(c.r, c.g, c.b) * 2.0 - 1.0;
                 tangent * local.x + n.cross(tangent) * local.y + n * local.z
             }

@@ -6,6 +6,7 @@ use foton_scene::bsdf::{DISTRIBUTIONS, MicrofacetDistribution, Microfacets};
 use foton_scene::description::{Bsdf, Conductor, Mirror, Number};
 use foton_scene::parameter::{Binding, Parameter, Slot};
 
+use crate::image::Purpose;
 use crate::mitsuba::names::REFRACTION;
 use crate::mitsuba::read::metals;
 use crate::mitsuba::read::properties::{Located, Properties};
@@ -63,7 +64,7 @@ impl Reader<'_> {
     pub(super) fn number(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Option<Number> {
         let Parameter { name, range: (min, max), .. } = *parameter;
         if let Some(texture) = p.texture(name).filter(|_| parameter.textured) {
-            return self.texture(texture).map(Number::Texture);
+            return self.texture_for(texture, Purpose::Number).map(Number::Texture);
         }
         let Some(found) = p.number(name, &mut self.report) else {
             return Some(parameter.default_number().into());

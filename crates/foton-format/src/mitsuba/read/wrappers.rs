@@ -10,6 +10,7 @@ use foton_scene::plugins::wrappers::{
 };
 
 use crate::diagnostic::Place;
+use crate::image::{Curve, Purpose, Reading};
 use crate::mitsuba::read::known::Sides;
 use crate::mitsuba::read::properties::{Object, Properties};
 use crate::mitsuba::read::reader::Reader;
@@ -40,7 +41,7 @@ impl Reader<'_> {
     /// A bsdf with holes.
     fn mask(&mut self, p: &mut Properties<'_>) -> Option<Sides> {
         let outer = self.share(p, &OPACITY);
-        let nested = self.only_one(p)?;
+        let nested = self.inner_bsdf(p)?;
         let mut sides = self.nested_sides(nested)?;
         let masked = sides.for_each(&mut |sides| {
             sides.opacity = Some(match (outer, sides.opacity) {
@@ -162,8 +163,8 @@ impl Reader<'_> {
             self.report.error(p.place, message);
             return None;
         };
-        let nested = self.only_one(p)?;
-        let (texture, sides) = (self.texture(texture), self.nested_sides(nested));
+        let nested = self.inner_bsdf(p)?;
+        let (texture, sides) = (self.texture_for(texture, Purpose::Number), self.nested_sides(nested));
         self.relieved(sides?, nested.place, texture?, ReliefKind::Bump { scale })
     }
 
@@ -176,14 +177,14 @@ impl Reader<'_> {
             let named = p.texture(NORMALS.name);
             // Old files give it no name.
             match named.or_else(|| p.nested("texture").first().copied()) {
-                Some(object) => self.texture(object),
+                Some(object) => self.texture_for(object, Purpose::Number),
                 None => {
                     self.report.error(p.place, "a normalmap needs a texture of the name \"normalmap\"");
                     None
                 }
             }
         };
-        let nested = self.only_one(p)?;
+        let nested = self.inner_bsdf(p)?;
         let sides = self.nested_sides(nested);
         self.relieved(sides?, nested.place, texture?, ReliefKind::Normal)
     }
@@ -191,7 +192,9 @@ impl Reader<'_> {
     /// The texture of a normal map that names the file itself.
     fn picture_of_normals(&mut self, p: &mut Properties<'_>) -> Option<usize> {
         let filename = p.string(NORMALS_FILE.name, &mut self.report)?;
-        let bitmap = self.images.read(&filename, true, true, &mut self.files, &mut self.report)?;
+        let reading =
+            Reading { curve: Curve::Power(1.0), channel: None, factor: Rgb::WHITE, purpose: Purpose::Number };
+        let bitmap = self.images.read(&filename, reading, &mut self.files, &mut self.report)?;
         let index = self.description.textures.len();
         let kind = TextureKind::Bitmap { bitmap, wrap: Wrap::Repeat, bilinear: true };
         let to_uv = TURN * DAffine2::IDENTITY;
@@ -223,7 +226,7 @@ impl Reader<'_> {
     }
 
     /// The BSDF that stands alone inside another one.
-    fn only_one<'b>(&mut self, p: &mut Properties<'b>) -> Option<Object<'b>> {
+    fn inner_bsdf<'b>(&mut self, p: &mut Properties<'b>) -> Option<Object<'b>> {
         let nested = p.nested("bsdf");
         if let [nested] = nested[..] {
             return Some(nested);

@@ -41,9 +41,15 @@ impl Writer<'_> {
             TextureKind::Checkerboard { colours } => {
                 let xml = &mut self.xml;
                 xml.open("texture", &[("type", textures::CHECKERBOARD.name), ("id", &id)]);
-                xml.value("rgb", textures::COLOR0.name, &colour(colours[0]));
-                xml.value("rgb", textures::COLOR1.name, &colour(colours[1]));
                 xml.transform(textures::TO_UV.name, &in_space(texture.to_uv));
+                self.colour(textures::COLOR0.name, colours[0]);
+                self.colour(textures::COLOR1.name, colours[1]);
+            }
+            TextureKind::Attribute { name, scale, .. } => {
+                let xml = &mut self.xml;
+                xml.open("texture", &[("type", textures::MESH_ATTRIBUTE.name), ("id", &id)]);
+                xml.value("string", textures::NAME.name, name);
+                xml.value("float", textures::ATTRIBUTE_SCALE.name, &single(*scale));
             }
         }
         self.xml.close("texture");
