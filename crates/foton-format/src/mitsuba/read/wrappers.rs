@@ -89,7 +89,7 @@ impl Reader<'_> {
     fn reflecting(&mut self, nested: Object<'_>) -> Option<Sides> {
         let mut sides = self.nested_sides(nested)?;
         let reflects = sides.for_each(&mut |sides| {
-            let transmits = sides.front.transmits() || sides.opacity.is_some();
+            let transmits = sides.front.has_two_sides() || sides.opacity.is_some();
             (!transmits).then_some(()).ok_or(())
         });
         if reflects.is_err() {

@@ -115,7 +115,7 @@ impl Writer<'_> {
         let inner = material.relief.filter(|relief| relief.same_behind);
         let outer = self.relief(material.relief.filter(|r| !r.same_behind).as_ref(), &mut attributes);
         match material.back {
-            Some(back) if !material.front.transmits() => {
+            Some(back) if !material.front.has_two_sides() => {
                 let mut around = vec![("type", wrappers::TWOSIDED.name)];
                 around.append(&mut attributes);
                 self.xml.open("bsdf", &around);
@@ -218,7 +218,7 @@ pub(crate) fn stated(binding: &Binding<'_>) -> Vec<Stated> {
         Slot::Share(Colour::Constant(c)) => vec![of("rgb", name, colour(*c))],
         Slot::Share(Colour::Texture(_)) | Slot::Roughness(None) => Vec::new(),
         Slot::Number(x) => number(name, **x).into_iter().collect(),
-        Slot::Refraction(ior) => vec![of("float", name, single(**ior))],
+        Slot::Refraction(ior) | Slot::Reflectivity(ior) => vec![of("float", name, single(**ior))],
         Slot::Boolean(flag) => vec![of("boolean", name, flag.to_string())],
         Slot::Metal { eta, k } => vec![of("rgb", "eta", colour(**eta)), of("rgb", "k", colour(**k))],
         Slot::Roughness(Some(r)) => {
