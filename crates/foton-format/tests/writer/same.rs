@@ -29,8 +29,8 @@ pub(super) fn assert_same(a: &SceneDescription, b: &SceneDescription) {
     assert_eq!(a.shapes.len(), b.shapes.len());
     for (x, y) in a.shapes.iter().zip(&b.shapes) {
         assert_eq!(
-            (x.flip_normals, x.radiance, x.to_world),
-            (y.flip_normals, y.radiance, y.to_world),
+            (x.flip_normals, light(a, x.radiance), x.to_world),
+            (y.flip_normals, light(b, y.radiance), y.to_world),
             "{}",
             x.name
         );
@@ -74,6 +74,16 @@ fn material(scene: &SceneDescription, index: usize) -> String {
     for Blend { material: other, weight } in mixture {
         text += &format!(" {weight:?} of ({})", material(scene, *other));
     }
+    with_textures(scene, text)
+}
+
+/// What a surface emits, the same way.
+fn light(scene: &SceneDescription, radiance: Option<Colour>) -> String {
+    with_textures(scene, format!("{radiance:?}"))
+}
+
+/// With what textures are in the place of their numbers.
+fn with_textures(scene: &SceneDescription, mut text: String) -> String {
     while let Some(at) = text.find("Texture(") {
         let end = at + text[at..].find(')').unwrap();
         let Texture { to_uv, kind, .. } = &scene.textures[text[at + 8..end].parse::<usize>().unwrap()];
