@@ -45,13 +45,9 @@ pub(crate) const BSDFS: Plugins = Plugins {
         "polarizer",
         "retarder",
         "circular",
-        "roughdiffuse",
         "coating",
         "roughcoating",
         "mixturebsdf",
-        "phong",
-        "ward",
-        "difftrans",
     ],
 };
 

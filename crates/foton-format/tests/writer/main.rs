@@ -10,10 +10,10 @@ use foton_format::{Options, open, write_scene};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
-    Bitmap, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, EmitterDescription, EmitterKind, Filter,
+    Bitmap, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, DiffuseTransmitter, EmitterDescription, EmitterKind, Filter,
     FovAxis, Geometry, Hidden, Keyframes, Lens, Material, Mesh, MicrofacetDistribution, Microfacets, Mirror,
-    Motion, Null, Number, Plastic, SceneDescription, SensorDescription, ShapeDescription, Texture,
-    TextureKind, ThinDielectric, Wrap,
+    Motion, Null, Number, Phong, Plastic, RoughDiffuse, SceneDescription, SensorDescription, ShapeDescription, Texture,
+    TextureKind, ThinDielectric, Ward, Wrap,
 };
 
 use same::assert_same;
@@ -109,6 +109,25 @@ fn bsdfs() -> Vec<Bsdf> {
         metal(textured(Number::Texture(0), Number::Texture(0))),
         glass(textured(Number::Constant(0.1), Number::Texture(1))),
         plastic(true, textured(Number::Texture(1), Number::Texture(1))),
+        glass(roughness(MicrofacetDistribution::Phong, 0.1, 0.2)),
+        Bsdf::RoughDiffuse(RoughDiffuse {
+            reflectance: Colour::Texture(0),
+            alpha: Number::Texture(1),
+            use_fast_approx: true,
+        }),
+        Bsdf::Phong(Phong {
+            exponent: 12.5.into(),
+            specular_reflectance: colour(0.25, 0.5, 0.125),
+            diffuse_reflectance: Colour::Texture(0),
+        }),
+        Bsdf::Ward(Ward {
+            variant: 2,
+            alpha_u: 0.25.into(),
+            alpha_v: Number::Texture(1),
+            specular_reflectance,
+            diffuse_reflectance: specular_transmittance,
+        }),
+        Bsdf::DiffuseTransmitter(DiffuseTransmitter { transmittance: colour(0.5, 0.25, 0.75) }),
         Bsdf::Null(Null),
     ]
 }

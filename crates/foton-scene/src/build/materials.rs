@@ -17,7 +17,7 @@ impl Material {
 
     /// Whether its roughness differs along u and v.
     pub(crate) fn is_anisotropic(&self) -> bool {
-        self.bsdfs().filter_map(Bsdf::roughness).any(|r| r.alpha_u != r.alpha_v)
+        self.bsdfs().any(Bsdf::is_anisotropic)
     }
 
     /// The colours of its sides where they are Lambertian and nothing else.
@@ -66,7 +66,7 @@ impl Material {
     pub(super) fn casts(&self, textures: &[Sampler]) -> bool {
         self.bsdfs().any(|bsdf| {
             bsdf.flags().intersects(LobeFlags::DELTA)
-                || bsdf.transmits()
+                || bsdf.refracts()
                 || gloss(bsdf, textures).is_some_and(|[least, _]| least <= MAX_CASTER_ROUGHNESS)
         })
     }
@@ -106,7 +106,7 @@ impl Census {
                     self.bsdfs.push(kind);
                 }
             }
-            self.refraction |= bsdf.transmits();
+            self.refraction |= bsdf.refracts();
             self.straight |= masked || flags.intersects(LobeFlags::STRAIGHT);
             self.rough_coats |= matches!(bsdf, Bsdf::Plastic(plastic) if plastic.roughness.is_some());
         }

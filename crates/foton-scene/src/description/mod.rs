@@ -12,8 +12,8 @@ mod shape;
 mod texture;
 
 pub use crate::bsdf::{
-    Bsdf, Conductor, Dielectric, Diffuse, MicrofacetDistribution, Microfacets, Mirror, Null, Plastic,
-    ThinDielectric,
+    Bsdf, Conductor, Dielectric, Diffuse, DiffuseTransmitter, MicrofacetDistribution, Microfacets, Mirror,
+    Null, Phong, Plastic, RoughDiffuse, ThinDielectric, Ward,
 };
 pub use emitter::{EmitterDescription, EmitterKind};
 pub use hidden::Hidden;
