@@ -7,6 +7,7 @@ how far the two may lie apart, stands in the check's module. Exits with 1 when a
 import argparse
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import box_spheres
@@ -14,6 +15,8 @@ import depth_of_field
 import depths
 import diffuse_box
 import path_tracing
+import plugin_table
+import plugins
 import shared_scenes
 from foton import Foton
 from mitsuba_side import Mitsuba
@@ -27,7 +30,9 @@ def main():
     parser.add_argument("--foton", type=Path, required=True, help="the program to test")
     parser.add_argument("--repository", type=Path, required=True, help="where assets/ is")
     parser.add_argument("--out", type=Path, required=True, help="folder for pictures and cached references")
-    parser.add_argument("--quick", action="store_true", help="only a diffuse box of assets/, small")
+    parser.add_argument("--quick", action="store_true", help="only a diffuse box of assets/ and some plugins, small")
+    parser.add_argument("--plugins", nargs="*", metavar="SCENE", help="only these scenes of tests/scenes/plugins and blender, or all")
+    parser.add_argument("--table", type=Path, help="with --plugins: where to write what was found, as a page of docs/")
     options = parser.parse_args()
 
     started = time.monotonic()
@@ -38,9 +43,15 @@ def main():
     diffuse, benchmark = find_scenes(options.repository)
 
     print(f"{foton.version()} against Mitsuba {mitsuba.version} ({mitsuba.variant})", flush=True)
-    if options.quick:
+    if options.plugins is not None:
+        effort = replace(plugins.FULL, names=tuple(options.plugins))
+        findings = plugins.check(report, foton, mitsuba, options.repository, options.out, effort)
+        if options.table:
+            plugin_table.write(findings, plugins.BOUND, plugins.SIGMAS, plugins.PPM.share, options.table)
+    elif options.quick:
         diffuse_box.check(report, foton, mitsuba, diffuse[0], options.out, diffuse_box.QUICK)
         path_tracing.check(report, foton, mitsuba, diffuse[0], path_tracing.QUICK)
+        plugins.check(report, foton, mitsuba, options.repository, options.out, plugins.QUICK)
     else:
         for scene in diffuse:
             diffuse_box.check(report, foton, mitsuba, scene, options.out, diffuse_box.FULL)
@@ -48,6 +59,7 @@ def main():
         box_spheres.check(report, foton, mitsuba, benchmark, options.out)
         depth_of_field.check(report, foton, mitsuba, options.repository, options.out)
         depths.check(report, foton, mitsuba, [*diffuse, benchmark])
+        plugins.check(report, foton, mitsuba, options.repository, options.out, plugins.FULL)
         shared_scenes.check(report, foton, mitsuba, shared_scenes.find_shared(options.repository), options.out)
     report.print_table()
     print(f"{time.monotonic() - started:.0f} s; pictures in {options.out}")

@@ -10,7 +10,7 @@ use crate::tools::{self, Trouble};
 
 const SCRIPTS: &str = "tests/conformance";
 
-/// One small diffuse scene, with the dev build that the tests have just made.
+/// One small diffuse scene and some plugins, with the dev build that the tests have just made.
 pub(crate) fn quick() -> Result<(), Trouble> {
     let python = environment()?;
     // By the same command as the tests, so that the dependencies are built with the same features, hence only once.
@@ -20,9 +20,18 @@ pub(crate) fn quick() -> Result<(), Trouble> {
 
 /// Every scene and check, with the release build.
 pub(crate) fn full() -> Result<(), Trouble> {
+    with_release(&[])
+}
+
+/// Scenes of plugins and dialects, and the page of what was found.
+pub(crate) fn plugins() -> Result<(), Trouble> {
+    with_release(&["--plugins", "--table", "docs/plugin-checks.md"])
+}
+
+fn with_release(options: &[&str]) -> Result<(), Trouble> {
     let python = environment()?;
     tools::run(&mut tools::cargo(&["build", "--release", "--package", "foton"]))?;
-    compare(&python, "release", &[])
+    compare(&python, "release", options)
 }
 
 /// Runs the scripts against the program of a profile.

@@ -25,7 +25,8 @@ const USAGE: &str = "\
 cargo xtask test [--install]        all tests, and a small comparison with Mitsuba 3;
                                     --install fetches missing system packages with sudo
 cargo xtask ci                      formatting, lints, documentation, then the tests
-cargo xtask conformance [--quick]   the whole comparison with Mitsuba 3 (20 minutes and more), or the small one
+cargo xtask conformance [WHAT]      the whole comparison with Mitsuba 3 (30 minutes and more); --quick: a small one;
+                                    --plugins: plugins and dialects alone, and docs/plugin-checks.md, which shows them
 cargo xtask versus [--seconds N]    foton, Mitsuba 3 and LuxCore on one scene for N (30) seconds each, as a table and pictures
 cargo xtask calibrate [WHAT]        whether the live error can be believed; stops: where --error does; slopes: how fast noise and bias fall;
                                     rules: what adaptive radii gain; floors: what the smallest radius costs; kernels: how other kernels compare with the box (many minutes)
@@ -55,6 +56,7 @@ fn main() -> ExitCode {
         ["ci"] => ci::all(),
         ["conformance"] => conformance::full(),
         ["conformance", "--quick"] => conformance::quick(),
+        ["conformance", "--plugins"] => conformance::plugins(),
         ["versus"] => versus::run("30"),
         ["versus", "--seconds", seconds] => versus::run(seconds),
         ["bench", "parts"] => {

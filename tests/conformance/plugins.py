@@ -1,0 +1,145 @@
+"""Check (f): the scenes of `tests/scenes/plugins`, one a plugin or dialect, and of `blender`, pixel block by pixel block.
+
+A scene that Mitsuba 3 reads is its own reference. What only older versions read has a twin of the same name in `twins/`: in the words
+of version 3 where it has them, else with a BSDF of `published_bsdfs.py`. Path tracing must agree in every block. Progressive photon
+mapping is blurred where surfaces end, by design, so that a share of its blocks must agree, and the mean.
+"""
+
+import hashlib
+from dataclasses import dataclass
+from pathlib import Path
+
+import mitsuba
+import numpy as np
+
+import published_bsdfs
+from diffuse_box import pooled
+from pictures import write_triptych
+from statistics_of_seeds import blocks, compare_means, mean_and_error
+
+FOLDERS = ("plugins", "blender")
+TWINS = Path(__file__).parent / "twins"
+BLOCK = 8
+BOUND = 0.02
+SIGMAS = 3
+
+
+@dataclass
+class Finding:
+    """What one method made of one scene; without a deviation it did not render."""
+
+    scene: Path
+    reference: str
+    method: str
+    good: bool
+    deviation: float | None = None
+    worst: float = 0.0
+    agree: float = 0.0
+    sigma: float = 0.0
+
+
+@dataclass
+class Method:
+    """How one method of foton renders, and which share of the blocks must agree."""
+
+    name: str
+    passes: int
+    photons: int
+    spp: int
+    share: float
+    radius: str | None = None
+
+
+@dataclass
+class Effort:
+    """How much work to do; `names` are the scenes, all without."""
+
+    seeds: int
+    reference_spp: int
+    methods: tuple
+    names: tuple = ()
+
+
+PATH = Method("path", 16, 1, 8, 1.0)
+PPM = Method("ppm", 32, 1 << 14, 16, 0.9, "x0.5")
+FULL = Effort(4, 512, (PATH, PPM))
+QUICK = Effort(4, 256, (Method("path", 8, 1, 8, 0.97),), ("blendbsdf", "dialect-0.5", "normalmap", "phong", "principled-plastic"))
+
+
+def check(report, foton, theirs, repository, out, effort):
+    """A row for each scene and method, and a picture; returns the findings."""
+    published_bsdfs.register()
+    folders = [repository / "tests" / "scenes" / name for name in FOLDERS]
+    scenes = [scene for folder in folders for scene in sorted(folder.glob("*.xml"))]
+    findings = []
+    for scene in scenes:
+        if effort.names and scene.stem not in effort.names:
+            continue
+        twin = TWINS / scene.name
+        original = twin if twin.exists() else scene
+        reference = references(theirs, original, scene.parent, effort)
+        for method in effort.methods:
+            finding, why = compare(foton, scene, original, reference, method, effort, out)
+            findings.append(finding)
+            add_row(report, finding, method, why)
+    return findings
+
+
+def references(theirs, scene, folder, effort):
+    """Mitsuba's images of a file, one a seed."""
+
+    def image(seed):
+        loaded = mitsuba.load_file(str(scene), optimize=False)
+        return np.array(mitsuba.render(loaded, seed=seed, spp=effort.reference_spp), dtype=np.float64)[..., :3]
+
+    parts = digest(folder)
+    seeds = range(1, effort.seeds + 1)
+    return np.stack([theirs.cached(scene, f"{parts}-{effort.reference_spp}spp-s{s}", lambda s=s: image(s)) for s in seeds])
+
+
+def digest(folder):
+    """Of all that scenes of the folder and their twins share, so that an old reference is not taken for a new one."""
+    shared = [*sorted(folder.glob("*/*")), Path(published_bsdfs.__file__)]
+    return hashlib.sha256(b"".join(path.read_bytes() for path in shared)).hexdigest()[:8]
+
+
+def compare(foton, scene, original, reference, method, effort, out):
+    """The finding, and why there is no picture where there is none."""
+    kind = kind_of(scene, original)
+    try:
+        ours = np.stack([render(foton, scene, seed, method) for seed in range(1, effort.seeds + 1)])
+    except SystemExit as cause:
+        return Finding(scene, kind, method.name, False), str(cause).splitlines()[-1]
+    write_triptych(out / f"plugins-{scene.stem}-{method.name}.png", ours.mean(axis=0), reference.mean(axis=0))
+    mean, error = mean_and_error([blocks(image, BLOCK) for image in ours])
+    expected, expected_error = mean_and_error([blocks(image, BLOCK) for image in reference])
+    sigma = pooled(np.hypot(error, expected_error))
+    agree = (np.abs(mean - expected) <= SIGMAS * sigma + BOUND * expected).mean()
+    deviations = compare_means(*(images.mean(axis=(1, 2)) for images in (ours, reference)))[0]
+    deviation = deviations[np.abs(deviations).argmax()]
+    typical = np.median(sigma / expected)
+    good = bool(agree >= method.share and abs(deviation) <= BOUND and typical <= BOUND / 2)
+    worst = np.abs(mean / expected - 1).max()
+    return Finding(scene, kind, method.name, good, deviation, worst, agree, typical), ""
+
+
+def kind_of(scene, original):
+    """What the reference is, in words."""
+    if original == scene:
+        return "Mitsuba 3"
+    return "published formula" if "published_" in original.read_text(encoding="utf-8") else "Mitsuba 3, its words"
+
+
+def add_row(report, finding, method, why):
+    """The finding as a row of the report."""
+    row, bound = f"plugins: {finding.scene.stem}, {method.name}", f"{BOUND:.0%} + {SIGMAS} σ, {method.share:.0%}"
+    if finding.deviation is None:
+        report.add(row, "is not rendered", bound, why, False)
+    else:
+        measured = f"mean {finding.deviation:+.2%}, worst block {finding.worst:.1%}, {finding.agree:.0%} agree"
+        report.add(row, measured, bound, f"block σ {finding.sigma:.2%}", finding.good)
+
+
+def render(foton, scene, seed, method):
+    """One foton image."""
+    return foton.render(scene, seed, method.passes, method.photons, method.spp, method.radius, "auto", method.name)
