@@ -16,7 +16,7 @@ fn not_of_mitsuba_3(description: &SceneDescription) -> Vec<String> {
         let sides = [Some(material.front), material.back];
         for bsdf in sides.into_iter().flatten().filter(|b| !b.is_of_mitsuba_3()) {
             let plugin = bsdf.plugin();
-            let what = if bsdf.info().is_of_mitsuba_3 { "Phong's microfacets" } else { "such a plugin" };
+            let what = if bsdf.info().is_of_mitsuba_3 { "microfacets of Phong" } else { "such a plugin" };
             let (name, said_before) = (&material.name, said.iter().any(|(p, _)| *p == plugin));
             if !said_before {
                 let message = format!(

@@ -132,7 +132,7 @@ impl Mixed for Ward<Rgb, f32> {
             _ => 4.0 * h.length_squared() / (h_z2 * h_z2),
         };
         let value = (-(x * x + y * y) / h_z2).exp() * scale / (4.0 * PI * self.alpha_u * self.alpha_v);
-        // What is a number divided by nearly nothing, times nothing, is nothing.
+        // At the horizon a factor may overflow.
         if value.is_finite() { value } else { 0.0 }
     }
 
