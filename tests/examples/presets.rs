@@ -56,7 +56,7 @@ fn ball(material: Bsdf) -> Sketch {
     sketch.0.textures.push(Texture {
         name: "checks".into(),
         to_uv: DAffine2::from_scale(DVec2::splat(9.0)),
-        kind: TextureKind::Checkerboard { colours },
+        kind: TextureKind::Checkerboard { colours: colours.map(Colour::from) },
     });
     let sky = EmitterKind::Constant { radiance: Rgb::splat(0.25) };
     sketch.0.emitters.push(EmitterDescription { name: "sky".into(), kind: sky });

@@ -1,8 +1,8 @@
 //! `docs/plugins.md`, made from what plugins declare of their parameters.
 
 use foton_scene::bsdf::Bsdf;
-use foton_scene::parameter::{Kind, Parameter};
-use foton_scene::plugins::{Plugin, emitters, sensors, shapes, textures, wrappers};
+use foton_scene::parameter::{Binding, Kind, Parameter, Slot};
+use foton_scene::plugins::{Plugin, emitters, sensors, shapes, stand_ins, textures, wrappers};
 
 /// A plugin with the parameters that it declares.
 pub struct Declared {
@@ -41,16 +41,12 @@ fn bsdfs() -> Vec<Declared> {
         .map(|mut bsdf| {
             let (info, name, is_rough) = (bsdf.info(), bsdf.plugin(), bsdf.roughness().is_some());
             let bindings = bsdf.parameters();
-            let is_there = |p: &&Parameter| is_rough || !is_of_roughness(p);
-            let parameters = bindings.iter().flat_map(|b| b.parameters).filter(is_there).copied().collect();
+            // Only rough surfaces have those of microfacets.
+            let is_there = |b: &&Binding<'_>| is_rough || !matches!(b.slot, Slot::Roughness(_));
+            let parameters = bindings.iter().filter(is_there).flat_map(|b| b.parameters).copied().collect();
             Declared { tag: "bsdf", name, help: info.help, parameters }
         })
         .collect()
-}
-
-/// Whether only rough surfaces have it.
-fn is_of_roughness(parameter: &Parameter) -> bool {
-    foton_scene::bsdf::ROUGHNESS.iter().any(|p| p.name == parameter.name)
 }
 
 /// The text of `docs/plugins.md`.
@@ -77,6 +73,21 @@ pub fn document() -> String {
                 "\n| parameter | type | range | default | texture | meaning |\n|---|---|---|---|---|---|\n";
             plugin.parameters.iter().for_each(|p| text += &row(p));
         }
+    }
+    text += &not_modelled();
+    text
+}
+
+fn not_modelled() -> String {
+    let mut text = String::from(
+        "\n## What is not modelled\n\n\
+         These BSDFs, and models of light below surfaces, are read as others, which take their place with what both have in\n\
+         common. A warning says so where the first of a kind stands. Those without a stand-in are an error, or magenta with `--allow-missing`.\n\n\
+         | plugin | instead | what is different |\n|---|---|---|\n",
+    );
+    for it in stand_ins::ALL {
+        let instead = it.instead.map_or_else(|| "none".to_owned(), |name| format!("`{name}`"));
+        text += &format!("| `{}` | {instead} | {} |\n", it.name, it.help);
     }
     text
 }
@@ -110,6 +121,7 @@ fn kind(parameter: &Parameter) -> String {
         Kind::Vector => "point or vector".to_owned(),
         Kind::Transform => "transform".to_owned(),
         Kind::File => "path".to_owned(),
+        Kind::Name => "name".to_owned(),
         Kind::Ignored => "without effect".to_owned(),
         Kind::Unsupported => "an error".to_owned(),
     }

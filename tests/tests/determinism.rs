@@ -32,7 +32,7 @@ fn ball() -> Mesh {
             ]
         })
         .collect();
-    Mesh { normals: positions.clone(), positions, texture_coordinates: Vec::new(), triangles }
+    Mesh { normals: positions.clone(), positions, triangles, ..Mesh::default() }
 }
 
 fn scene() -> Sketch {

@@ -192,7 +192,7 @@ fn lit_from_infinity(kind: EmitterKind, casters: bool) -> Sketch {
 /// A plane under a uniform sky of radiance L has E = πL, under a sun of irradiance E⊥ it has E⊥ cos θ.
 #[test]
 fn light_from_infinity_has_its_closed_form_with_and_without_casters() {
-    let uniform = Bitmap { width: 16, height: 8, pixels: vec![Rgb::splat(0.5); 128] };
+    let uniform = Bitmap::new(16, 8, vec![Rgb::splat(0.5); 128]);
     let kinds = [
         (EmitterKind::Constant { radiance: Rgb::splat(0.5) }, 0.5 * PI),
         (
@@ -263,6 +263,7 @@ fn a_mirror_whose_normals_lean_too_far_swallows_no_light() {
         normals: vec![DVec3::new(lean.sin(), lean.cos(), 0.0); 4],
         texture_coordinates: Vec::new(),
         triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..Mesh::default()
     };
     // What goes on below the mirror meets black.
     let mirror = Sketch::default()

@@ -29,6 +29,7 @@ fn value(parameter: &Parameter) -> String {
         Kind::Vector => format!(r#"<point name="{name}" value="0, 0, 2"/>"#),
         Kind::Transform => format!(r#"<transform name="{name}"><translate x="1"/></transform>"#),
         Kind::File => format!(r#"<string name="{name}" value="absent"/>"#),
+        Kind::Name => format!(r#"<string name="{name}" value="vertex_color"/>"#),
         Kind::Ignored | Kind::Unsupported => format!(r#"<string name="{name}" value="anything"/>"#),
     }
 }
@@ -40,6 +41,8 @@ fn said(plugin: &Declared, contents: &str) -> String {
         "thinlens" if !contents.contains("aperture_radius") => {
             r#"<float name="aperture_radius" value="0.1"/>"#
         }
+        "scale" => r#"<texture type="checkerboard"/>"#,
+        "mesh_attribute" if !contents.contains("\"name\"") => r#"<string name="name" value="vertex_color"/>"#,
         _ => "",
     };
     let Declared { tag, name, .. } = plugin;

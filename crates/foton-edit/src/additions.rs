@@ -7,7 +7,7 @@ use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DMat3, DQuat, DVec3};
 use foton_scene::description::{
     Bsdf, Colour, Diffuse, EmitterDescription, EmitterKind, Geometry, Material, Mesh, Number,
-    SceneDescription, ShapeDescription,
+    SceneDescription, ShapeDescription, Texture, TextureKind,
 };
 
 use super::camera::UpAxis;
@@ -216,15 +216,18 @@ pub(crate) fn import(
     site: Site,
 ) -> Option<Target> {
     let (first, textures) = (description.shapes.len(), description.textures.len());
-    for texture in &from.textures {
-        let name = names::free(description, &texture.name);
-        description.textures.push(foton_scene::description::Texture { name, ..texture.clone() });
-    }
-    let materials = description.materials.len();
     let moved = |colour: Colour| match colour {
         Colour::Texture(i) => Colour::Texture(i + textures),
         constant @ Colour::Constant(_) => constant,
     };
+    for texture in &from.textures {
+        let mut texture = Texture { name: names::free(description, &texture.name), ..texture.clone() };
+        if let TextureKind::Checkerboard { colours } = &mut texture.kind {
+            *colours = colours.map(moved);
+        }
+        description.textures.push(texture);
+    }
+    let materials = description.materials.len();
     let moved_number = |number: Number, _| match number {
         Number::Texture(i) => Number::Texture(i + textures),
         constant @ Number::Constant(_) => constant,

@@ -1,13 +1,15 @@
 //! What is wrong with a scene file, and where: every finding names its file, line and column.
 //!
-//! No rendering of source excerpts and no colours; the binary prints these as they are.
+//! No colours and no layout; the binary and the window show these with the lines that they are about.
 
+use std::collections::HashSet;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 use foton_input::{printable, shown_path};
 use foton_math::Cancelled;
 
+use crate::excerpt::Excerpt;
 use crate::spelling::did_you_mean;
 
 /// More errors, or warnings, than these are only counted.
@@ -15,6 +17,9 @@ const MAX_FINDINGS: usize = 1000;
 
 /// So many times a nearest name is looked for among those of a file, which may be many and long.
 const MAX_HINTS: u32 = 50;
+
+/// So many findings come with the lines that they are about.
+const MAX_EXCERPTS: usize = 200;
 
 /// A file looks for others in so many folders, and in those of the files that include it.
 const MAX_FOLDERS: usize = 64;
@@ -53,6 +58,22 @@ pub struct Diagnostic {
     pub column: u32,
     /// What is wrong, without the place.
     pub message: String,
+    /// The line that it is about, if that stands in a scene file.
+    pub excerpt: Option<Excerpt>,
+    /// What to do about it, or what there is instead.
+    pub help: Option<String>,
+}
+
+impl Diagnostic {
+    /// A finding without an excerpt.
+    pub(crate) fn new(
+        severity: Severity,
+        file: String,
+        Place { line, column }: Place,
+        message: String,
+    ) -> Self {
+        Self { severity, file, line, column, message, excerpt: None, help: None }
+    }
 }
 
 impl fmt::Display for Diagnostic {
@@ -106,12 +127,20 @@ struct Source {
     lines_before: u32,
     /// How many lines it has.
     lines: u32,
+    /// Its text, where that may be shown.
+    text: Option<Box<str>>,
 }
 
 /// Collects findings about a scene file and the files that it names.
 pub(crate) struct Report {
     sources: Vec<Source>,
     diagnostics: Vec<Diagnostic>,
+    /// The source of each of these, if it is about a line of one.
+    about: Vec<Option<usize>>,
+    /// Where the parts of the scene begin, and whether something uses each of them.
+    parts: Vec<(Place, bool)>,
+    /// What was said already of what to do.
+    helps: HashSet<String>,
     /// How many errors and warnings there are, listed or not.
     errors: usize,
     warnings: usize,
@@ -122,14 +151,37 @@ impl Report {
     /// For a scene called `file`, which looks for files in `folder`.
     pub(crate) fn new(file: &str, folder: &Path) -> Self {
         let folders = vec![folder.to_owned()];
-        let main =
-            Source { file: file.to_owned(), folder: folder.to_owned(), folders, lines_before: 0, lines: 0 };
-        Self { sources: vec![main], diagnostics: Vec::new(), errors: 0, warnings: 0, hints: 0 }
+        let (file, folder) = (file.to_owned(), folder.to_owned());
+        let main = Source { file, folder, folders, lines_before: 0, lines: 0, text: None };
+        Self {
+            sources: vec![main],
+            diagnostics: Vec::new(),
+            about: Vec::new(),
+            parts: Vec::new(),
+            helps: HashSet::new(),
+            errors: 0,
+            warnings: 0,
+            hints: 0,
+        }
     }
 
-    /// Says how long the scene's own text is, before anything is included.
-    pub(crate) fn main_text(&mut self, text: &str) {
+    /// Says what the scene's own text is, before anything is included, and whether findings may show it.
+    pub(crate) fn main_text(&mut self, text: &str, is_shown: bool) {
         self.sources[0].lines = lines(text);
+        self.sources[0].text = is_shown.then(|| text.into());
+    }
+
+    /// Says where the parts of the scene begin, and whether something uses each: errors in the others are warnings.
+    pub(crate) fn parts(&mut self, mut parts: Vec<(Place, bool)>) {
+        parts.sort_unstable();
+        self.parts = parts;
+    }
+
+    /// Whether a place is in a part that nothing uses.
+    fn is_unused(&self, place: Place) -> bool {
+        let part = self.parts.partition_point(|(begin, _)| *begin <= place).checked_sub(1);
+        let part = part.map(|i| self.parts[i]);
+        part.is_some_and(|(begin, used)| !used && self.source_index(begin) == self.source_index(place))
     }
 
     /// Adds a file that is included at `place`. The number of lines to add to places in it.
@@ -138,7 +190,8 @@ impl Report {
         let mut folders = self.folders(place).to_vec();
         folders.insert(0, folder.to_owned());
         let (file, folder) = (file.to_owned(), folder.to_owned());
-        self.sources.push(Source { file, folder, folders, lines_before, lines: lines(text) });
+        let (lines, text) = (lines(text), Some(text.into()));
+        self.sources.push(Source { file, folder, folders, lines_before, lines, text });
         lines_before
     }
 
@@ -178,27 +231,49 @@ impl Report {
     }
 
     pub(crate) fn error(&mut self, place: Place, message: impl Into<String>) {
+        if self.is_unused(place) {
+            return self.warning(place, format!("{} (nothing uses it)", message.into()));
+        }
         self.push_here(Severity::Error, place, message.into());
+    }
+
+    /// Says what to do about the last finding, or what there is instead, unless that was said before.
+    pub(crate) fn help(&mut self, help: impl Into<String>) {
+        let help = help.into();
+        if let Some(last) = self.diagnostics.last_mut()
+            && self.helps.insert(help.clone())
+        {
+            last.help = Some(help);
+        }
     }
 
     pub(crate) fn warning(&mut self, place: Place, message: impl Into<String>) {
         self.push_here(Severity::Warning, place, message.into());
     }
 
+    /// A warning, unless the same was said before.
+    pub(crate) fn warn_once(&mut self, place: Place, message: String) {
+        if !self.diagnostics.iter().any(|d| d.message == message) {
+            self.warning(place, message);
+        }
+    }
+
     /// An error in another file than the scene's own.
     pub(crate) fn error_in(&mut self, file: &str, place: Place, message: impl Into<String>) {
-        self.push(Severity::Error, file.to_owned(), place, message.into());
+        self.push(Diagnostic::new(Severity::Error, file.to_owned(), place, message.into()), None);
     }
 
     /// A warning about another file than the scene's own.
     pub(crate) fn warning_in(&mut self, file: &str, place: Place, message: impl Into<String>) {
-        self.push(Severity::Warning, file.to_owned(), place, message.into());
+        self.push(Diagnostic::new(Severity::Warning, file.to_owned(), place, message.into()), None);
     }
 
     fn push_here(&mut self, severity: Severity, mut place: Place, message: String) {
-        let source = self.source(place);
+        let index = self.source_index(place);
+        let source = &self.sources[index];
         place.line -= source.lines_before;
-        self.push(severity, source.file.clone(), place, message);
+        let is_about = (place.line > 0 && source.text.is_some()).then_some(index);
+        self.push(Diagnostic::new(severity, source.file.clone(), place, message), is_about);
     }
 
     /// Whether there are so many errors that looking for more is of no use.
@@ -216,8 +291,8 @@ impl Report {
         if self.hints > MAX_HINTS { String::new() } else { did_you_mean(name, known) }
     }
 
-    fn push(&mut self, severity: Severity, file: String, Place { line, column }: Place, message: String) {
-        let count = match severity {
+    fn push(&mut self, diagnostic: Diagnostic, is_about: Option<usize>) {
+        let count = match diagnostic.severity {
             Severity::Error => &mut self.errors,
             Severity::Warning => &mut self.warnings,
         };
@@ -225,7 +300,33 @@ impl Report {
         if *count > MAX_FINDINGS {
             return;
         }
-        self.diagnostics.push(Diagnostic { severity, file, line, column, message });
+        self.diagnostics.push(diagnostic);
+        self.about.push(is_about);
+    }
+
+    /// Gives the first findings the lines that they are about.
+    fn excerpts(&mut self) {
+        let mut wanted: Vec<(usize, u32, usize)> = self
+            .about
+            .iter()
+            .zip(&self.diagnostics)
+            .enumerate()
+            .filter_map(|(i, (about, d))| Some(((*about)?, d.line, i)))
+            .take(MAX_EXCERPTS)
+            .collect();
+        wanted.sort_unstable();
+        for of_source in wanted.chunk_by(|a, b| a.0 == b.0) {
+            let Some(text) = &self.sources[of_source[0].0].text else { continue };
+            let mut lines = (1..).zip(text.split('\n'));
+            let mut line = lines.next();
+            for &(_, number, i) in of_source {
+                while line.is_some_and(|(at, _)| at < number) {
+                    line = lines.next();
+                }
+                let diagnostic = &mut self.diagnostics[i];
+                diagnostic.excerpt = line.map(|(_, text)| Excerpt::of(text, diagnostic.column));
+            }
+        }
     }
 
     /// How many errors and warnings are not listed.
@@ -240,11 +341,13 @@ impl Report {
     /// Ends with a problem that leaves nothing to go on with.
     pub(crate) fn fail(mut self, place: Place, message: impl Into<String>) -> OpenError {
         self.error(place, message);
+        self.excerpts();
         OpenError::Faults(self.diagnostics)
     }
 
     /// The findings by place, those about the scene file first; the error if there is one among them.
     pub(crate) fn finish(mut self) -> Result<Vec<Diagnostic>, OpenError> {
+        self.excerpts();
         let (has_errors, unlisted) = (self.errors > 0, self.unlisted());
         let main = self.sources.swap_remove(0).file;
         self.diagnostics.sort_by(|a, b| {
@@ -252,13 +355,8 @@ impl Report {
             key(a).0.cmp(&key(b).0).then_with(|| a.file.cmp(&b.file)).then_with(|| key(a).cmp(&key(b)))
         });
         let more = unlisted.map(|(severity, n, what)| {
-            (n > 0).then(|| Diagnostic {
-                severity,
-                file: main.clone(),
-                line: 0,
-                column: 0,
-                message: format!("{n} more {what}"),
-            })
+            let message = || format!("{n} more {what}");
+            (n > 0).then(|| Diagnostic::new(severity, main.clone(), Place::default(), message()))
         });
         self.diagnostics.extend(more.into_iter().flatten());
         if has_errors { Err(OpenError::Faults(self.diagnostics)) } else { Ok(self.diagnostics) }

@@ -10,12 +10,29 @@ use foton_math::Cancel;
 use crate::diagnostic::{Place, Report};
 use crate::hash::Fnv1a;
 use crate::limits::Budget;
-use crate::options::{BYTES_PER_BYTE, ReadFile};
+use crate::options::{BYTES_PER_BYTE, Options, ReadFile};
+
+/// What is said once where files are missing.
+const HELP_MISSING: &str = "--allow-missing opens the scene without the files that are not there: textures are magenta, meshes are left out";
+
+/// A file that is not there, which is allowed.
+pub(crate) struct Absent;
+
+/// What lies where a file may lie.
+enum Found {
+    File(PathBuf, Vec<u8>),
+    Nothing(PathBuf, io::Error),
+    /// There is something else, or nobody may read it.
+    Unreadable(PathBuf, io::Error),
+}
 
 /// Reads files and remembers which.
 pub(crate) struct Files<'a> {
     read: &'a ReadFile<'a>,
     cancel: &'a Cancel,
+    allow_missing: bool,
+    /// Whether it was said how to do without files.
+    has_helped: bool,
     seen: HashSet<PathBuf>,
     /// The contents of all files, in the order in which they were first read.
     pub(crate) hash: Fnv1a,
@@ -24,8 +41,15 @@ pub(crate) struct Files<'a> {
 }
 
 impl<'a> Files<'a> {
-    pub(crate) fn new(read: &'a ReadFile<'a>, cancel: &'a Cancel, budget: Budget) -> Self {
-        Self { read, cancel, seen: HashSet::new(), hash: Fnv1a::default(), budget }
+    pub(crate) fn new(read: &'a ReadFile<'a>, options: &'a Options, budget: Budget) -> Self {
+        let (cancel, allow_missing) = (&options.cancel, options.allow_missing);
+        let (seen, hash) = (HashSet::new(), Fnv1a::default());
+        Self { read, cancel, allow_missing, has_helped: false, seen, hash, budget }
+    }
+
+    /// Whether the user takes a picture in which parts are missing.
+    pub(crate) const fn allows_missing(&self) -> bool {
+        self.allow_missing
     }
 
     /// What ends reading: from then on no file is read.
@@ -45,37 +69,83 @@ impl<'a> Files<'a> {
         place: Place,
         report: &mut Report,
     ) -> Option<(PathBuf, Vec<u8>)> {
+        match self.find(filename, place, report)? {
+            Found::File(path, bytes) => self.take(path, bytes, place, report),
+            Found::Nothing(path, error) | Found::Unreadable(path, error) => {
+                report.error(place, format!("cannot read {}: {error}", shown_path(&path)));
+                None
+            }
+        }
+    }
+
+    /// As [`Self::read`], for a file that the scene can do without: where it is not there and the user allows for that, a warning
+    /// says so and what comes `instead` of it.
+    pub(crate) fn read_or_do_without(
+        &mut self,
+        filename: &str,
+        place: Place,
+        instead: &str,
+        report: &mut Report,
+    ) -> Option<Result<(PathBuf, Vec<u8>), Absent>> {
+        match self.find(filename, place, report)? {
+            Found::File(path, bytes) => self.take(path, bytes, place, report).map(Ok),
+            Found::Nothing(path, _) if self.allow_missing => {
+                report.warning(place, format!("{} is missing: {instead}", shown_path(&path)));
+                Some(Err(Absent))
+            }
+            Found::Nothing(path, error) => {
+                report.error(place, format!("cannot read {}: {error}", shown_path(&path)));
+                if !std::mem::replace(&mut self.has_helped, true) {
+                    report.help(HELP_MISSING);
+                }
+                None
+            }
+            Found::Unreadable(path, error) => {
+                report.error(place, format!("cannot read {}: {error}", shown_path(&path)));
+                None
+            }
+        }
+    }
+
+    /// Whether there is a file of that name; it need not be readable.
+    pub(crate) fn is_there(&self, filename: &str, place: Place, report: &Report) -> bool {
+        !matches!(self.find(filename, place, report), Some(Found::Nothing(..)))
+    }
+
+    /// What lies where a file may lie; nothing once cancelled.
+    fn find(&self, filename: &str, place: Place, report: &Report) -> Option<Found> {
         if self.cancel.is_requested() {
             return None;
         }
-        let mut failure = None;
+        let mut nothing = None;
         for path in candidates(filename, place, report) {
             match (self.read)(&path) {
-                Ok(bytes) => {
-                    if let Err(message) =
-                        self.budget.take((bytes.len() as u64).saturating_mul(BYTES_PER_BYTE))
-                    {
-                        report.error(place, format!("cannot read {}: {message}", shown_path(&path)));
-                        return None;
-                    }
-                    if self.seen.insert(path.clone()) {
-                        self.hash.add(&bytes);
-                    }
-                    return Some((path, bytes));
+                Ok(bytes) => return Some(Found::File(path, bytes)),
+                Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                    nothing.get_or_insert(Found::Nothing(path, error));
                 }
-                Err(error) => {
-                    let found = error.kind() != io::ErrorKind::NotFound;
-                    failure.get_or_insert((path, error));
-                    if found {
-                        break;
-                    }
-                }
+                Err(error) => return Some(nothing.unwrap_or(Found::Unreadable(path, error))),
             }
         }
-        if let Some((path, error)) = failure {
-            report.error(place, format!("cannot read {}: {error}", shown_path(&path)));
+        nothing
+    }
+
+    /// Counts and remembers a file that was read.
+    fn take(
+        &mut self,
+        path: PathBuf,
+        bytes: Vec<u8>,
+        place: Place,
+        report: &mut Report,
+    ) -> Option<(PathBuf, Vec<u8>)> {
+        if let Err(message) = self.budget.take((bytes.len() as u64).saturating_mul(BYTES_PER_BYTE)) {
+            report.error(place, format!("cannot read {}: {message}", shown_path(&path)));
+            return None;
         }
-        None
+        if self.seen.insert(path.clone()) {
+            self.hash.add(&bytes);
+        }
+        Some((path, bytes))
     }
 }
 

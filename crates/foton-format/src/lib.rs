@@ -17,6 +17,8 @@
 //! ```
 
 mod diagnostic;
+mod encoding;
+mod excerpt;
 mod files;
 mod hash;
 mod image;
@@ -31,6 +33,7 @@ mod standalone;
 mod suggested;
 
 pub use diagnostic::{Diagnostic, OpenError, Place, Severity};
+pub use excerpt::Excerpt;
 pub use mitsuba::document::{Attribute, Document, Element, MAX_DEPTH, Node, NodeId};
 pub use mitsuba::save::{Saved, save_edited};
 pub use mitsuba::write::write_scene;

@@ -93,7 +93,7 @@ impl Census {
 
     /// Bytes that reading it takes at most.
     pub(crate) fn memory(self) -> u64 {
-        self.elements * BYTES_PER_ELEMENT + self.attributes * BYTES_PER_ATTRIBUTE + 3 * self.bytes
+        self.elements * BYTES_PER_ELEMENT + self.attributes * BYTES_PER_ATTRIBUTE + 5 * self.bytes
     }
 }
 

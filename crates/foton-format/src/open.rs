@@ -7,6 +7,7 @@ use foton_input::Named;
 use foton_scene::description::SceneDescription;
 
 use crate::diagnostic::{OpenError, Place, Report};
+use crate::encoding::decoded;
 use crate::files::Files;
 use crate::hash::{self, Fnv1a};
 use crate::limits::Budget;
@@ -51,14 +52,9 @@ fn open_with(path: &Path, options: &Options, files: &ReadFile<'_>) -> Result<Ope
     let name = path.to_string_lossy();
     let folder = path.parent().unwrap_or(Path::new(""));
     let report = Report::new(&name, folder);
-    let text = match files(path).map(String::from_utf8) {
+    let text = match files(path).map(decoded) {
         Ok(Ok(text)) => text,
-        Ok(Err(error)) => {
-            let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-            let line = valid.iter().filter(|&&b| b == b'\n').count() + 1;
-            let place = Place { line: u32::try_from(line).unwrap_or(0), column: 0 };
-            return Err(report.fail(place, "the text is not UTF-8"));
-        }
+        Ok(Err(line)) => return Err(report.fail(Place { line, column: 0 }, "the text is not UTF-8")),
         Err(error) => {
             options.cancel.check()?;
             return Err(report.fail(Place::default(), format!("cannot be read: {error}")));
@@ -84,13 +80,13 @@ pub(crate) fn read(
     options: &Options,
 ) -> Result<Opened, OpenError> {
     let text = xml.strip_prefix('\u{feff}').unwrap_or(xml);
-    report.main_text(text);
+    report.main_text(text, include::begins_as_scene(text));
     let mut budget = Budget::new(options.memory);
     let document = match include::parse(text, &mut budget) {
         Ok(document) => document,
         Err((place, message)) => return Err(report.fail(place, message)),
     };
-    let mut files = Files::new(files, &options.cancel, budget);
+    let mut files = Files::new(files, options, budget);
     let expanded = include::expand(&document, &options.defines, &mut files, &mut report);
     let mut reader = Reader::new(&expanded.document, files, report);
     reader.scene();

@@ -64,8 +64,8 @@ impl Opened {
     /// part's element, or of the `<include>` that brings it.
     #[must_use]
     pub fn finding(&self, severity: Severity, file: &str, part: Option<&str>, message: String) -> Diagnostic {
-        let Place { line, column } = part.and_then(|part| self.place_of(part)).unwrap_or_default();
-        Diagnostic { severity, file: file.to_owned(), line, column, message }
+        let place = part.and_then(|part| self.place_of(part)).unwrap_or_default();
+        Diagnostic::new(severity, file.to_owned(), place, message)
     }
 
     /// Where the element of the sensor, shape, emitter or material of that name stands.

@@ -16,6 +16,8 @@ pub struct Options {
     pub defines: Vec<(String, String)>,
     /// Bytes that reading may take; `None`: as many as there are. What [`open`](fn@crate::open) could not read within that is refused unread.
     pub memory: Option<u64>,
+    /// Whether a scene opens without the meshes and images that are not there: those meshes are left out, the images are magenta.
+    pub allow_missing: bool,
     /// Ends reading within a fraction of a second: then the outcome is [`OpenError::Cancelled`](crate::OpenError::Cancelled).
     pub cancel: Cancel,
 }

@@ -129,10 +129,10 @@ fn names_of_old_files_are_renewed() {
 }
 
 #[test]
-fn new_files_keep_their_names() {
+fn old_names_in_new_files_are_read_with_a_warning() {
     let xml = "<scene version='2.0.0'><sensor type='perspective'/><shape type='sphere'><transform name='toWorld'/></shape></scene>";
     let opened = read_str("s.xml", xml, &files, &Options::default()).unwrap();
-    let warning = "unknown property \"toWorld\" of \"sphere\", did you mean \"to_world\"?";
+    let warning = "unknown property \"toWorld\" of \"sphere\" is read as \"to_world\"";
     assert_eq!(opened.warnings[0].message, warning);
 }
 

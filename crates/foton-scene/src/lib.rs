@@ -4,6 +4,8 @@
 //! indexed. No files here, no integration: the format crate reads the one, the integrator asks the other.
 
 mod accel;
+mod attributes;
+mod bitmap;
 pub mod bsdf;
 mod build;
 mod census;
@@ -34,7 +36,7 @@ pub use emitter::{Emission, Emitter, Extent, Illumination};
 pub use far::{Far, FarKind};
 pub use filter::FilterSampler;
 pub use normalise::Normalisation;
-pub use scene::{Scene, Shape};
+pub use scene::{Footprint, Scene, Shape};
 pub use sensor::Sensor;
 pub use sources::{PRIMARY_NUMBERS, PrimaryNumbers, Sources};
 pub use surface::Surface;

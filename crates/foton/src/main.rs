@@ -37,14 +37,14 @@ use foton_session::threads;
 /// The window; where there can be none, a picture within a minute.
 fn live(args: &Args, console: &mut Console) -> Result<(), Failure> {
     #[cfg(feature = "window")]
-    match window::show(args.scene.as_deref(), args.frame_log.as_deref()) {
+    match window::show(args) {
         Ok(()) => return Ok(()),
         Err(error @ foton_preview::WindowError::Log(_)) => {
             return Err(Failure::Window(error.to_string()));
         }
         Err(error) => console.line(&error.to_string()),
     }
-    quick::render(args.scene.as_deref(), console)
+    quick::render(args.scene.as_deref(), &args.read, console)
 }
 
 /// Starts the threads that scenes are built on; the exit code where the system gives none.

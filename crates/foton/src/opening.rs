@@ -10,7 +10,7 @@ use foton_scene::{BuildOptions, Scene};
 use foton_session::findings::{self, FindingKind};
 use foton_session::{SceneIdentity, Session};
 
-use crate::args::{ALL_SENSORS, Size};
+use crate::args::{ALL_SENSORS, ReadOptions, Size};
 use crate::console::{Console, Failure};
 use crate::interrupts::begin_step;
 use crate::memory;
@@ -19,14 +19,22 @@ use crate::roles::Roles;
 /// Reads a scene within that many bytes, or what the system leaves.
 pub(crate) fn open(
     scene: &Path,
-    defines: &[(String, String)],
+    read: &ReadOptions,
     memory: Option<u64>,
     cancel: &Cancel,
 ) -> Result<Opened, Failure> {
     begin_step("reading the scene");
-    let memory = memory::limit(memory).map(|b| b as u64);
-    let options = Options { defines: defines.to_vec(), memory, cancel: cancel.clone() };
-    foton_format::open(scene, &options).map_err(Failure::of_open)
+    foton_format::open(scene, &how_to_read(read, memory, cancel)).map_err(Failure::of_open)
+}
+
+/// How a scene is read within that many bytes, or what the system leaves.
+pub(crate) fn how_to_read(read: &ReadOptions, memory: Option<u64>, cancel: &Cancel) -> Options {
+    Options {
+        defines: read.defines.clone(),
+        memory: memory::limit(memory).map(|b| b as u64),
+        allow_missing: read.allow_missing,
+        cancel: cancel.clone(),
+    }
 }
 
 /// What a scene is built within.

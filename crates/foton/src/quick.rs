@@ -4,15 +4,14 @@ use std::path::Path;
 use std::time::Duration;
 
 use foton_film::check_writable;
-use foton_format::Options;
 use foton_session::snapshot::{self, Format, Look};
 use foton_session::{Session, Shown, StopRule};
 
+use crate::args::ReadOptions;
 use crate::console::{Console, Failure};
 use crate::embedded::ALL;
 use crate::interrupts::{begin_step, interrupt_on_signals, say_limit};
-use crate::memory::limit;
-use crate::opening::{Bounds, build, refuse_beyond_memory};
+use crate::opening::{Bounds, build, how_to_read, refuse_beyond_memory};
 use crate::settings::SettingsBuilder;
 use crate::writing::{Content, Output, finish};
 
@@ -23,12 +22,11 @@ const TIME: Duration = Duration::from_secs(55);
 const FIRST_PICTURE: Duration = Duration::from_secs(8);
 
 /// Renders `scene`, or the embedded one, to the next free `foton-001.png` and `.exr` in the working folder.
-pub(crate) fn render(scene: Option<&Path>, console: &mut Console) -> Result<(), Failure> {
+pub(crate) fn render(scene: Option<&Path>, read: &ReadOptions, console: &mut Console) -> Result<(), Failure> {
     let interrupt = interrupt_on_signals(console);
     let cancel = interrupt.cancel();
     console.begin();
-    let options =
-        Options { memory: limit(None).map(|b| b as u64), cancel: cancel.clone(), ..Options::default() };
+    let options = how_to_read(read, None, cancel);
     let (opened, name) = match scene {
         Some(path) => {
             (foton_format::open(path, &options), path.file_name().unwrap_or_default().to_string_lossy())

@@ -14,28 +14,33 @@ use foton_scene::description::SceneDescription;
 use foton_session::SceneIdentity;
 use foton_session::engine::{Loaded, Loader, Reopened, SavedScene, Source};
 
+use crate::args::{Args, ReadOptions};
+use crate::console::located;
 use crate::embedded::{self, Embedded};
-use crate::opening::refuse_to_build;
+use crate::opening::{how_to_read, refuse_to_build};
 use crate::settings::SettingsBuilder;
 use crate::{memory, signals};
 
-/// Opens the window on `scene`, or the first of the embedded ones, and stays until it is closed.
-pub(crate) fn show(scene: Option<&Path>, frame_log: Option<&Path>) -> Result<(), WindowError> {
+/// Opens the window on the scene of the arguments, or the first of the embedded ones, and stays until it is closed.
+pub(crate) fn show(args: &Args) -> Result<(), WindowError> {
     let first = || Source::BuiltIn(embedded::ALL[0].name.to_owned());
     let outcome = foton_preview::run(foton_preview::Options {
-        scene: scene.map_or_else(first, |path| Source::File(path.to_owned())),
-        loader: Arc::new(Files),
+        scene: args.scene.clone().map_or_else(first, Source::File),
+        loader: Arc::new(Files { first: args.scene.clone(), read: args.read.clone() }),
         built_in: embedded::ALL
             .iter()
             .map(|scene| BuiltIn { name: scene.name.to_owned(), thumbnail: scene.thumbnail })
             .collect(),
         memory_limit: memory::limit(None),
-        frame_log: frame_log.map(PathBuf::from),
+        frame_log: args.frame_log.clone(),
         closes: close_on_signals,
     });
     IS_OPEN.store(false, Ordering::Relaxed);
     outcome
 }
+
+/// So many findings are shown with the line that they are about.
+const MAX_LINES: usize = 20;
 
 /// Whether there is a window that signals may close.
 static IS_OPEN: AtomicBool = AtomicBool::new(true);
@@ -59,17 +64,39 @@ fn close_on_signals(close: Close) {
 }
 
 /// Scene files for the window.
-struct Files;
+struct Files {
+    /// The scene of the command line, to which its parameters belong.
+    first: Option<PathBuf>,
+    read: ReadOptions,
+}
+
+impl Files {
+    /// How a file is read for the window.
+    fn options(&self, path: Option<&Path>, cancel: &Cancel) -> Options {
+        let options = how_to_read(&self.read, None, cancel);
+        let has_parameters = path.is_some() && path == self.first.as_deref();
+        if has_parameters { options } else { Options { defines: Vec::new(), ..options } }
+    }
+
+    /// The scene of a file that was just written; `None` where it has already gone again.
+    fn reopened(&self, path: &Path) -> Option<Reopened> {
+        let options = Options { defines: Vec::new(), ..self.options(None, &Cancel::default()) };
+        let opened = foton_format::open(path, &options).ok()?;
+        let identity = SceneIdentity { name: name_of(path), hash: opened.source_hash };
+        Some(Reopened { identity, files: opened.files.clone(), origin: Arc::new(opened) })
+    }
+}
 
 impl Loader for Files {
     fn open(&self, source: &Source, cancel: &Cancel) -> Result<Loaded, String> {
-        let options = options(cancel);
         let (opened, name) = match source {
-            Source::File(path) => (foton_format::open(path, &options), name_of(path)),
+            Source::File(path) => {
+                (foton_format::open(path, &self.options(Some(path), cancel)), name_of(path))
+            }
             Source::BuiltIn(name) => {
                 let scene =
                     Embedded::named(name).ok_or_else(|| format!("no scene \"{name}\" ships with foton"))?;
-                (scene.open(&options), name.clone())
+                (scene.open(&self.options(None, cancel)), name.clone())
             }
         };
         let opened = opened.map_err(|error| lines(&error))?;
@@ -106,34 +133,21 @@ impl Loader for Files {
                 format!("The whole scene was rewritten, with its meshes beside it: {why}")
             }
         };
-        Ok(SavedScene { note, reopened: reopened(path) })
+        Ok(SavedScene { note, reopened: self.reopened(path) })
     }
 
     fn import(&self, path: &Path, cancel: &Cancel) -> Result<SceneDescription, String> {
-        let options = options(cancel);
-        foton_format::import(path, &options).map_err(|error| lines(&error))
+        foton_format::import(path, &self.options(None, cancel)).map_err(|error| lines(&error))
     }
 }
 
-/// How files are read for the window.
-fn options(cancel: &Cancel) -> Options {
-    let memory = memory::limit(None).map(|b| b as u64);
-    Options { memory, cancel: cancel.clone(), ..Options::default() }
-}
-
-/// Everything that is wrong with a file, a line each.
+/// Everything that is wrong with a file, each with the line that it is about.
 fn lines(error: &OpenError) -> String {
-    let lines: Vec<String> = error.diagnostics().iter().map(ToString::to_string).collect();
+    let found = error.diagnostics().iter().enumerate();
+    let lines: Vec<String> = found.map(|(i, d)| located::text(d, i < MAX_LINES)).collect();
     lines.join("\n")
 }
 
 fn name_of(path: &Path) -> String {
     printable(&path.file_name().unwrap_or_default().to_string_lossy()).into_owned()
-}
-
-/// The scene of a file that was just written; `None` where it has already gone again.
-fn reopened(path: &Path) -> Option<Reopened> {
-    let opened = foton_format::open(path, &options(&Cancel::default())).ok()?;
-    let identity = SceneIdentity { name: name_of(path), hash: opened.source_hash };
-    Some(Reopened { identity, files: opened.files.clone(), origin: Arc::new(opened) })
 }

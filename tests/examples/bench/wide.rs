@@ -76,7 +76,7 @@ fn textured(mut description: SceneDescription) -> SceneDescription {
     description.textures.push(Texture {
         name: "board".into(),
         to_uv: DAffine2::from_scale(DVec2::splat(16.0)),
-        kind: TextureKind::Checkerboard { colours: [Rgb::splat(0.65), Rgb::splat(0.85)] },
+        kind: TextureKind::Checkerboard { colours: [0.65, 0.85].map(|c| Rgb::splat(c).into()) },
     });
     for material in &mut description.materials {
         for bsdf in [Some(&mut material.front), material.back.as_mut()].into_iter().flatten() {

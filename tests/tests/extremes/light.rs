@@ -125,7 +125,7 @@ fn refusal(spoil: impl FnOnce(&mut Sketch)) -> Option<BuildError> {
         name: "brick".into(),
         to_uv: DAffine2::IDENTITY,
         kind: TextureKind::Bitmap {
-            bitmap: Bitmap { width: 3, height: 2, pixels }.into(),
+            bitmap: Bitmap::new(3, 2, pixels).into(),
             wrap: Wrap::Repeat,
             bilinear: true,
         },
@@ -161,7 +161,7 @@ fn environments_with_a_pixel_that_is_not_a_number_are_refused_by_name() {
             if let Some(pixel) = spoilt {
                 pixels[pixel].g = value;
             }
-            let bitmap = Bitmap { width, height, pixels }.into();
+            let bitmap = Bitmap::new(width, height, pixels).into();
             let kind = EmitterKind::Environment { to_world: Default::default(), bitmap, scale };
             s.0.emitters.push(EmitterDescription { name: "sky".into(), kind });
         })

@@ -1,6 +1,8 @@
-//! Image files to linear pixels: PNG, JPEG, BMP, TGA and PNM from 8 or 16 bits of sRGB, Radiance HDR and OpenEXR as they are.
+//! Image files to linear pixels: PNG, JPEG, BMP, TGA and PNM from 8 or 16 bits of sRGB, Radiance HDR, PFM and OpenEXR as they are.
 //!
-//! Alpha is not read. A JPEG that ends too early is read as far as it goes, with a warning; the others are errors then. Every image is decoded once for each way to read it.
+//! Colours are taken as they are, whatever alpha says, as in Mitsuba 3; alpha is read only where it is asked for. A JPEG that ends too early is read as far as it goes, with a warning; the others are errors then. Every image is decoded once for each way to read it.
+
+mod pfm;
 
 use std::collections::HashMap;
 use std::io::Cursor;
@@ -13,7 +15,7 @@ use foton_scene::description::Bitmap;
 use image::{ImageDecoder, ImageFormat, ImageReader};
 
 use crate::diagnostic::Report;
-use crate::files::Files;
+use crate::files::{Absent, Files};
 use crate::limits::Budget;
 use crate::mitsuba::read::properties::Located;
 use crate::mitsuba::read::values::srgb_to_linear;
@@ -28,44 +30,142 @@ const MAX_PIXELS_PER_BYTE: u64 = 8 * 1032;
 /// Bytes of a pixel in a scene.
 const BYTES_PER_PIXEL: u64 = size_of::<Rgb>() as u64;
 
+/// What stands for an image that is not there.
+const MAGENTA: Rgb = Rgb::new(1.0, 0.0, 1.0);
+
 /// The most characters of what a library says of a file.
 const MAX_REASON: usize = 160;
 
-/// Images read so far, by file, whether they are raw, and whether they are shares of light.
+/// How the numbers of an image become colours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Reading {
+    /// What numbers of 8 and 16 bits mean.
+    pub(crate) curve: Curve,
+    /// The channel that is taken, if it is one.
+    pub(crate) channel: Option<Channel>,
+    /// Factor on the colours.
+    pub(crate) factor: Rgb,
+    /// What the colours are for.
+    pub(crate) purpose: Purpose,
+}
+
+impl Reading {
+    /// Light as it is.
+    pub(crate) const LIGHT: Self =
+        Self { curve: Curve::Srgb, channel: None, factor: Rgb::WHITE, purpose: Purpose::Light };
+
+    fn key(&self) -> (u32, Option<Channel>, [u32; 3]) {
+        let curve = match self.curve {
+            Curve::Srgb => 0,
+            Curve::Power(exponent) => exponent.to_bits(),
+        };
+        (curve, self.channel, self.factor.to_array().map(f32::to_bits))
+    }
+}
+
+/// What numbers of 8 and 16 bits mean, from 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Curve {
+    /// They are made linear by sRGB's curve.
+    Srgb,
+    /// They are made linear by this power, which is above zero; 1: they are linear.
+    Power(f32),
+}
+
+/// A part of a colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Channel {
+    /// Of linear sRGB, by number.
+    Rgb(usize),
+    /// The share of the pixel that is covered.
+    Alpha,
+    /// Of CIE XYZ, by number.
+    Xyz(usize),
+}
+
+/// What colours are for: what they may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Purpose {
+    /// Shares of light, cut to [0, 1] with a warning.
+    Share,
+    /// Light, nothing below zero: cut to that with a warning.
+    Light,
+    /// Any numbers.
+    Number,
+}
+
+type Key = (PathBuf, (u32, Option<Channel>, [u32; 3]));
+
+/// Images read so far, by file and by how they are read.
 #[derive(Default)]
-pub(crate) struct Images(HashMap<(PathBuf, bool, bool), Option<Arc<Bitmap>>>);
+pub(crate) struct Images {
+    as_they_are: HashMap<Key, Option<Arc<Bitmap>>>,
+    /// The same for a purpose; one image where nothing was cut.
+    fitted: HashMap<(Key, Purpose), Option<Arc<Bitmap>>>,
+}
 
 impl Images {
-    /// An image. `raw`: 8 and 16 bits are linear already; `share`: pixels are cut to [0, 1], with a warning.
+    /// An image.
     pub(crate) fn read(
         &mut self,
         filename: &Located<String>,
-        raw: bool,
-        share: bool,
+        reading: Reading,
         files: &mut Files<'_>,
         report: &mut Report,
     ) -> Option<Arc<Bitmap>> {
-        let key = (Files::key(&filename.value, filename.place, report), raw, share);
-        if let Some(known) = self.0.get(&key) {
+        let key = (Files::key(&filename.value, filename.place, report), reading.key());
+        let fitted = (key.clone(), reading.purpose);
+        if let Some(known) = self.fitted.get(&fitted) {
             return known.clone();
         }
-        let bitmap = read(filename, raw, share, files, report).map(Arc::new);
-        self.0.insert(key, bitmap.clone());
-        bitmap
+        let as_it_is = match self.as_they_are.get(&key) {
+            Some(known) => known.clone(),
+            None => {
+                let read = read(filename, reading, files, report).map(Arc::new);
+                self.as_they_are.entry(key).or_insert(read).clone()
+            }
+        };
+        let bitmap = as_it_is.map(|bitmap| fit(bitmap, filename, reading.purpose, report));
+        self.fitted.entry(fitted).or_insert(bitmap).clone()
     }
+}
+
+/// An image with nothing in it that its purpose does not allow.
+fn fit(
+    bitmap: Arc<Bitmap>,
+    filename: &Located<String>,
+    purpose: Purpose,
+    report: &mut Report,
+) -> Arc<Bitmap> {
+    let (most, what) = match purpose {
+        Purpose::Share => (1.0, "pixels outside 0 to 1, they are cut to that"),
+        Purpose::Light => (f32::INFINITY, "negative pixels, they are black"),
+        Purpose::Number => return bitmap,
+    };
+    let is_fit = |p: &Rgb| p.to_array().iter().all(|c| (0.0..=most).contains(c));
+    if bitmap.pixels.iter().all(is_fit) {
+        return bitmap;
+    }
+    let path = Files::key(&filename.value, filename.place, report);
+    report.warning(filename.place, format!("{} has {what}", shown_path(&path)));
+    let pixels = bitmap.pixels.iter().map(|p| p.map(|c| c.clamp(0.0, most))).collect();
+    Arc::new(Bitmap::new(bitmap.width, bitmap.height, pixels))
 }
 
 fn read(
     filename: &Located<String>,
-    raw: bool,
-    share: bool,
+    reading: Reading,
     files: &mut Files<'_>,
     report: &mut Report,
 ) -> Option<Bitmap> {
     let place = filename.place;
-    let (path, bytes) = files.read(&filename.value, place, report)?;
+    let (path, bytes) =
+        match files.read_or_do_without(&filename.value, place, "magenta stands for it", report)? {
+            Ok(read) => read,
+            Err(Absent) => return Some(Bitmap::new(1, 1, vec![MAGENTA])),
+        };
     let cancel = files.cancel();
-    let mut bitmap = match decode(&path, &bytes, raw, &mut files.budget, cancel) {
+    let mut bitmap = match decode(&path, &bytes, reading, &mut files.budget, cancel) {
         Ok(bitmap) => bitmap,
         Err(message) => {
             report.error(place, format!("cannot read {}: {message}", shown_path(&path)));
@@ -77,19 +177,12 @@ fn read(
             format!("{} ends before its picture does: what is missing has no detail", shown_path(&path));
         report.warning(place, message);
     }
-    let outside = |c: &f32| !(0.0..=1.0).contains(c);
+    if reading.factor != Rgb::WHITE {
+        bitmap.pixels.iter_mut().for_each(|p| *p *= reading.factor);
+    }
     if bitmap.pixels.iter().any(|p| !p.is_finite()) {
         report.error(place, format!("{} has pixels that are not finite numbers", shown_path(&path)));
         return None;
-    }
-    if share && bitmap.pixels.iter().any(|p| p.to_array().iter().any(outside)) {
-        report
-            .warning(place, format!("{} has pixels outside 0 to 1, they are cut to that", shown_path(&path)));
-        bitmap.pixels.iter_mut().for_each(|p| *p = p.map(|c| c.clamp(0.0, 1.0)));
-    }
-    if bitmap.pixels.iter().any(|p| p.to_array().iter().any(|c| *c < 0.0)) {
-        report.warning(place, format!("{} has negative pixels, they are black", shown_path(&path)));
-        bitmap.pixels.iter_mut().for_each(|p| *p = p.map(|c| c.max(0.0)));
     }
     Some(bitmap)
 }
@@ -97,15 +190,20 @@ fn read(
 fn decode(
     path: &Path,
     bytes: &[u8],
-    raw: bool,
+    reading: Reading,
     budget: &mut Budget,
     cancel: &Cancel,
 ) -> Result<Bitmap, String> {
-    if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
-        return decode_exr(path, bytes, budget, cancel);
+    let is_exr = bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]);
+    if is_exr || pfm::is_pfm(bytes) {
+        if reading.channel == Some(Channel::Alpha) {
+            return Err("alpha is not read from EXR and PFM files".to_owned());
+        }
+        let read = if is_exr { decode_exr(path, bytes, budget, cancel) } else { decode_pfm(bytes, budget) };
+        return read.map(|bitmap| of_channel(bitmap, reading.channel));
     }
     let Some(format) = format(path, bytes) else {
-        return Err("it is no PNG, JPEG, BMP, TGA, PNM, Radiance HDR or EXR image".to_owned());
+        return Err("it is no PNG, JPEG, BMP, TGA, PNM, PFM, Radiance HDR or EXR image".to_owned());
     };
     let mut reader = ImageReader::with_format(CancelReader::new(Cursor::new(bytes), cancel), format);
     let mut limits = image::Limits::no_limits();
@@ -124,8 +222,24 @@ fn decode(
     budget.check(pixels.saturating_mul(BYTES_PER_PIXEL + as_rgb).saturating_add(decoder.total_bytes()))?;
     budget.take(pixels * BYTES_PER_PIXEL)?;
     let image = image::DynamicImage::from_decoder(decoder).map_err(said)?;
-    let linear = |encoded: f32| if raw { encoded } else { srgb_to_linear(f64::from(encoded)) as f32 };
-    let pixels = match image.color() {
+    if reading.channel == Some(Channel::Alpha) {
+        if !colour.has_alpha() {
+            return Err("it has no alpha channel".to_owned());
+        }
+        let pixels = image.into_rgba32f().pixels().map(|p| Rgb::splat(p.0[3])).collect();
+        return Ok(Bitmap::new(width, height, pixels));
+    }
+    let bitmap = Bitmap::new(width, height, linear(image, reading.curve));
+    Ok(of_channel(bitmap, reading.channel))
+}
+
+/// The pixels of an image, those of 8 and 16 bits made linear.
+fn linear(image: image::DynamicImage, curve: Curve) -> Vec<Rgb> {
+    let linear = |encoded: f32| match curve {
+        Curve::Srgb => srgb_to_linear(f64::from(encoded)) as f32,
+        Curve::Power(exponent) => encoded.powf(exponent),
+    };
+    match image.color() {
         image::ColorType::Rgb32F | image::ColorType::Rgba32F => {
             image.into_rgb32f().pixels().map(|p| Rgb::from_array(p.0)).collect()
         }
@@ -138,8 +252,31 @@ fn decode(
             let pixel = |p: &image::Rgb<u16>| Rgb::from_array(p.0.map(|c| linear(f32::from(c) / 65_535.0)));
             image.into_rgb16().pixels().map(pixel).collect()
         }
+    }
+}
+
+/// Grey of one channel, where one is asked for.
+fn of_channel(mut bitmap: Bitmap, channel: Option<Channel>) -> Bitmap {
+    /// CIE XYZ of linear sRGB (IEC 61966-2-1).
+    const XYZ: [[f32; 3]; 3] = [
+        [0.412_391, 0.357_584, 0.180_481],
+        [0.212_639, 0.715_169, 0.072_192],
+        [0.019_331, 0.119_195, 0.950_532],
+    ];
+    let of = |p: Rgb| match channel {
+        Some(Channel::Rgb(i)) => Rgb::splat(p.to_array()[i]),
+        Some(Channel::Xyz(i)) => Rgb::splat(XYZ[i].iter().zip(p.to_array()).map(|(a, b)| a * b).sum()),
+        Some(Channel::Alpha) | None => p,
     };
-    Ok(Bitmap { width, height, pixels })
+    bitmap.pixels.iter_mut().for_each(|p| *p = of(*p));
+    bitmap
+}
+
+fn decode_pfm(bytes: &[u8], budget: &mut Budget) -> Result<Bitmap, String> {
+    let header = pfm::Header::parse(bytes)?;
+    check_size(header.width, header.height)?;
+    budget.take(u64::from(header.width) * u64::from(header.height) * BYTES_PER_PIXEL)?;
+    Ok(Bitmap::new(header.width, header.height, header.pixels(bytes)?))
 }
 
 /// The format of an image that is no EXR image. TGA files have no mark at their beginning, and older ones none at all.
@@ -196,7 +333,7 @@ fn decode_exr(path: &Path, bytes: &[u8], budget: &mut Budget, cancel: &Cancel) -
     };
     check_size(image.width, image.height)?;
     budget.take(image.pixels.len() as u64 * BYTES_PER_PIXEL)?;
-    Ok(Bitmap { width: image.width, height: image.height, pixels: image.pixels })
+    Ok(Bitmap::new(image.width, image.height, image.pixels))
 }
 
 fn check_size(width: u32, height: u32) -> Result<(), String> {

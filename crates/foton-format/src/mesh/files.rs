@@ -137,7 +137,9 @@ impl Meshes {
         let file = match last {
             Some((_, file)) => Rc::clone(file),
             None => {
-                let (path, bytes) = files.read(&filename.value, filename.place, report)?;
+                let instead = "the shape is left out";
+                let read = files.read_or_do_without(&filename.value, filename.place, instead, report)?;
+                let (path, bytes) = read.ok()?;
                 Rc::new(Source { path, bytes })
             }
         };

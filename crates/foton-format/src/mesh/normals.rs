@@ -72,7 +72,7 @@ pub(crate) fn build(obj: &Obj, wanted: Wanted, to_world: &DAffine3, cancel: &Can
     if vertices.keys.iter().any(|k| k.texture != 0) {
         texture_coordinates = vertices.keys.iter().map(|k| texture(obj, *k, wanted.flip_v)).collect();
     }
-    Mesh { positions, normals, texture_coordinates, triangles }
+    Mesh { positions, normals, texture_coordinates, triangles, ..Mesh::default() }
 }
 
 /// The texture coordinate of a corner; the origin if it has none.

@@ -1,14 +1,15 @@
 //! Mitsuba's `.serialized` meshes, versions 3 and 4: several compressed meshes in a file, with their offsets at its end.
 //!
-//! Vertex colours are read over. The flag for face normals has no effect, as in Mitsuba 3. What a stream claims to hold
+//! Vertex colours are the attribute `vertex_color`. The flag for face normals has no effect, as in Mitsuba 3. What a stream claims to hold
 //! is believed only as far as deflate can have packed it into the file, and memory grows with what really comes out.
 
 use std::io::Read;
+use std::sync::Arc;
 
 use flate2::read::ZlibDecoder;
 use foton_math::Cancel;
 use foton_math::glam::{DVec2, DVec3};
-use foton_scene::description::Mesh;
+use foton_scene::description::{Attribute, Mesh};
 
 use crate::diagnostic::Place;
 use crate::limits::Budget;
@@ -128,14 +129,19 @@ impl Stream<'_> {
         if has(HAS_TEXTURE_COORDINATES) {
             texture_coordinates = self.floats(vertices, 2)?.chunks_exact(2).map(DVec2::from_slice).collect();
         }
+        let mut attributes = Vec::new();
         if has(HAS_COLOURS) {
-            self.floats(vertices, 3)?;
+            let values: Arc<[f32]> = self.floats(vertices, 3)?.into_iter().map(|c| c as f32).collect();
+            if let Some(i) = values.iter().position(|c| !c.is_finite()) {
+                return Err(format!("the colour of vertex {} is not finite", i / 3));
+            }
+            attributes.push(Attribute { name: "vertex_color".to_owned(), channels: 3, values });
         }
         if let Some(i) = positions.iter().position(|p| !p.is_finite()) {
             return Err(format!("the position of vertex {i} is not finite"));
         }
         let triangles = self.triangles(faces, vertices)?;
-        Ok(Mesh { positions, normals, texture_coordinates, triangles })
+        Ok(Mesh { positions, normals, texture_coordinates, triangles, attributes })
     }
 
     fn vectors(&mut self, count: u64) -> Result<Vec<DVec3>, String> {

@@ -6,6 +6,7 @@
 use foton_input::{quoted, shown};
 
 use crate::diagnostic::Place;
+use crate::mitsuba::comments::mended;
 
 /// Elements nested deeper than this are refused; Mitsuba's own scenes stay below ten.
 pub const MAX_DEPTH: usize = 64;
@@ -101,7 +102,8 @@ impl Document {
     /// The place and a message where the text is not well-formed, declares a document type, or nests deeper than
     /// [`MAX_DEPTH`].
     pub fn parse(text: &str) -> Result<Self, (Place, String)> {
-        let tree = roxmltree::Document::parse(text).map_err(|e| syntax_error(text, &e))?;
+        let mended = mended(text);
+        let tree = roxmltree::Document::parse(&mended).map_err(|e| syntax_error(text, &e))?;
         let mut places = Places::new(text);
         let mut document = Self { nodes: Vec::new(), top: Vec::new(), root: NodeId(0) };
         // Elements whose end is still ahead, outermost first.
@@ -112,7 +114,11 @@ impl Document {
                 open.pop();
             }
             let id = NodeId(u32::try_from(document.nodes.len()).map_err(|_| too_large())?);
-            let node = convert(source, &mut places);
+            let node = match convert(source, &mut places) {
+                // As it was written.
+                Node::Comment(_) => Node::Comment(comment(&text[source.range()])),
+                node => node,
+            };
             match open.last() {
                 Some(&(_, above)) => document.children_mut(above).push(id),
                 None => document.top.push(id),
@@ -255,6 +261,11 @@ fn convert(source: roxmltree::Node<'_, '_>, places: &mut Places<'_>) -> Node {
     })
 }
 
+/// What stands in a comment.
+fn comment(text: &str) -> String {
+    text.strip_prefix("<!--").and_then(|text| text.strip_suffix("-->")).unwrap_or_default().to_owned()
+}
+
 fn too_large() -> (Place, String) {
     (Place::default(), "the file has more nodes than can be numbered".to_owned())
 }
@@ -340,6 +351,18 @@ mod tests {
         assert_eq!(a.attributes[0].place, Place { line: 3, column: 17 });
         assert_eq!(a.attributes[0].value_place, Place { line: 3, column: 20 });
         assert_eq!(kinds[3], Node::Text("tail".to_owned()));
+    }
+
+    #[test]
+    fn comments_that_hold_hyphens_stay_as_they_are_and_move_nothing() {
+        let text = "<!-- a -- b --->\n<scene><!----><!-- <!-- é --<a/>----> <b/></scene>";
+        let document = Document::parse(text).unwrap();
+        assert_eq!(document.node(document.top()[0]), &Node::Comment(" a -- b -".to_owned()));
+        let root = document.element(document.root()).unwrap();
+        assert_eq!(document.node(root.children[0]), &Node::Comment(String::new()));
+        assert_eq!(document.node(root.children[1]), &Node::Comment(" <!-- é --<a/>--".to_owned()));
+        let (_, b) = document.elements_in(document.root()).next().unwrap();
+        assert_eq!((b.name.as_str(), b.place), ("b", Place { line: 2, column: 39 }));
     }
 
     #[test]

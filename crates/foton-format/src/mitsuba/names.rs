@@ -32,44 +32,13 @@ pub(crate) const SHAPES: Plugins = Plugins {
 pub(crate) const BSDFS: Plugins = Plugins {
     kind: "bsdf",
     supported: || bsdfs().collect(),
-    elsewhere: &[
-        "pplastic",
-        "principled",
-        "principledthin",
-        "blendbsdf",
-        "bumpmap",
-        "normalmap",
-        "hair",
-        "measured",
-        "measured_polarized",
-        "polarizer",
-        "retarder",
-        "circular",
-        "coating",
-        "roughcoating",
-        "mixturebsdf",
-    ],
+    elsewhere: &["blendbsdf", "bumpmap", "normalmap", "coating", "roughcoating", "mixturebsdf"],
 };
 
 pub(crate) const TEXTURES: Plugins = Plugins {
     kind: "texture",
     supported: || plugins::names(plugins::textures::ALL).collect(),
-    elsewhere: &[
-        "mesh_attribute",
-        "volume",
-        "uniform",
-        "regular",
-        "irregular",
-        "rawconstant",
-        "srgb",
-        "d65",
-        "blackbody",
-        "scale",
-        "vertexcolors",
-        "gridtexture",
-        "wireframe",
-        "curvature",
-    ],
+    elsewhere: &["volume", "wireframe", "curvature"],
 };
 
 pub(crate) const EMITTERS: Plugins = Plugins {
@@ -85,7 +54,7 @@ pub(crate) const SENSORS: Plugins = Plugins {
 };
 
 pub(crate) const FILMS: Plugins =
-    Plugins { kind: "film", supported: || vec!["hdrfilm"], elsewhere: &["specfilm"] };
+    Plugins { kind: "film", supported: || vec!["hdrfilm", "ldrfilm"], elsewhere: &["specfilm"] };
 
 pub(crate) const FILTERS: Plugins = Plugins {
     kind: "rfilter",
@@ -93,10 +62,11 @@ pub(crate) const FILTERS: Plugins = Plugins {
     elsewhere: &["mitchell", "catmullrom", "lanczos"],
 };
 
-/// Plugins of BSDFs: those of models, and those that stand around others.
+/// Plugins of BSDFs: those of models, those that stand around others, and those for which others stand in.
 fn bsdfs() -> impl Iterator<Item = &'static str> {
     let models = Bsdf::defaults(false).into_iter().chain(Bsdf::defaults(true)).map(|b| b.plugin());
-    plugins::names(plugins::wrappers::ALL).chain(models)
+    let stand_ins = plugins::stand_ins::ALL.iter().map(|s| s.name);
+    plugins::names(plugins::wrappers::ALL).chain(models).chain(stand_ins)
 }
 
 /// Tags of single values.
@@ -110,6 +80,7 @@ pub(crate) const VALUE_TAGS: &[&str] = &[
     "spectrum",
     "rgb",
     "srgb",
+    "blackbody",
     "transform",
     "animation",
 ];
@@ -118,6 +89,7 @@ pub(crate) const VALUE_TAGS: &[&str] = &[
 pub(crate) const OBJECT_TAGS: &[&str] = &[
     "shape",
     "bsdf",
+    "subsurface",
     "emitter",
     "sensor",
     "film",
@@ -128,7 +100,21 @@ pub(crate) const OBJECT_TAGS: &[&str] = &[
     "medium",
     "phase",
     "volume",
+    "subsurface",
 ];
+
+/// Plugins of spectra: textures that are the same everywhere.
+pub(crate) const SPECTRUM_PLUGINS: &[&str] =
+    &["uniform", "rawconstant", "srgb", "d65", "blackbody", "regular", "irregular"];
+
+/// Whether a file means the parameter of that name: case and underscores do not count, so that `toWorld` is `to_world`.
+pub(crate) fn is_called(given: &str, name: &str) -> bool {
+    given == name || letters(given).eq(letters(name))
+}
+
+fn letters(text: &str) -> impl Iterator<Item = u8> {
+    text.bytes().filter(|&b| b != b'_').map(|b| b.to_ascii_lowercase())
+}
 
 /// Indices of refraction by name: Mitsuba's table, after Hecht, "Optics", 4th edition.
 pub(crate) const REFRACTION: &[(&str, f32)] = &[

@@ -171,7 +171,8 @@ fn part(mesh: &Mesh, triangles: &[[u32; 3]], remap: &mut [u32]) -> Mesh {
     let normals = if mesh.normals.is_empty() { Vec::new() } else { pick(&mesh.normals, &used) };
     let has_uv = !mesh.texture_coordinates.is_empty();
     let texture_coordinates = if has_uv { pick(&mesh.texture_coordinates, &used) } else { Vec::new() };
-    Mesh { positions: pick(&mesh.positions, &used), normals, texture_coordinates, triangles }
+    let positions = pick(&mesh.positions, &used);
+    Mesh { positions, normals, texture_coordinates, triangles, ..Mesh::default() }
 }
 
 fn pick<T: Copy>(values: &[T], indices: &[usize]) -> Vec<T> {

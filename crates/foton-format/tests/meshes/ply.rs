@@ -178,3 +178,40 @@ fn a_count_that_lies_is_refused_before_anything_is_allocated() {
     let long = format!("{TRIANGLE}4294967295 0 1 2\n").replace("uchar int", "uint int");
     assert_eq!(problem("ply", long.as_bytes()), "m:13: the line ends where a number is needed");
 }
+
+/// What a file of two faces, the first of four corners, states of its vertices and faces.
+fn attributes(
+    vertex: &str,
+    of_vertex: &str,
+    face: &str,
+    of_faces: [&str; 2],
+) -> Vec<(String, usize, Vec<f32>)> {
+    let file = format!(
+        "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n{vertex}\
+         element face 2\nproperty list uchar int vertex_indices\n{face}end_header\n\
+         0 0 0 {of_vertex}\n1 0 0 {of_vertex}\n1 1 0 {of_vertex}\n0 1 0 {of_vertex}\n2 2 0 {of_vertex}\n\
+         4 0 1 2 3 {}\n3 1 4 2 {}\n",
+        of_faces[0], of_faces[1]
+    );
+    let mesh = shape("ply", file.as_bytes(), "").unwrap();
+    mesh.attributes.iter().map(|a| (a.name.clone(), a.channels, a.values.to_vec())).collect()
+}
+
+#[test]
+fn colours_and_numbers_of_vertices_and_faces_are_attributes() {
+    let bytes = "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n";
+    let found = attributes(bytes, "255 128 0 7", "", ["", ""]);
+    assert_eq!((found.len(), found[0].0.as_str(), found[0].1), (1, "vertex_color", 3));
+    assert!((found[0].2[3] - 1.0).abs() < 1e-6 && (found[0].2[4] - 0.215_86).abs() < 1e-4, "sRGB: {found:?}");
+    let floats = "property float w_0\nproperty float foo_r\nproperty float foo_g\nproperty float foo_b\nproperty float q\n";
+    let found = attributes(floats, "0.5 1 2 3 9", "", ["", ""]);
+    let names: Vec<_> = found.iter().map(|(name, channels, _)| (name.as_str(), *channels)).collect();
+    assert_eq!(names, [("vertex_w", 1), ("vertex_foo_color", 3)]);
+    assert_eq!((found[0].2[4], &found[1].2[..3]), (0.5, &[1.0, 2.0, 3.0][..]));
+    let found = attributes("", "", "property float id_0\n", ["7", "8"]);
+    assert_eq!(
+        found,
+        [("face_id".to_owned(), 1, vec![7.0, 7.0, 8.0])],
+        "each triangle has what its face has"
+    );
+}

@@ -10,10 +10,10 @@ use foton_format::{Options, open, write_scene};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
-    Bitmap, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, DiffuseTransmitter, EmitterDescription,
-    EmitterKind, Filter, FovAxis, Geometry, Hidden, Keyframes, Lens, Material, Mesh, MicrofacetDistribution,
-    Microfacets, Mirror, Motion, Null, Number, Phong, Plastic, RoughDiffuse, SceneDescription,
-    SensorDescription, ShapeDescription, Texture, TextureKind, ThinDielectric, Ward, Wrap,
+    Attribute, Bitmap, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, DiffuseTransmitter,
+    EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Hidden, Keyframes, Lens, Material, Mesh,
+    MicrofacetDistribution, Microfacets, Mirror, Motion, Null, Number, Phong, Plastic, RoughDiffuse,
+    SceneDescription, SensorDescription, ShapeDescription, Texture, TextureKind, ThinDielectric, Ward, Wrap,
 };
 
 use same::assert_same;
@@ -160,6 +160,15 @@ fn materials() -> Vec<Material> {
     sides.into_iter().map(material).collect()
 }
 
+fn odd_attributes() -> Vec<Attribute> {
+    let of = |name: &str, channels, numbers: usize| Attribute {
+        name: name.to_owned(),
+        channels,
+        values: (0..numbers).map(|i| odd(i as _) as f32).collect(),
+    };
+    vec![of("vertex_color", 3, 12), of("vertex_w", 1, 4), of("face_color", 3, 6)]
+}
+
 fn odd_mesh(narrow: bool, normals: bool) -> Geometry {
     let value = |i| if narrow { f64::from(odd(i) as f32) } else { odd(i) };
     let positions = (0..4).map(|i| DVec3::new(value(i), value(i + 4), value(i + 8))).collect();
@@ -170,6 +179,7 @@ fn odd_mesh(narrow: bool, normals: bool) -> Geometry {
         normals,
         texture_coordinates,
         triangles: vec![[0, 1, 2], [0, 2, 3]],
+        attributes: if narrow { odd_attributes() } else { Vec::new() },
     }))
 }
 
@@ -226,13 +236,15 @@ fn sensors() -> Vec<SensorDescription> {
 
 fn everything() -> SceneDescription {
     let pixels = (0..6).map(|i| Rgb::new(i as f32 / 7.0, 0.1, 1.0 / 3.0)).collect();
-    let bitmap = Arc::new(Bitmap { width: 3, height: 2, pixels });
+    let bitmap = Arc::new(Bitmap::new(3, 2, pixels));
     let to_uv = DAffine2::from_scale_angle_translation(DVec2::new(2.0, -4.0), 0.0, DVec2::new(0.5, 0.25));
     let textures = [
         TextureKind::Bitmap { bitmap: Arc::clone(&bitmap), wrap: Wrap::Mirror, bilinear: false },
-        TextureKind::Checkerboard { colours: [Rgb::new(0.1, 0.2, 0.3), Rgb::splat(0.7)] },
+        TextureKind::Checkerboard { colours: [Rgb::new(0.1, 0.2, 0.3).into(), Colour::Texture(0)] },
         TextureKind::Bitmap { bitmap: Arc::clone(&bitmap), wrap: Wrap::Clamp, bilinear: true },
     ];
+    let shown = TextureKind::Attribute { name: "vertex_color".to_owned(), scale: 0.3, most: 1.0 };
+    let attribute = Texture { name: "t".to_owned(), to_uv: DAffine2::IDENTITY, kind: shown };
     let kinds = [
         EmitterKind::Point { position: DVec3::new(odd(1), 2.0, 3.0), intensity: Rgb::new(0.1, 0.2, 0.3) },
         EmitterKind::Spot {
@@ -254,7 +266,11 @@ fn everything() -> SceneDescription {
         sensors: sensors(),
         shapes,
         materials,
-        textures: textures.map(|kind| Texture { name: "t".to_owned(), to_uv, kind }).to_vec(),
+        textures: textures
+            .map(|kind| Texture { name: "t".to_owned(), to_uv, kind })
+            .into_iter()
+            .chain([attribute])
+            .collect(),
         emitters: kinds.map(|kind| EmitterDescription { name: "light".to_owned(), kind }).to_vec(),
         max_depth: Some(7),
         hidden: Hidden { shapes: [1, 3].into(), emitters: [2].into() },

@@ -46,6 +46,7 @@ fn assert_same_geometry(a: &Geometry, b: &Geometry) {
             assert_eq!(a.normals, b.normals);
             assert_eq!(a.texture_coordinates, b.texture_coordinates);
             assert_eq!(a.triangles, b.triangles);
+            assert_eq!(a.attributes, b.attributes);
         }
         _ => assert_eq!(format!("{a:?}"), format!("{b:?}")),
     }
@@ -77,6 +78,7 @@ fn material(scene: &SceneDescription, index: usize) -> String {
                 format!("{wrap:?} {bilinear} {}", bitmap_text(bitmap))
             }
             TextureKind::Checkerboard { colours } => format!("{colours:?}"),
+            TextureKind::Attribute { name, scale, most } => format!("{name} {scale} {most}"),
         };
         text.replace_range(at..=end, &format!("{:?} {kind}", to_uv.to_cols_array().map(|x| x + 0.0)));
     }

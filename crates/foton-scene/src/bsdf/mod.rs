@@ -20,13 +20,14 @@ mod model;
 mod null;
 mod phong;
 mod plastic;
+mod principled;
 mod reflect;
 mod rough_diffuse;
 mod scattering;
 mod thin_dielectric;
 mod ward;
 
-use crate::description::{Colour, Number};
+use crate::description::{Amount, Colour, Number};
 use crate::parameter::Binding;
 pub use coat::Coat;
 pub(crate) use coat::Coats;
@@ -45,6 +46,7 @@ pub use mirror::Mirror;
 pub use null::Null;
 pub use phong::Phong;
 pub use plastic::Plastic;
+pub use principled::{Principled, PrincipledThin, index_of_specular};
 pub use rough_diffuse::RoughDiffuse;
 pub use scattering::Scattering;
 pub use thin_dielectric::ThinDielectric;
@@ -66,6 +68,10 @@ pub enum Bsdf<C = Colour, N = Number> {
     Conductor(Conductor<C, N>),
     /// A clear coat over a diffuse base.
     Plastic(Plastic<C, N>),
+    /// Disney's principled model, of a closed body.
+    Principled(Principled<C, N>),
+    /// The same of a thin sheet.
+    PrincipledThin(PrincipledThin<C, N>),
     /// Lambertian facets that shadow, hide and light each other.
     RoughDiffuse(RoughDiffuse<C, N>),
     /// A diffuse base and a lobe around the mirror direction.
@@ -95,6 +101,8 @@ macro_rules! each {
             Bsdf::Phong($model) => $result,
             Bsdf::Ward($model) => $result,
             Bsdf::DiffuseTransmitter($model) => $result,
+            Bsdf::Principled($model) => $result,
+            Bsdf::PrincipledThin($model) => $result,
             Bsdf::Null($model) => $result,
         }
     };
@@ -104,7 +112,7 @@ use each;
 impl Bsdf {
     /// Every model as a file means it that gives no parameters; smooth, or where it can be, rough. In the order of the window.
     #[must_use]
-    pub fn defaults(rough: bool) -> [Self; 11] {
+    pub fn defaults(rough: bool) -> [Self; 13] {
         [
             Self::Diffuse(Described::default(rough)),
             Self::Dielectric(Described::default(rough)),
@@ -112,6 +120,8 @@ impl Bsdf {
             Self::Mirror(Described::default(rough)),
             Self::Conductor(Described::default(rough)),
             Self::Plastic(Described::default(rough)),
+            Self::Principled(Described::default(rough)),
+            Self::PrincipledThin(Described::default(rough)),
             Self::RoughDiffuse(Described::default(rough)),
             Self::Phong(Described::default(rough)),
             Self::Ward(Described::default(rough)),
@@ -146,6 +156,8 @@ impl Bsdf {
             Self::Phong(m) => Self::Phong(of(m)),
             Self::Ward(m) => Self::Ward(of(m)),
             Self::DiffuseTransmitter(m) => Self::DiffuseTransmitter(of(m)),
+            Self::Principled(m) => Self::Principled(of(m)),
+            Self::PrincipledThin(m) => Self::PrincipledThin(of(m)),
             Self::Null(m) => Self::Null(of(m)),
         }
     }
@@ -181,23 +193,43 @@ impl Bsdf {
     }
 }
 
-impl<C: Copy, N: Copy> Bsdf<C, N> {
+impl<C: Copy, N: Amount> Bsdf<C, N> {
     /// The lobes that it has.
     #[must_use]
-    pub const fn flags(&self) -> LobeFlags {
+    pub fn flags(&self) -> LobeFlags {
         each!(self, model => model.flags())
     }
 
-    /// Whether it describes both sides of the surface by itself, since light passes through.
+    /// Whether light passes through.
     #[must_use]
-    pub const fn transmits(&self) -> bool {
+    pub fn transmits(&self) -> bool {
         self.flags().intersects(LobeFlags::TRANSMISSION)
     }
 
     /// Whether light passes by a lobe that is narrower than a diffuse one.
     #[must_use]
-    pub const fn refracts(&self) -> bool {
+    pub fn refracts(&self) -> bool {
         self.transmits() && self.flags().intersects(LobeFlags::DELTA.or(LobeFlags::GLOSSY))
+    }
+
+    /// Whether it describes both sides of the surface by itself: light passes through, or it is a sheet that is the same from both.
+    #[must_use]
+    pub fn has_two_sides(&self) -> bool {
+        matches!(self, Self::PrincipledThin(_)) || self.transmits()
+    }
+
+    /// Whether its highlights are stretched along the texture's u or v.
+    #[must_use]
+    pub fn is_anisotropic(&self) -> bool
+    where
+        N: PartialEq,
+    {
+        match self {
+            Self::Ward(Ward { alpha_u, alpha_v, .. }) => alpha_u != alpha_v,
+            Self::Principled(Principled { anisotropic, .. })
+            | Self::PrincipledThin(PrincipledThin { anisotropic, .. }) => anisotropic.most() > 0.0,
+            _ => self.roughness().is_some_and(|r| r.alpha_u != r.alpha_v),
+        }
     }
 
     /// Its microfacets, if any.
@@ -230,6 +262,8 @@ impl<C: Copy, N: Copy> Bsdf<C, N> {
             Self::Phong(model) => Bsdf::Phong(model.map(colours, numbers)),
             Self::Ward(model) => Bsdf::Ward(model.map(colours, numbers)),
             Self::DiffuseTransmitter(model) => Bsdf::DiffuseTransmitter(model.map(colours)),
+            Self::Principled(model) => Bsdf::Principled(model.map(colours, numbers)),
+            Self::PrincipledThin(model) => Bsdf::PrincipledThin(model.map(colours, numbers)),
             Self::Null(model) => Bsdf::Null(*model),
         }
     }
@@ -238,17 +272,6 @@ impl<C: Copy, N: Copy> Bsdf<C, N> {
     #[must_use]
     pub const fn lambertian(&self) -> Option<C> {
         if let Self::Diffuse(Diffuse { reflectance }) = self { Some(*reflectance) } else { None }
-    }
-}
-
-impl<C: Copy, N: Copy + PartialEq> Bsdf<C, N> {
-    /// Whether it differs along u and v.
-    #[must_use]
-    pub fn is_anisotropic(&self) -> bool {
-        match self {
-            Self::Ward(Ward { alpha_u, alpha_v, .. }) => alpha_u != alpha_v,
-            _ => self.roughness().is_some_and(|r| r.alpha_u != r.alpha_v),
-        }
     }
 }
 

@@ -5,9 +5,9 @@ use foton_math::glam::DVec3;
 
 use super::error::BuildError;
 use super::gather::even_scale;
+use super::textures::Textures;
 use crate::description::{
     Bsdf, Colour, EmitterKind, Geometry, Material, SceneDescription, SensorDescription, ShapeDescription,
-    TextureKind,
 };
 use crate::emitter::{Emitter, Kind};
 use crate::normalise::Normalisation;
@@ -147,37 +147,20 @@ fn is_share(c: Rgb) -> bool {
     c.to_array().iter().all(|c| (0.0..=1.0).contains(c))
 }
 
-/// Whether all colours of the textures are shares of light.
-pub(super) fn check_textures(description: &SceneDescription) -> Result<(), BuildError> {
-    for texture in &description.textures {
-        let good = match &texture.kind {
-            // Those that lack pixels are found where they are named.
-            TextureKind::Bitmap { bitmap, .. } => bitmap.pixels.iter().all(|&p| is_share(p)),
-            TextureKind::Checkerboard { colours } => colours.iter().all(|&c| is_share(c)),
-        };
-        if !(good && texture.to_uv.is_finite()) {
-            return Err(BuildError::BadTexture(texture.name.clone()));
-        }
-    }
-    Ok(())
-}
-
 /// Whether a material's numbers are such as a surface can have, and its textures are there.
-pub(super) fn check_material(material: &Material, description: &SceneDescription) -> Result<(), BuildError> {
+pub(super) fn check_material(material: &Material, textures: &Textures<'_>) -> Result<(), BuildError> {
     for colour in material.colours() {
-        if matches!(colour, Colour::Constant(c) if !is_share(c)) {
-            return Err(BuildError::BadMaterial(material.name.clone()));
+        match colour {
+            Colour::Constant(c) if is_share(c) => {}
+            Colour::Constant(_) => return Err(BuildError::BadMaterial(material.name.clone())),
+            Colour::Texture(index) => {
+                textures.is_there(index, &material.name)?;
+                textures.is_within(index, 1.0)?;
+            }
         }
     }
     for index in material.textures() {
-        let good = match description.textures.get(index).map(|t| &t.kind) {
-            Some(TextureKind::Bitmap { bitmap, .. }) => bitmap.is_sound(),
-            Some(_) => true,
-            None => false,
-        };
-        if !good {
-            return Err(BuildError::NoTexture(material.name.clone()));
-        }
+        textures.is_there(index, &material.name)?;
     }
     let is_sound = |bsdf: &Bsdf| { *bsdf }.parameters().iter().all(Binding::is_valid);
     if material.bsdfs().all(is_sound) { Ok(()) } else { Err(BuildError::BadMaterial(material.name.clone())) }

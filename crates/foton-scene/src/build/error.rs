@@ -71,10 +71,19 @@ pub enum BuildError {
     /// A material or an environment names a texture that is not there, or one without pixels.
     #[error("{} names a texture that is not there or has no pixels", quoted(.0))]
     NoTexture(String),
-    /// A colour of a texture is no share of light, or its transform is not finite.
+    /// A colour of a texture is not what its surface takes, its transform is not finite, or it is made of itself.
     #[error(
-        "texture {} has colours that are not numbers from 0 to 1, or a transform that is not finite", quoted(.0))]
+        "texture {} has colours that are not numbers, from 0 to 1 where they are shares of light, a transform that is \
+         not finite, or other textures that do not stand before it or are too deep", quoted(.0))]
     BadTexture(String),
+    /// A texture shows what a shape does not have.
+    #[error("shape {} has no attribute {} for its texture", quoted(shape), quoted(attribute))]
+    NoAttribute {
+        /// The shape.
+        shape: String,
+        /// What it lacks.
+        attribute: String,
+    },
     /// A material's number is one that no surface has.
     #[error(
         "material {} has a share of light that is not a number from 0 to 1, or an index of refraction or a roughness that \
@@ -99,6 +108,7 @@ impl BuildError {
             | Self::TooBright { name, .. }
             | Self::TooDim { name, .. }
             | Self::TooFar { name, .. }
+            | Self::NoAttribute { shape: name, .. }
             | Self::Singular(name)
             | Self::NotRound(name)
             | Self::BadMesh(name)

@@ -8,8 +8,9 @@ use foton_math::{Aabb, Cancelled};
 use super::error::BuildError;
 use super::gauge::{BuildOptions, Gauge};
 use crate::accel::Accel;
+use crate::attributes::Attributes;
 use crate::census::Census;
-use crate::description::{Geometry, Mesh, ShapeDescription};
+use crate::description::{Attribute, Geometry, Mesh, ShapeDescription, Texture, TextureKind};
 use crate::discrete::Discrete;
 use crate::normalise::Normalisation;
 use crate::plane::triangle_normal;
@@ -30,12 +31,38 @@ pub(super) struct Gathered {
     pub(super) vertex_normals: Vec<[Vec3; 3]>,
     vertex_uvs: Vec<[Vec2; 3]>,
     pub(super) census: Census,
+    /// By texture, the attribute of meshes that it shows.
+    attributes: Vec<Option<(String, Attributes)>>,
 }
 
 impl Gathered {
     /// Nothing yet, but what `census` says is to be modelled.
-    pub(super) fn new(census: Census) -> Self {
-        Self { census, ..Self::default() }
+    pub(super) fn new(census: Census, textures: &[Texture]) -> Self {
+        let attribute = |texture: &Texture| match &texture.kind {
+            TextureKind::Attribute { name, .. } => Some((name.clone(), Attributes::default())),
+            _ => None,
+        };
+        Self { census, attributes: textures.iter().map(attribute).collect(), ..Self::default() }
+    }
+
+    /// The attributes of meshes that textures show.
+    pub(super) fn attributes(&mut self) -> Vec<Option<Arc<Attributes>>> {
+        std::mem::take(&mut self.attributes)
+            .into_iter()
+            .map(|a| a.map(|(_, values)| Arc::new(values)))
+            .collect()
+    }
+
+    /// Keeps the attributes of a mesh that textures show. `corners` are the vertices of its triangles in the scene, with their number
+    /// in the mesh.
+    fn keep_attributes(&mut self, shape: u32, mesh: &Mesh, corners: &[([u32; 3], u32)]) {
+        let first = (self.primitives.len() - corners.len()) as u32;
+        for (name, kept) in self.attributes.iter_mut().flatten() {
+            if let Some(attribute) = mesh.attributes.iter().find(|a| a.name == *name) {
+                let corner = |&(vertices, face)| if attribute.is_of_faces() { [face; 3] } else { vertices };
+                kept.add(shape, first, attribute, corners.iter().map(corner).collect());
+            }
+        }
     }
 
     pub(super) fn add(
@@ -96,10 +123,7 @@ impl Gathered {
         let smooth = !mesh.normals.is_empty();
         let textured = self.census.textures || self.census.anisotropy;
         let has_uvs = !mesh.texture_coordinates.is_empty();
-        let fits = |n: usize, there: bool| !there || n == mesh.positions.len();
-        if !fits(mesh.normals.len(), smooth) || !fits(mesh.texture_coordinates.len(), has_uvs) {
-            return Err(BuildError::BadMesh(shape.name.clone()));
-        }
+        check_lengths(shape, mesh)?;
         if !mesh.texture_coordinates.iter().all(|uv| uv.is_finite()) {
             return Err(BuildError::NotFinite(shape.name.clone()));
         }
@@ -107,6 +131,7 @@ impl Gathered {
         let positions: Vec<Vec3> =
             mesh.positions.iter().map(|&p| to_scene.point(shape.to_world.transform_point3(p))).collect();
         let normals = smooth.then(|| world_normals(shape, mesh)).transpose()?;
+        let mut corners_kept = Vec::new();
         for (i, triangle) in mesh.triangles.iter().enumerate() {
             gauge.check_at(i)?;
             if triangle.iter().any(|&i| i as usize >= positions.len()) {
@@ -138,7 +163,9 @@ impl Gathered {
             if let Some(uvs) = self.vertex_uvs.last_mut().filter(|_| textured && has_uvs) {
                 *uvs = [a, b, c].map(|i| mesh.texture_coordinates[i as usize].as_vec2());
             }
+            corners_kept.extend((!mesh.attributes.is_empty()).then_some(([a, b, c], i as u32)));
         }
+        self.keep_attributes(index, mesh, &corners_kept);
         Ok(())
     }
 
@@ -159,6 +186,7 @@ impl Gathered {
         let smooth = self.vertex_normals.iter().any(|n| n[0] != Vec3::ZERO);
         let ordered = order.iter().map(|&i| i as usize);
         Ok(Scene {
+            order: order.iter().copied().collect(),
             coincidences: Arc::default(),
             parts: ordered.clone().map(|i| Part { shape: self.shape_of[i], ..Part::default() }).collect(),
             vertex_uvs: ordered.clone().filter_map(|i| self.vertex_uvs.get(i).copied()).collect(),
@@ -187,6 +215,26 @@ impl Gathered {
             moving: None,
         })
     }
+}
+
+/// Whether a mesh has as much of everything as it has vertices, or triangles.
+fn check_lengths(shape: &ShapeDescription, mesh: &Mesh) -> Result<(), BuildError> {
+    let vertices = mesh.positions.len();
+    let fits = |n: usize| n == 0 || n == vertices;
+    let is_sound = |a: &Attribute| {
+        let things = if a.is_of_faces() { mesh.triangles.len() } else { vertices };
+        matches!(a.channels, 1 | 3) && a.values.len() == things * a.channels
+    };
+    if !(fits(mesh.normals.len())
+        && fits(mesh.texture_coordinates.len())
+        && mesh.attributes.iter().all(is_sound))
+    {
+        return Err(BuildError::BadMesh(shape.name.clone()));
+    }
+    if mesh.attributes.iter().any(|a| !a.values.iter().all(|v| v.is_finite())) {
+        return Err(BuildError::NotFinite(shape.name.clone()));
+    }
+    Ok(())
 }
 
 /// Unit vertex normals in world space; zero where a normal has no direction.

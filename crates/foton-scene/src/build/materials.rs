@@ -1,9 +1,11 @@
 //! What a scene asks of its materials while it is built.
 
-use crate::bsdf::{Coats, LobeFlags};
-use crate::census::{BsdfKind, Census};
+use std::sync::Arc;
+
 use foton_math::Rgb;
 
+use crate::bsdf::{Coats, LobeFlags};
+use crate::census::{BsdfKind, Census};
 use crate::description::{Bsdf, Colour, Material, Number};
 use crate::texture::Sampler;
 
@@ -23,12 +25,12 @@ impl Material {
     /// The colours of its sides where they are Lambertian and nothing else.
     pub(super) fn lambertian(&self) -> [Option<Colour>; 2] {
         let colour = |bsdf: Option<&Bsdf>| bsdf.filter(|_| self.opacity.is_none()).and_then(Bsdf::lambertian);
-        let back = if self.front.transmits() { Some(&self.front) } else { self.back.as_ref() };
+        let back = if self.front.has_two_sides() { Some(&self.front) } else { self.back.as_ref() };
         [colour(Some(&self.front)), colour(back)]
     }
 
     /// The rough coats of its sides.
-    pub(super) fn coats(&self, textures: &[Sampler]) -> [Option<Coats>; 2] {
+    pub(super) fn coats(&self, textures: &[Arc<Sampler>]) -> [Option<Coats>; 2] {
         let coats = |bsdf: &Bsdf| bsdf.rough_coats(|n, range| ends(n, range, textures));
         let front = coats(&self.front);
         let same = self.back == Some(self.front);
@@ -63,7 +65,7 @@ impl Material {
     }
 
     /// Whether it throws caustics.
-    pub(super) fn casts(&self, textures: &[Sampler]) -> bool {
+    pub(super) fn casts(&self, textures: &[Arc<Sampler>]) -> bool {
         self.bsdfs().any(|bsdf| {
             bsdf.flags().intersects(LobeFlags::DELTA)
                 || bsdf.refracts()
@@ -78,7 +80,7 @@ impl Material {
 }
 
 /// The least and the greatest value of a number, within the range that it may have.
-fn ends(number: Number, [low, high]: [f32; 2], textures: &[Sampler]) -> [f32; 2] {
+fn ends(number: Number, [low, high]: [f32; 2], textures: &[Arc<Sampler>]) -> [f32; 2] {
     match number {
         Number::Constant(x) => [x; 2],
         Number::Texture(i) => textures[i].scalar_range().map(|x| x.clamp(low, high)),
@@ -86,7 +88,7 @@ fn ends(number: Number, [low, high]: [f32; 2], textures: &[Sampler]) -> [f32; 2]
 }
 
 /// The least and the greatest roughness of a BSDF's glossy lobes, if it has any.
-fn gloss(bsdf: &Bsdf, textures: &[Sampler]) -> Option<[f32; 2]> {
+fn gloss(bsdf: &Bsdf, textures: &[Arc<Sampler>]) -> Option<[f32; 2]> {
     // A model's roughness grows or falls with each of its numbers.
     let [a, b] = [0, 1].map(|end| bsdf.map(|_| Rgb::BLACK, |n, range| ends(n, range, textures)[end]).gloss());
     a.zip(b).map(|(a, b)| [a.min(b), a.max(b)])
@@ -95,7 +97,12 @@ fn gloss(bsdf: &Bsdf, textures: &[Sampler]) -> Option<[f32; 2]> {
 impl Census {
     /// Notes what a material with or without interpolated normals asks for. Where a texture gives its roughness, its least and its
     /// greatest count.
-    pub(super) fn count(&mut self, material: &Material, textures: &[Sampler], interpolated_normals: bool) {
+    pub(super) fn count(
+        &mut self,
+        material: &Material,
+        textures: &[Arc<Sampler>],
+        interpolated_normals: bool,
+    ) {
         for bsdf in material.bsdfs() {
             let (flags, masked) = (bsdf.flags(), material.opacity.is_some());
             let lambertian = bsdf.lambertian().is_some();

@@ -44,17 +44,22 @@ impl SceneDescription {
     pub(super) fn picture_bytes(&self) -> usize {
         let textures = self.textures.iter().filter_map(|texture| match &texture.kind {
             TextureKind::Bitmap { bitmap, .. } => Some(bitmap),
-            TextureKind::Checkerboard { .. } => None,
+            TextureKind::Checkerboard { .. } | TextureKind::Attribute { .. } => None,
         });
         let skies = self.emitters.iter().filter_map(|emitter| match &emitter.kind {
             EmitterKind::Environment { bitmap, .. } => Some(bitmap),
             _ => None,
         });
-        // A sky has a table of chances beside each pixel.
+        // A sky has a table of chances beside each pixel, a texture smaller copies of itself.
         let tables: usize = skies.clone().map(|sky| sky.pixels.len() * size_of::<f64>()).sum();
+        let mut copied = HashSet::new();
+        let copies = textures.clone().filter(|bitmap| copied.insert(Arc::as_ptr(bitmap)));
+        let copies: usize = copies.map(|bitmap| bitmap.pixels.len() * size_of::<Rgb>() / 3).sum();
         let mut seen = HashSet::new();
         let own = textures.chain(skies).filter(|bitmap| seen.insert(Arc::as_ptr(bitmap)));
-        own.map(|bitmap: &Arc<Bitmap>| bitmap.pixels.len() * size_of::<Rgb>()).sum::<usize>() + tables
+        own.map(|bitmap: &Arc<Bitmap>| bitmap.pixels.len() * size_of::<Rgb>()).sum::<usize>()
+            + tables
+            + copies
     }
 }
 
@@ -63,6 +68,7 @@ impl Mesh {
         (self.positions.len() + self.normals.len()) * size_of::<DVec3>()
             + self.texture_coordinates.len() * size_of::<DVec2>()
             + self.triangles.len() * size_of::<[u32; 3]>()
+            + self.attributes.iter().map(|a| a.values.len() * size_of::<f32>()).sum::<usize>()
     }
 }
 

@@ -9,6 +9,7 @@ mod materials;
 mod memory;
 mod orientation;
 mod patches;
+mod textures;
 
 use std::sync::Arc;
 
@@ -21,10 +22,9 @@ use crate::emitter::{Aim, Area, Emitter, Kind};
 use crate::normalise::Normalisation;
 use crate::scene::{Moving, Part, Scene, Shape};
 use crate::sensor::Sensor;
-use crate::texture::Sampler;
+use crate::texture::{Sampler, samplers};
 use checks::{
-    check_described_emitters, check_emitters, check_material, check_sensors, check_textures, shape_bounds,
-    world_bounds,
+    check_described_emitters, check_emitters, check_material, check_sensors, shape_bounds, world_bounds,
 };
 use emitters::{ball, emitter_choice, unattached_emitter};
 pub use error::BuildError;
@@ -33,6 +33,7 @@ pub(crate) use gauge::Gauge;
 pub use gauge::{BuildOptions, BuildStep, Tell};
 use orientation::orientation;
 pub(crate) use patches::Patch;
+use textures::{Textures, check_attributes};
 
 impl Scene {
     /// Builds the scene that rays meet.
@@ -74,23 +75,25 @@ impl Scene {
     ) -> Result<Self, BuildError> {
         options.cancel.check()?;
         check_described_emitters(description)?;
-        check_textures(description)?;
+        let textures = Textures::check(&description.textures)?;
         let normalisation = Normalisation::for_bounds(min, max);
         check_sensors(&description.sensors, &normalisation)?;
         let gauge = options.step(BuildStep::Shapes, description.primitives());
-        let mut gathered = Gathered::new(options.forced.clone());
-        let textures: Arc<[Sampler]> = description.textures.iter().map(Sampler::new).collect();
+        let mut gathered = Gathered::new(options.forced.clone(), &description.textures);
         for material in &description.materials {
-            check_material(material, description)?;
+            check_material(material, &textures)?;
             gathered.census.textures |= material.textures().next().is_some();
             gathered.census.anisotropy |= material.is_anisotropic();
         }
         let (shapes, emitters) = (Vec::new(), Vec::new());
-        let mut parts = Parts { gathered, textures: &textures, shapes, emitters, casters: Aabb::EMPTY };
+        // Attributes of meshes come later: nothing here asks for their values.
+        let samplers_so_far = samplers(&description.textures, &vec![None; description.textures.len()]);
+        let mut parts =
+            Parts { gathered, textures: &samplers_so_far, shapes, emitters, casters: Aabb::EMPTY };
         for (i, shape) in description.shapes.iter().enumerate() {
             parts.add(i as u32, shape, description, &normalisation, &gauge)?;
         }
-        let Parts { gathered, shapes, mut emitters, casters, .. } = parts;
+        let Parts { mut gathered, shapes, mut emitters, casters, .. } = parts;
         let bounds = gathered.primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
         let bounds = if bounds.is_empty() { Aabb::around(Vec3::ZERO, 1.0) } else { bounds };
         let scene_ball = ball(&bounds);
@@ -103,12 +106,17 @@ impl Scene {
         let mut index = 0..;
         let is_hidden = |i: usize| i >= surfaces && description.hidden.emitters.contains(&(i - surfaces));
         emitters.retain(|_| !index.next().is_some_and(is_hidden));
+        let attributes = gathered.attributes();
         let mut scene = gathered.into_scene(normalisation, bounds, options)?;
         scene.shapes = shapes;
-        scene.textures = textures;
+        if attributes.iter().all(Option::is_none) {
+            scene.order = Arc::default();
+        }
+        scene.textures = samplers(&description.textures, &attributes);
         scene.materials.clone_from(&description.materials);
         scene.max_depth = description.max_depth;
-        scene.picture_bytes = description.picture_bytes();
+        let attribute_bytes: usize = attributes.iter().flatten().map(|a| a.bytes()).sum();
+        scene.picture_bytes = description.picture_bytes() + attribute_bytes;
         scene.sensors = description.sensors.iter().map(|s| Sensor::new(s, &normalisation)).collect();
         scene.casters = casters;
         scene.settle_surfaces(&mut emitters, options)?;
@@ -193,7 +201,7 @@ fn steps_across(extent: &Aabb) -> f32 {
 /// What shapes bring to a scene.
 struct Parts<'a> {
     gathered: Gathered,
-    textures: &'a [Sampler],
+    textures: &'a [Arc<Sampler>],
     shapes: Vec<Shape>,
     emitters: Vec<Emitter>,
     /// A box around what throws caustics.
@@ -212,15 +220,16 @@ impl Parts<'_> {
         let Self { gathered, textures, shapes, emitters, casters } = self;
         let first = gathered.primitives.len();
         let is_hidden = description.hidden.shapes.contains(&(index as usize));
+        let material = description.materials.get(shape.material);
+        let material = material.ok_or_else(|| BuildError::NoMaterial(shape.name.clone()))?;
         if !is_hidden {
             gathered.add(index, shape, normalisation, gauge)?;
+            material.textures().try_for_each(|texture| check_attributes(texture, shape, description))?;
         }
         gauge.add(gathered.primitives.len() - first)?;
         if gathered.primitives.len() > i32::MAX as usize {
             return Err(BuildError::TooLarge);
         }
-        let material = description.materials.get(shape.material);
-        let material = material.ok_or_else(|| BuildError::NoMaterial(shape.name.clone()))?;
         let smooth = gathered.vertex_normals[first..].iter().any(|n| n[0] != Vec3::ZERO);
         if !is_hidden {
             gathered.census.count(material, textures, smooth);

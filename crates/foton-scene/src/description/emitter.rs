@@ -5,7 +5,7 @@ use std::sync::Arc;
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
 
-use super::texture::Bitmap;
+use crate::bitmap::Bitmap;
 
 /// An emitter that is not a surface.
 #[derive(Clone, Debug)]

@@ -11,17 +11,18 @@ mod sensor;
 mod shape;
 mod texture;
 
+pub use crate::bitmap::{Bitmap, Smaller, Wrap};
 pub use crate::bsdf::{
     Bsdf, Conductor, Dielectric, Diffuse, DiffuseTransmitter, MicrofacetDistribution, Microfacets, Mirror,
-    Null, Phong, Plastic, RoughDiffuse, ThinDielectric, Ward,
+    Null, Phong, Plastic, Principled, PrincipledThin, RoughDiffuse, ThinDielectric, Ward,
 };
 pub use emitter::{EmitterDescription, EmitterKind};
 pub use hidden::Hidden;
 pub use material::Material;
 pub use motion::{Keyframes, Motion};
 pub use sensor::{Crop, Filter, FovAxis, Lens, SensorDescription};
-pub use shape::{Geometry, Mesh, ShapeDescription};
-pub use texture::{Bitmap, Colour, Number, Texture, TextureKind, Wrap};
+pub use shape::{Attribute, Geometry, Mesh, ShapeDescription};
+pub use texture::{Amount, Colour, Number, Texture, TextureKind};
 
 /// Everything that a scene consists of.
 #[derive(Clone, Debug, Default)]

@@ -61,6 +61,27 @@ pub struct Mesh {
     pub texture_coordinates: Vec<DVec2>,
     /// Vertex indices of each triangle.
     pub triangles: Vec<[u32; 3]>,
+    /// What else it states of its vertices or triangles, for textures.
+    pub attributes: Vec<Attribute>,
+}
+
+/// Numbers that a mesh states of each of its vertices or triangles, colours for example.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attribute {
+    /// What textures call it. It begins with `vertex_`, or with `face_` where triangles have it.
+    pub name: String,
+    /// How many numbers each has: 1, or 3 for a linear colour.
+    pub channels: usize,
+    /// The numbers, one vertex or triangle after the other.
+    pub values: Arc<[f32]>,
+}
+
+impl Attribute {
+    /// Whether triangles have it, not vertices.
+    #[must_use]
+    pub fn is_of_faces(&self) -> bool {
+        self.name.starts_with("face_")
+    }
 }
 
 impl Mesh {
@@ -85,6 +106,7 @@ impl Mesh {
             normals: Vec::new(),
             texture_coordinates: [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from).to_vec(),
             triangles: vec![[0, 1, 2], [0, 2, 3]],
+            ..Self::default()
         }
     }
 
@@ -99,7 +121,7 @@ impl Mesh {
             .collect();
         let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
         let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
-        Self { positions, normals: Vec::new(), texture_coordinates: Vec::new(), triangles }
+        Self { positions, triangles, ..Self::default() }
     }
 }
 

@@ -5,6 +5,8 @@ use std::sync::Arc;
 use foton_math::Rgb;
 use foton_math::glam::DAffine2;
 
+use crate::bitmap::{Bitmap, Wrap};
+
 /// A colour that is the same everywhere, or comes from a texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Colour {
@@ -40,6 +42,36 @@ impl Number {
     }
 }
 
+/// A number, or what is known of one: the ends between which it lies.
+pub trait Amount: Copy {
+    /// The least that it may be.
+    fn least(self) -> f32;
+    /// The most that it may be.
+    fn most(self) -> f32;
+}
+
+impl Amount for f32 {
+    fn least(self) -> f32 {
+        self
+    }
+
+    fn most(self) -> f32 {
+        self
+    }
+}
+
+impl Amount for Number {
+    /// Of a texture 0.
+    fn least(self) -> f32 {
+        self.constant().unwrap_or(0.0)
+    }
+
+    /// Of a texture 1.
+    fn most(self) -> f32 {
+        self.constant().unwrap_or(1.0)
+    }
+}
+
 impl From<f32> for Number {
     fn from(x: f32) -> Self {
         Self::Constant(x)
@@ -71,39 +103,16 @@ pub enum TextureKind {
     },
     /// Two colours on a board of 2 × 2 fields to the unit square; the field at the origin has the first.
     Checkerboard {
-        /// The two colours.
-        colours: [Rgb; 2],
+        /// The two colours. A texture stands before this one in the list, and takes the coordinates of the surface.
+        colours: [Colour; 2],
     },
-}
-
-/// Linear pixels, row-major from the top left; texture coordinate v points up, so v = 0 is the last row's lower edge.
-#[derive(Clone, Debug, Default)]
-pub struct Bitmap {
-    /// Width in pixels, at least 1.
-    pub width: u32,
-    /// Height in pixels, at least 1.
-    pub height: u32,
-    /// `width × height` pixels.
-    pub pixels: Vec<Rgb>,
-}
-
-impl Bitmap {
-    /// Whether there is at least one pixel, and as many as width and height say.
-    #[must_use]
-    pub fn is_sound(&self) -> bool {
-        let pixels = u64::from(self.width) * u64::from(self.height);
-        pixels > 0 && pixels == self.pixels.len() as u64
-    }
-}
-
-/// What a bitmap shows beyond the unit square.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Wrap {
-    /// The same again.
-    #[default]
-    Repeat,
-    /// The same again, mirrored each time.
-    Mirror,
-    /// The edge's pixels.
-    Clamp,
+    /// What a mesh states of its vertices or faces.
+    Attribute {
+        /// The name of the mesh's [`Attribute`](super::Attribute).
+        name: String,
+        /// Factor on the values.
+        scale: f32,
+        /// The largest number that comes of it: 1 for a share of light. What is below zero is zero.
+        most: f32,
+    },
 }

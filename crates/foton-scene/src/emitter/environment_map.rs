@@ -176,7 +176,7 @@ mod tests {
         // A sun.
         pixels[2 * 16 + 5] = Rgb::new(100.0, 80.0, 60.0);
         let turn = Mat3::from_rotation_y(0.7) * Mat3::from_rotation_x(0.3);
-        EnvironmentMap::new(Arc::new(Bitmap { width, height, pixels }), 2.0, turn)
+        EnvironmentMap::new(Arc::new(Bitmap::new(width, height, pixels)), 2.0, turn)
     }
 
     #[test]
@@ -221,7 +221,7 @@ mod tests {
     fn small(width: u32, height: u32) -> EnvironmentMap {
         let shade = |x: u32, y: u32| Rgb::splat(((x * 7 + y * 11 + 3) % 13 + 1) as f32);
         let pixels = (0..height).flat_map(|y| (0..width).map(move |x| shade(x, y))).collect();
-        EnvironmentMap::new(Arc::new(Bitmap { width, height, pixels }), 1.0, Mat3::IDENTITY)
+        EnvironmentMap::new(Arc::new(Bitmap::new(width, height, pixels)), 1.0, Mat3::IDENTITY)
     }
 
     #[test]

@@ -32,7 +32,7 @@ fn all() -> Vec<Emitter> {
 fn as_they_shine() -> Vec<Emitter> {
     let scene = Ball { centre: Vec3::ZERO, radius: 10.0 };
     let pixels = (0..32).map(|i| Rgb::splat(0.2 + 0.3 * (i % 5) as f32)).collect();
-    let bitmap = Bitmap { width: 8, height: 4, pixels };
+    let bitmap = Bitmap::new(8, 4, pixels);
     let map = EnvironmentMap::new(bitmap.into(), 1.5, Mat3::from_rotation_x(0.4));
     let square = |x: f32| Vec3::new(x, 0.0, 3.0);
     vec![

@@ -2,11 +2,13 @@
 
 mod fingerprint;
 mod light;
+mod lookup;
 mod motion;
 mod parametrisation;
 mod scattering;
 mod surface;
 
+pub use lookup::Footprint;
 pub(crate) use motion::Moving;
 use std::sync::Arc;
 
@@ -65,7 +67,9 @@ pub struct Scene {
     pub(crate) vertex_normals: Arc<[[Vec3; 3]]>,
     /// Texture coordinates of each primitive's vertices in the tree's order. Empty when no material asks for them.
     pub(crate) vertex_uvs: Arc<[[Vec2; 3]]>,
-    pub(crate) textures: Arc<[Sampler]>,
+    pub(crate) textures: Arc<[Arc<Sampler>]>,
+    /// Where each primitive stands in the order in which shapes state them. Empty where nothing asks for it.
+    pub(crate) order: Arc<[u32]>,
     pub(crate) shapes: Vec<Shape>,
     pub(crate) materials: Vec<Material>,
     /// Front and back of each material; empty when no coat is rough.
@@ -189,6 +193,7 @@ impl Scene {
             + self.parts.len() * size_of::<Part>()
             + self.vertex_normals.len() * size_of::<[Vec3; 3]>()
             + self.vertex_uvs.len() * size_of::<[Vec2; 3]>()
+            + self.order.len() * size_of::<u32>()
             + self.picture_bytes
     }
 }

@@ -4,7 +4,7 @@ use std::cell::LazyCell;
 
 use foton_math::Rgb;
 
-use super::Scene;
+use super::{Footprint, Scene};
 use crate::bsdf::Scattering;
 use crate::description::{Bsdf, Colour, Diffuse, Number};
 use crate::surface::Surface;
@@ -19,8 +19,20 @@ impl Scene {
     #[must_use]
     #[inline(always)]
     pub fn scattering(&self, surface: &Surface, outward: bool) -> Option<Scattering> {
+        self.scattering_seen(surface, outward, None)
+    }
+
+    /// The same, its colours the means over what an eye sample sees around the point. Without a footprint those at the point.
+    #[must_use]
+    #[inline(always)]
+    pub fn scattering_seen(
+        &self,
+        surface: &Surface,
+        outward: bool,
+        footprint: Option<&Footprint>,
+    ) -> Option<Scattering> {
         let material = self.material(surface.shape);
-        let front = outward || material.front.transmits();
+        let front = outward || material.front.has_two_sides();
         let bsdf = match &material.back {
             _ if front => &material.front,
             Some(back) => back,
@@ -39,20 +51,24 @@ impl Scene {
             let number = |n: Number, _| if let Number::Constant(x) = n { x } else { 0.0 };
             return complete(bsdf.map(constant, number), opacity);
         }
-        let uv = LazyCell::new(|| self.texture_coordinate(surface));
+        let lookup = LazyCell::new(|| self.lookup(surface, footprint));
         let opacity = material.opacity.map_or(1.0, |c| match c {
             Colour::Constant(c) => c.mean(),
-            Colour::Texture(t) => self.textures[t].scalar(*uv),
+            Colour::Texture(t) => lookup.scalar(&self.textures[t]),
         });
         let colour = |c: Colour| match c {
             Colour::Constant(c) => c,
-            Colour::Texture(t) => self.textures[t].colour(*uv),
+            Colour::Texture(t) => lookup.colour(&self.textures[t]),
         };
         let number = |n: Number, [low, high]: [f32; 2]| match n {
             Number::Constant(x) => x,
-            Number::Texture(t) => self.textures[t].scalar(*uv).clamp(low, high),
+            Number::Texture(t) => lookup.scalar(&self.textures[t]).clamp(low, high),
         };
-        complete(bsdf.map(colour, number), opacity.clamp(0.0, 1.0))
+        let found = bsdf.map(colour, number);
+        // Light passes elsewhere on the surface and not here: this side is black.
+        let is_behind = front && !outward && !found.has_two_sides();
+        let black = Bsdf::Diffuse(Diffuse { reflectance: Rgb::BLACK });
+        complete(if is_behind { black } else { found }, opacity.clamp(0.0, 1.0))
     }
 
     /// The reflectance of a side that is Lambertian and nothing else, its colour looked up: what most photons meet, and with a
@@ -62,7 +78,7 @@ impl Scene {
     pub fn lambertian(&self, surface: &Surface, outward: bool) -> Option<Rgb> {
         match self.lambertian[surface.shape as usize][usize::from(!outward)]? {
             Colour::Constant(c) => Some(c),
-            Colour::Texture(t) => Some(self.textures[t].colour(self.texture_coordinate(surface))),
+            Colour::Texture(t) => Some(self.lookup(surface, None).colour(&self.textures[t])),
         }
     }
 }

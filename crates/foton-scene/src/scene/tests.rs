@@ -40,7 +40,7 @@ fn described(materials: Vec<Material>) -> SceneDescription {
         far_clip: None,
         lens: None,
     };
-    let board = TextureKind::Checkerboard { colours: [Rgb::splat(0.2), Rgb::splat(0.7)] };
+    let board = TextureKind::Checkerboard { colours: [0.2, 0.7].map(|c| Rgb::splat(c).into()) };
     SceneDescription {
         sensors: vec![sensor],
         shapes: (0..materials.len()).map(shape).collect(),

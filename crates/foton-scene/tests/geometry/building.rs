@@ -19,9 +19,8 @@ fn ground(side: u32) -> SceneDescription {
     };
     let mesh = Mesh {
         positions: (0..(side + 1).pow(2)).map(corner).collect(),
-        normals: Vec::new(),
-        texture_coordinates: Vec::new(),
         triangles: (0..side * side).chain([0]).flat_map(square).collect(),
+        ..Mesh::default()
     };
     let ball = Geometry::Sphere { centre: DVec3::Y, radius: 0.2 };
     let shape = |name: &str, geometry| ShapeDescription {

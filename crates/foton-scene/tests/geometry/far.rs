@@ -117,7 +117,7 @@ fn what_no_number_holds_is_refused_by_name_and_with_what_would_do() {
     // Each light as bright as a number can be; what may be emitted is a millionth of what has the largest number's power.
     let up = DVec3::Z;
     let bright = Rgb::splat(3e38);
-    let sky = Bitmap { width: 4, height: 2, pixels: vec![Rgb::splat(3e8); 8] };
+    let sky = Bitmap::new(4, 2, vec![Rgb::splat(3e8); 8]);
     let kinds = [
         EmitterKind::Point { position: up, intensity: bright },
         EmitterKind::Constant { radiance: bright },

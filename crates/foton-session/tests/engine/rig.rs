@@ -94,6 +94,7 @@ fn heap() -> SceneDescription {
         normals: Vec::new(),
         texture_coordinates: Vec::new(),
         triangles: (0..110_000).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+        ..Mesh::default()
     };
     let mut description = room();
     let heap = ShapeDescription {

@@ -18,8 +18,8 @@ use foton_session::snapshot::Format;
 
 pub(crate) use measure::Measure;
 use options::SceneOptions;
-pub(crate) use options::{ALL_SENSORS, SettingsOptions};
-use parse::{bytes, define, image, name, region, xml};
+pub(crate) use options::{ALL_SENSORS, ReadOptions, SettingsOptions};
+use parse::{bytes, image, name, region, xml};
 pub(crate) use render::RenderArgs;
 pub(crate) use values::{ErrorWish, Every, Guide, Radius, Size};
 
@@ -32,6 +32,8 @@ pub(crate) struct Args {
     /// Scene to open in the window: Mitsuba XML, OBJ, PLY or STL; without one, the scene that ships with foton. Where there can
     /// be no window, it is rendered for a minute
     pub(crate) scene: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) read: ReadOptions,
     /// Write a line of JSON for each frame that the window draws
     #[arg(long, value_name = "FILE")]
     pub(crate) frame_log: Option<PathBuf>,
@@ -77,9 +79,8 @@ pub(crate) struct Convert {
     /// Scene file to write; meshes and textures go into folders beside it
     #[arg(value_name = "OUT.xml", value_parser = name(xml))]
     pub(crate) output: PathBuf,
-    /// Set a parameter of the scene file
-    #[arg(short = 'D', value_name = "name=value", value_parser = define)]
-    pub(crate) defines: Vec<(String, String)>,
+    #[command(flatten)]
+    pub(crate) read: ReadOptions,
 }
 
 /// `foton info`.

@@ -13,6 +13,17 @@ pub(crate) const ALL_SENSORS: &str = "all";
 
 // The structs have no doc comments: clap would take them for descriptions of the commands.
 
+// How a scene file is read.
+#[derive(Clone, Debug, Default, ClapArgs)]
+pub(crate) struct ReadOptions {
+    /// Set a parameter of the scene file
+    #[arg(short = 'D', value_name = "name=value", value_parser = define, requires = "scene")]
+    pub(crate) defines: Vec<(String, String)>,
+    /// Open a scene without the files that are not there: meshes are left out, textures are magenta
+    #[arg(long)]
+    pub(crate) allow_missing: bool,
+}
+
 // What a scene file is read with, and the sensor.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct SceneOptions {
@@ -20,9 +31,8 @@ pub(crate) struct SceneOptions {
     /// that all of them share, as OUT-NAME.exr
     #[arg(long, value_name = "NAME")]
     pub(crate) sensor: Option<String>,
-    /// Set a parameter of the scene file
-    #[arg(short = 'D', value_name = "name=value", value_parser = define)]
-    pub(crate) defines: Vec<(String, String)>,
+    #[command(flatten)]
+    pub(crate) read: ReadOptions,
 }
 
 // Settings of a render; of a sweep, those at the centre of its star.

@@ -27,7 +27,7 @@ pub(crate) enum Failure {
     /// Someone asked to stop before there was anything to write; what went on then.
     Interrupted(&'static str),
     /// What was read makes no scene.
-    Build(Diagnostic),
+    Build(Box<Diagnostic>),
     Memory(String),
     /// Bytes.
     BuildMemory {
@@ -164,7 +164,7 @@ impl Failure {
         if let BuildError::Cancelled(_) = cause {
             return Self::Interrupted("building the scene");
         }
-        Self::Build(opened.finding(Severity::Error, scene, cause.part(), cause.to_string()))
+        Self::Build(Box::new(opened.finding(Severity::Error, scene, cause.part(), cause.to_string())))
     }
 }
 

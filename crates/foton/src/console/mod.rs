@@ -3,10 +3,11 @@
 mod checks;
 mod failure;
 mod json;
+pub(crate) mod located;
 
 use std::io::{self, ErrorKind, Write};
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use foton_format::{Diagnostic, Severity};
 use foton_input::printable;
@@ -34,6 +35,9 @@ fn write_above(bar: &ProgressBar, text: &str) {
     });
 }
 
+/// So many findings are shown with the line that they are about.
+const MAX_LINES: usize = 20;
+
 /// The program's voice.
 pub(crate) struct Console {
     json: bool,
@@ -42,6 +46,8 @@ pub(crate) struct Console {
     said_floor: AtomicBool,
     /// Why a line on stdout was lost, of the first one.
     lost: OnceLock<String>,
+    /// How many findings were shown with the line that they are about.
+    shown_lines: AtomicUsize,
 }
 
 impl Console {
@@ -49,7 +55,7 @@ impl Console {
         let (said_floor, lost) = (AtomicBool::new(false), OnceLock::new());
         // Hidden until it begins; others have it by then.
         let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
-        Self { json, bar, said_floor, lost }
+        Self { json, bar, said_floor, lost, shown_lines: AtomicUsize::new(0) }
     }
 
     /// Whether it says things in JSON.
@@ -127,7 +133,17 @@ impl Console {
     /// What is odd in a scene file, and does not stop the render.
     pub(crate) fn diagnostic(&self, d: &Diagnostic) {
         self.event(&located("warning", d));
-        self.line(&format!("warning: {d}"));
+        self.located(d);
+    }
+
+    /// A finding with the line that it is about, for the first of them.
+    fn located(&self, d: &Diagnostic) {
+        let has_line = self.shown_lines.fetch_add(1, Ordering::Relaxed) < MAX_LINES;
+        let text = located::for_terminal(d, has_line);
+        // It is printable as it is, and has colours on a terminal.
+        self.bar.suspend(|| {
+            let _ = writeln!(io::stderr().lock(), "{text}");
+        });
     }
 
     /// Why nothing was rendered.
@@ -135,7 +151,7 @@ impl Console {
         self.bar.finish_and_clear();
         let found = match failure {
             Failure::Open(cause) => cause.diagnostics(),
-            Failure::Build(diagnostic) => std::slice::from_ref(diagnostic),
+            Failure::Build(diagnostic) => std::slice::from_ref(&**diagnostic),
             _ => &[],
         };
         if !found.is_empty() {
@@ -145,7 +161,7 @@ impl Console {
                     Severity::Error => "error",
                 };
                 self.event(&located(severity, d));
-                self.line(&format!("{severity}: {d}"));
+                self.located(d);
             }
             if found.iter().any(|d| d.message.ends_with("MiB may be used"))
                 && let Some(confined) = Confined::of_system()

@@ -34,6 +34,7 @@ const OPTIONS: &[(&str, &[&str])] = &[
     ("--sensor", &["front"]),
     ("--show", &["direct,caustic,indirect,emission", "photons"]),
     ("-D", &["white=0.6"]),
+    ("--allow-missing", &[""]),
     ("--memory", &["800M", "8G"]),
     ("--every", &["pow2", "2"]),
     ("--checkpoint", &["x.ck", "x.ck --checkpoint-every 10m"]),

@@ -4,6 +4,7 @@ use foton_math::Cancel;
 use foton_math::glam::DVec2;
 use foton_scene::description::Mesh;
 
+use super::attributes::Attributes;
 use super::header::{Element, Header, Kind, Property};
 use super::numbers::Numbers;
 use super::values::{length, skip_value, whole};
@@ -24,6 +25,9 @@ pub(super) struct Faces {
     polygons: Polygons,
     /// Vertices by their number in the file and the texture coordinate of a corner, if faces state any.
     split: Option<Vertices<(u32, Option<[u64; 2]>)>>,
+    /// What else there is of faces, and which face each triangle is of where there is anything.
+    attributes: Attributes,
+    faces: Vec<u32>,
     short: Tally,
     unfit: Tally,
 }
@@ -36,6 +40,8 @@ impl Faces {
             strips: Vec::new(),
             polygons: Polygons::default(),
             split: None,
+            attributes: Attributes::default(),
+            faces: Vec::new(),
             short: Tally::default(),
             unfit: Tally::default(),
         }
@@ -47,9 +53,14 @@ impl Faces {
         if element.properties.iter().any(Property::is_corner_textures) {
             return self.read_textured(element, numbers);
         }
-        for _ in 0..element.count {
-            for property in &element.properties {
+        let has_attributes = self.begin_attributes(element);
+        for face in 0..element.count {
+            if has_attributes {
+                self.attributes.begin();
+            }
+            for (i, property) in element.properties.iter().enumerate() {
                 match property.kind {
+                    Kind::Scalar(kind) if has_attributes => self.attributes.set(i, numbers.next(kind)?),
                     Kind::List { count, item } if property.is_corners() => {
                         let corners = length(numbers.next(count)?, numbers)?;
                         if corners < 3 {
@@ -72,9 +83,23 @@ impl Faces {
                     _ => skip_value(property, numbers)?,
                 }
             }
+            self.end_attributes(has_attributes, face);
             numbers.end_element();
         }
         Ok(())
+    }
+
+    /// Whether faces have attributes.
+    fn begin_attributes(&mut self, element: &Element) -> bool {
+        self.attributes = Attributes::of(element, "face", |_| false);
+        !self.attributes.is_empty()
+    }
+
+    /// Notes of which face the last triangles are.
+    fn end_attributes(&mut self, has_attributes: bool, face: u64) {
+        if has_attributes {
+            self.faces.resize(self.triangles.len(), face as u32);
+        }
     }
 
     /// Reads faces with a texture coordinate for each corner.
@@ -82,11 +107,16 @@ impl Faces {
         let vertices = usize::try_from(self.vertices).unwrap_or(0);
         let mut split = Vertices::new(vertices);
         let (mut corners, mut textures): (Vec<u32>, Vec<f64>) = Default::default();
-        for _ in 0..element.count {
+        let has_attributes = self.begin_attributes(element);
+        for face in 0..element.count {
             corners.clear();
             textures.clear();
-            for property in &element.properties {
+            if has_attributes {
+                self.attributes.begin();
+            }
+            for (i, property) in element.properties.iter().enumerate() {
                 match property.kind {
+                    Kind::Scalar(kind) if has_attributes => self.attributes.set(i, numbers.next(kind)?),
                     Kind::List { count, item } if property.is_corners() => {
                         for _ in 0..length(numbers.next(count)?, numbers)? {
                             corners.push(self.corner(numbers.next(item)?, numbers)?);
@@ -118,6 +148,7 @@ impl Faces {
                 self.polygons.note(self.triangles.len(), corners.len());
                 self.triangles.extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
             }
+            self.end_attributes(has_attributes, face);
             numbers.end_element();
         }
         self.split = Some(split);
@@ -174,8 +205,14 @@ impl Faces {
     }
 
     /// Gives the mesh its triangles, and vertices for them; what is to be warned of.
-    pub(super) fn finish(self, mesh: &mut Mesh, cancel: &Cancel) -> Result<Vec<Problem>, Problem> {
-        let Self { mut triangles, mut strips, polygons, split, short, unfit, .. } = self;
+    pub(super) fn finish(
+        self,
+        mesh: &mut Mesh,
+        of_vertices: Attributes,
+        cancel: &Cancel,
+    ) -> Result<Vec<Problem>, Problem> {
+        let Self { mut triangles, mut strips, polygons, split, attributes, mut faces, short, unfit, .. } =
+            self;
         if triangles.is_empty() && strips.is_empty() {
             return Err((Place::default(), "the file has no faces".to_owned()));
         }
@@ -195,9 +232,19 @@ impl Faces {
             if !mesh.normals.is_empty() {
                 mesh.normals = split.keys.iter().map(|&(i, _)| mesh.normals[i as usize]).collect();
             }
+            mesh.attributes = of_vertices.pick(split.keys.iter().map(|&(i, _)| i as usize));
+        } else {
+            mesh.attributes = of_vertices.all();
         }
         triangles.append(&mut strips);
         let mended = polygons.mend(&mut triangles, |i| mesh.positions[i as usize], cancel);
+        if !attributes.is_empty() {
+            let mut at = 0..;
+            faces.retain(|_| at.next().is_none_or(|i| mended.gone.binary_search(&i).is_err()));
+            // Triangles of strips are of no face.
+            faces.resize(triangles.len(), u32::MAX);
+            mesh.attributes.extend(attributes.pick(faces.iter().map(|&face| face as usize)));
+        }
         mesh.triangles = triangles;
         let warnings = [
             short.warning("face has", "faces have", LEFT_OUT),

@@ -2,10 +2,11 @@
 //!
 //! Texture coordinates are those of vertices, or those that faces state for each corner (`texcoord`, as MeshLab writes
 //! them): then vertices are split where those differ, and a seam is a crease unless the file has normals, as in OBJ files.
-//! Elements and properties of other names are read over, lists too. A count in the header is believed only as far as
+//! Colours and other numbers of vertices and faces become attributes (`attributes.rs`); what else there is is read over. A count in the header is believed only as far as
 //! the bytes after it can hold it, so that no file makes us allocate more than a small multiple of its size. Normals
 //! are those of the file; where it has none, [`crate::mesh::normals`] computes them.
 
+mod attributes;
 mod faces;
 mod header;
 mod numbers;
@@ -21,6 +22,7 @@ use values::skip_value;
 use crate::mesh::normals;
 use crate::mesh::wanted::Parsed;
 use crate::mesh::words::Problem;
+use attributes::Attributes;
 use faces::Faces;
 use header::{Element, Encoding, Header, Kind, Property};
 use numbers::{Binary, Cancellable, Numbers, Text};
@@ -47,7 +49,7 @@ const WRAPPED: &str = "on with the one before";
 fn read(header: &Header, numbers: impl Numbers, cancel: &Cancel) -> Parsed {
     let mut numbers = Cancellable { numbers, cancel, left: 0 };
     let mut mesh = Mesh::default();
-    let mut faces = Faces::new(header);
+    let (mut faces, mut attributes) = (Faces::new(header), Attributes::default());
     let fits = |element: &Element, numbers: &_| {
         let least = element.properties.iter().map(|p| Numbers::least_bytes(numbers, p.kind)).sum::<u64>();
         // The last line of a text file may lack its end.
@@ -62,13 +64,13 @@ fn read(header: &Header, numbers: impl Numbers, cancel: &Cancel) -> Parsed {
     for element in header.elements.iter().filter(|e| !e.properties.is_empty()) {
         fits(element, &numbers)?;
         match element.name.as_str() {
-            "vertex" => vertices(element, &mut numbers, &mut mesh)?,
+            "vertex" => attributes = vertices(element, &mut numbers, &mut mesh)?,
             "face" => faces.read(element, &mut numbers)?,
             "tristrips" => faces.read_strips(element, &mut numbers)?,
             _ => skip(element, &mut numbers)?,
         }
     }
-    let mut warnings = faces.finish(&mut mesh, cancel)?;
+    let mut warnings = faces.finish(&mut mesh, attributes, cancel)?;
     warnings.extend(normals::mend(&mut mesh, cancel));
     Ok((mesh, warnings))
 }
@@ -87,20 +89,27 @@ fn skip(element: &Element, numbers: &mut impl Numbers) -> Result<(), Problem> {
 const ROLES: [&[&str]; 8] =
     [&["x"], &["y"], &["z"], &["nx"], &["ny"], &["nz"], &["u", "s", "texture_u"], &["v", "t", "texture_v"]];
 
-fn vertices(element: &Element, numbers: &mut impl Numbers, mesh: &mut Mesh) -> Result<(), Problem> {
+/// Reads the vertices, and what else there is of them.
+fn vertices(element: &Element, numbers: &mut impl Numbers, mesh: &mut Mesh) -> Result<Attributes, Problem> {
     let role = |p: &Property| ROLES.iter().position(|names| names.contains(&p.name.as_str()));
     let roles: Vec<Option<usize>> = element.properties.iter().map(role).collect();
     let has = |range: std::ops::Range<usize>| range.into_iter().all(|r| roles.contains(&Some(r)));
     let (has_normals, has_uv) = (has(3..6), has(6..8));
+    let mut attributes = Attributes::of(element, "vertex", |p| role(p).is_some());
+    let has_attributes = !attributes.is_empty();
     let count = usize::try_from(element.count).unwrap_or(0);
     mesh.positions.reserve(count);
     mesh.normals.reserve(if has_normals { count } else { 0 });
     mesh.texture_coordinates.reserve(if has_uv { count } else { 0 });
     for _ in 0..element.count {
         let mut v = [0.0; 8];
-        for (property, role) in element.properties.iter().zip(&roles) {
+        if has_attributes {
+            attributes.begin();
+        }
+        for (i, (property, role)) in element.properties.iter().zip(&roles).enumerate() {
             match (property.kind, role) {
                 (Kind::Scalar(kind), Some(role)) => v[*role] = numbers.next(kind)?,
+                (Kind::Scalar(kind), None) if has_attributes => attributes.set(i, numbers.next(kind)?),
                 _ => skip_value(property, numbers)?,
             }
         }
@@ -118,5 +127,5 @@ fn vertices(element: &Element, numbers: &mut impl Numbers, mesh: &mut Mesh) -> R
         }
         numbers.end_element();
     }
-    Ok(())
+    Ok(attributes)
 }

@@ -8,6 +8,7 @@ use foton_scene::plugins::emitters::{
     RADIANCE, SCALE, SPOT, TO_WORLD,
 };
 
+use crate::image::Reading;
 use crate::mitsuba::document::NodeId;
 use crate::mitsuba::names::EMITTERS;
 use crate::mitsuba::read::properties::{Object, Properties};
@@ -146,7 +147,7 @@ impl Reader<'_> {
         if !self.is_first_around(p) {
             return None;
         }
-        let bitmap = self.images.read(&filename, false, false, &mut self.files, &mut self.report)?;
+        let bitmap = self.images.read(&filename, Reading::LIGHT, &mut self.files, &mut self.report)?;
         let to_world = transform.map_or(DAffine3::IDENTITY, |t| t.value);
         Some(EmitterKind::Environment {
             to_world,

@@ -50,6 +50,12 @@ impl<'a> Ids<'a> {
         }
     }
 
+    /// The node of the element that a `<ref>` means, if there is one.
+    pub(crate) fn target(&self, reference: &Element) -> Option<NodeId> {
+        let (node, _) = self.elements.get(reference.attribute("id")?.value.as_str())?;
+        Some(*node)
+    }
+
     /// The element that a `<ref>` means.
     pub(crate) fn follow(&self, reference: &Element, report: &mut Report) -> Option<(NodeId, &'a Element)> {
         if !check_attributes(reference, &["id"], &["name"], report) {

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use foton_input::{shown, shown_path};
 
 use crate::diagnostic::{Place, Report};
+use crate::encoding::decoded;
 use crate::files::Files;
 use crate::limits::{Budget, Census, at_place};
 use crate::mitsuba::document::{Document, Element, NodeId};
@@ -185,11 +186,11 @@ impl Walk<'_, '_> {
         include: NodeId,
     ) -> Option<(NodeId, bool)> {
         let (file, in_words) = (path.to_string_lossy(), shown_path(path));
-        let Ok(text) = String::from_utf8(bytes) else {
+        let Ok(text) = decoded(bytes) else {
             self.report.error(place, format!("cannot read {in_words}: the text is not UTF-8"));
             return None;
         };
-        let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        let text = text.as_str();
         // Nothing is said of what stands in a file that is none of scenes: its words are nobody's business.
         if !begins_as_scene(text) {
             self.report
@@ -229,7 +230,7 @@ pub(crate) fn parse(text: &str, budget: &mut Budget) -> Result<Document, (Place,
 }
 
 /// Whether the first element of a text is one that a scene has, by its tag alone.
-fn begins_as_scene(text: &str) -> bool {
+pub(crate) fn begins_as_scene(text: &str) -> bool {
     let mut rest = text.trim_start();
     while let Some((_, close)) =
         [("<?", "?>"), ("<!--", "-->")].iter().find(|(open, _)| rest.starts_with(open))

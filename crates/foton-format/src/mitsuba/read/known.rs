@@ -1,9 +1,10 @@
 //! What a reader has read so far of materials and textures.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use foton_scene::description::{Bsdf, Colour};
 
+use crate::image::Purpose;
 use crate::mitsuba::document::NodeId;
 
 /// Materials read so far.
@@ -27,5 +28,13 @@ pub(crate) struct Sides {
     pub(crate) opacity: Option<Colour>,
 }
 
-/// Indices of textures by element; `None` if it is not valid.
-pub(crate) type Textures = HashMap<NodeId, Option<usize>>;
+/// Textures read so far.
+#[derive(Default)]
+pub(crate) struct Textures {
+    /// Indices by element and purpose; `None` if it is not valid.
+    pub(crate) indices: HashMap<(NodeId, Purpose), Option<usize>>,
+    /// Textures being read, outermost first.
+    pub(crate) open: Vec<NodeId>,
+    /// Textures that were read.
+    pub(crate) used: HashSet<NodeId>,
+}

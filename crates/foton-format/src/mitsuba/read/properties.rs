@@ -3,7 +3,7 @@
 //! Whoever reads a plugin takes from here what it knows; what nobody took is reported at the end, with the nearest
 //! name that was asked for. References are followed here.
 
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 
 use foton_input::{quoted, shown};
 use foton_math::glam::{DAffine3, DVec3};
@@ -12,8 +12,8 @@ use foton_scene::parameter::{Kind, Parameter};
 
 use crate::diagnostic::{Place, Report};
 use crate::mitsuba::document::{Document, Element, NodeId};
-use crate::mitsuba::names::{OBJECT_TAGS, VALUE_TAGS};
-use crate::mitsuba::read::attributes::{check_attributes, parse_attribute};
+use crate::mitsuba::names::{OBJECT_TAGS, SPECTRUM_PLUGINS, VALUE_TAGS, is_called};
+use crate::mitsuba::read::attributes::{check_attributes, parse_attribute, report_tag};
 use crate::mitsuba::read::ids::Ids;
 use crate::mitsuba::read::{animation, transform, values};
 
@@ -49,6 +49,14 @@ pub(crate) struct Object<'a> {
     pub(crate) place: Place,
     name: &'a str,
     taken: bool,
+}
+
+impl Object<'_> {
+    /// Whether it is a plugin of a spectrum.
+    fn is_spectrum(&self) -> bool {
+        is_texture(&self.element.name)
+            && self.element.attribute("type").is_some_and(|t| SPECTRUM_PLUGINS.contains(&t.value.as_str()))
+    }
 }
 
 /// A value with the place where it is written.
@@ -103,7 +111,12 @@ impl<'a> Properties<'a> {
         } else if VALUE_TAGS.contains(&tag) {
             let complete = match tag {
                 "transform" | "animation" => check_attributes(element, &["name"], &[], report),
-                "spectrum" => check_attributes(element, &["name"], &["value", "filename"], report),
+                "spectrum" => check_attributes(element, &["name"], &["value", "filename", "intent"], report),
+                // Intents are those of spectral renderers.
+                "rgb" | "srgb" => check_attributes(element, &["name", "value"], &["intent"], report),
+                "blackbody" => {
+                    check_attributes(element, &["name", "temperature"], &["scale", "intent"], report)
+                }
                 "point" | "vector" if element.attribute("value").is_none() => {
                     check_attributes(element, &["name", "x", "y", "z"], &[], report)
                 }
@@ -133,8 +146,8 @@ impl<'a> Properties<'a> {
         report: &mut Report,
     ) -> Option<(NodeId, &'a Element)> {
         self.asked.push(name);
-        if let Some(object) = self.objects.iter_mut().find(|o| o.name == name && is_texture(&o.element.name))
-        {
+        let is_texture = |o: &&mut Object<'_>| is_called(o.name, name) && is_texture(&o.element.name);
+        if let Some(object) = self.objects.iter_mut().find(is_texture) {
             object.taken = true;
             let subject = self.subject;
             report.error(
@@ -143,8 +156,18 @@ impl<'a> Properties<'a> {
             );
             return None;
         }
-        let value = self.values.iter_mut().find(|v| v.name == name)?;
+        let exact = self.values.iter().position(|v| v.name == name);
+        let index = exact.or_else(|| self.values.iter().position(|v| !v.taken && is_called(v.name, name)))?;
+        let value = &mut self.values[index];
         value.taken = true;
+        if exact.is_none() {
+            let message = format!(
+                "unknown property {} of \"{}\" is read as \"{name}\"",
+                quoted(value.name),
+                self.subject
+            );
+            report.warning(value.element.value_place("name"), message);
+        }
         let tag = value.element.name.as_str();
         if !tags.contains(&tag) {
             let wanted = tags.first().copied().unwrap_or_default();
@@ -191,7 +214,7 @@ impl<'a> Properties<'a> {
 
     /// Whether the value is there at all, valid or not.
     pub(crate) fn has(&self, name: &str) -> bool {
-        self.values.iter().any(|v| v.name == name)
+        self.values.iter().any(|v| is_called(v.name, name))
     }
 
     /// Whether the value is there, or a texture for it.
@@ -201,7 +224,13 @@ impl<'a> Properties<'a> {
 
     /// Whether the value is there and written as a `<string>`.
     pub(crate) fn is_string(&self, name: &str) -> bool {
-        self.values.iter().any(|v| v.name == name && v.element.name == "string")
+        self.values.iter().any(|v| is_called(v.name, name) && v.element.name == "string")
+    }
+
+    /// Whether the value is there and written as a `<vector>` or `<point>`.
+    pub(crate) fn is_vector(&self, name: &str) -> bool {
+        let is_vector = |element: &Element| matches!(element.name.as_str(), "vector" | "point");
+        self.values.iter().any(|v| is_called(v.name, name) && is_vector(v.element))
     }
 
     /// A point or a vector.
@@ -238,8 +267,16 @@ impl<'a> Properties<'a> {
     /// The texture that stands for a value.
     pub(crate) fn texture(&mut self, name: &'static str) -> Option<Object<'a>> {
         self.asked.push(name);
-        let is_it = |o: &&mut Object<'_>| o.name == name && is_texture(&o.element.name);
+        let is_it =
+            |o: &&mut Object<'_>| is_called(o.name, name) && is_texture(&o.element.name) && !o.is_spectrum();
         let object = self.objects.iter_mut().find(is_it)?;
+        object.taken = true;
+        Some(*object)
+    }
+
+    /// The plugin that stands for a value and is the same everywhere: a spectrum, in Mitsuba a texture as well.
+    pub(crate) fn spectrum_plugin(&mut self, name: &str) -> Option<Object<'a>> {
+        let object = self.objects.iter_mut().find(|o| is_called(o.name, name) && o.is_spectrum())?;
         object.taken = true;
         Some(*object)
     }
@@ -267,9 +304,25 @@ impl<'a> Properties<'a> {
         self.refuse(&of(Kind::Unsupported).collect::<Vec<_>>(), report);
     }
 
+    /// Calls a value or a texture by another name, where nothing has that yet.
+    pub(crate) fn rename(&mut self, old: &str, new: &'static str) {
+        if self.states(new) {
+            return;
+        }
+        self.values.iter_mut().filter(|v| is_called(v.name, old)).for_each(|v| v.name = new);
+        self.objects.iter_mut().filter(|o| is_called(o.name, old)).for_each(|o| o.name = new);
+    }
+
+    /// Takes all that is left, not looked at.
+    pub(crate) fn leave_rest(&mut self) {
+        self.values.iter_mut().for_each(|v| v.taken = true);
+        self.objects.iter_mut().for_each(|o| o.taken = true);
+    }
+
     /// Values that change nothing in our images: taken, not looked at.
     pub(crate) fn ignore(&mut self, names: &[&'static str]) {
-        for value in self.values.iter_mut().filter(|v| names.contains(&v.name)) {
+        let is_one = |value: &&mut Value<'_>| names.iter().any(|name| is_called(value.name, name));
+        for value in self.values.iter_mut().filter(is_one) {
             value.taken = true;
         }
         self.asked.extend(names);
@@ -277,7 +330,8 @@ impl<'a> Properties<'a> {
 
     /// Values that would change the image: an error where they are given, unless they were taken and judged already.
     pub(crate) fn refuse(&mut self, names: &[&'static str], report: &mut Report) {
-        for value in self.values.iter_mut().filter(|v| !v.taken && names.contains(&v.name)) {
+        let is_one = |value: &&mut Value<'_>| names.iter().any(|name| is_called(value.name, name));
+        for value in self.values.iter_mut().filter(|v| !v.taken).filter(is_one) {
             value.taken = true;
             let message = format!("{} of \"{}\" is not supported yet", quoted(value.name), self.subject);
             report.error(value.element.place, message);
@@ -292,10 +346,32 @@ impl<'a> Properties<'a> {
             let hint = report.did_you_mean(value.name, self.asked.iter().copied());
             let place = value.element.value_place("name");
             report.warning(place, format!("unknown property {} of \"{subject}\"{hint}", quoted(value.name)));
+            report.help(self.takes());
         }
         for object in self.objects.iter().filter(|o| !o.taken) {
-            let tag = &object.element.name;
-            report.error(object.place, format!("<{tag}> inside \"{subject}\" is not supported yet"));
+            let (tag, place) = (object.element.name.as_str(), object.place);
+            match tag {
+                "medium" | "phase" | "volume" | "subsurface" => {
+                    report.warning(
+                        place,
+                        format!("<{tag}> inside \"{subject}\" is left out: there are no media yet"),
+                    );
+                }
+                "sampler" | "film" | "rfilter" | "integrator" => {
+                    report.warning(place, format!("<{tag}> inside \"{subject}\" has no effect"));
+                }
+                _ => report.error(place, format!("<{tag}> inside \"{subject}\" is not supported yet")),
+            }
+        }
+    }
+
+    /// What the plugin takes.
+    fn takes(&self) -> String {
+        let names: BTreeSet<_> = self.asked.iter().copied().collect();
+        let names: Vec<_> = names.into_iter().collect();
+        match &names[..] {
+            [] => format!("\"{}\" takes no parameters", self.subject),
+            names => format!("\"{}\" takes {}", self.subject, names.join(", ")),
         }
     }
 
@@ -315,21 +391,4 @@ impl<'a> Properties<'a> {
 
 fn is_texture(tag: &str) -> bool {
     matches!(tag, "texture" | "spectrum")
-}
-
-/// Reports a tag that is neither a value nor a plugin, where it has no business.
-fn report_tag(element: &Element, report: &mut Report) {
-    let tag = element.name.as_str();
-    match tag {
-        "default" | "alias" => {}
-        _ => {
-            let known = VALUE_TAGS
-                .iter()
-                .chain(OBJECT_TAGS)
-                .copied()
-                .chain(["default", "ref", "include", "alias", "path"]);
-            let hint = report.did_you_mean(tag, known);
-            report.error(element.place, format!("unknown element <{}>{hint}", shown(tag)));
-        }
-    }
 }

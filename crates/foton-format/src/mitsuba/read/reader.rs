@@ -1,6 +1,6 @@
 //! Walks a `<scene>` and fills a description; what each plugin means is in the file of its kind.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
 use std::rc::Rc;
 
@@ -17,8 +17,9 @@ use crate::mitsuba::read::attributes::check_attributes;
 use crate::mitsuba::read::ids::Ids;
 use crate::mitsuba::read::include::major_version;
 use crate::mitsuba::read::known::{Materials, Textures};
-use crate::mitsuba::read::properties::Properties;
+use crate::mitsuba::read::properties::{Object, Properties};
 use crate::mitsuba::read::spectrum::Spectrum;
+use crate::mitsuba::read::usage;
 use crate::opened::SceneNodes;
 use crate::spelling::did_you_mean;
 use crate::suggested::Suggested;
@@ -40,11 +41,15 @@ pub(crate) struct Reader<'a> {
     pub(crate) nodes: SceneNodes,
     /// Area emitters of the scene itself, and whether a shape refers to them.
     pub(crate) loose_areas: HashMap<NodeId, bool>,
+    /// A film and a filter that stand in no sensor: those without take them.
+    pub(crate) loose_film: Option<Object<'a>>,
+    pub(crate) loose_filter: Option<Object<'a>>,
 }
 
 impl<'a> Reader<'a> {
     pub(crate) fn new(document: &'a Document, files: Files<'a>, mut report: Report) -> Self {
         let ids = Ids::collect(document, &mut report);
+        report.parts(usage::parts(document, &ids));
         Self {
             document,
             ids,
@@ -59,6 +64,8 @@ impl<'a> Reader<'a> {
             suggested: Suggested::default(),
             nodes: SceneNodes::default(),
             loose_areas: HashMap::new(),
+            loose_film: None,
+            loose_filter: None,
         }
     }
 
@@ -68,10 +75,10 @@ impl<'a> Reader<'a> {
         if !self.check_root(root) {
             return;
         }
-        for (_, reference) in self.document.elements_in(root).filter(|(_, e)| e.name == "ref") {
-            self.report.error(reference.place, "<ref> directly inside the scene is not supported yet");
-        }
+        self.refuse_references(root);
         let mut contents = Properties::of(self.document, &self.ids, root, "scene", &mut self.report);
+        self.loose_film = self.only_one(contents.nested("film"), "film");
+        self.loose_filter = self.only_one(contents.nested("rfilter"), "rfilter");
         let integrators = contents.nested("integrator");
         if let Some(second) = integrators.get(1) {
             self.report.error(second.place, "a scene has only one integrator");
@@ -82,11 +89,10 @@ impl<'a> Reader<'a> {
         for sensor in contents.nested("sensor") {
             self.sensor(sensor.node);
         }
+        self.say_loose();
         // Samplers do not change what an image converges to.
         contents.nested("sampler");
-        for texture in contents.nested("texture") {
-            self.texture(texture);
-        }
+        let textures = contents.nested("texture");
         for bsdf in contents.nested("bsdf") {
             self.material(bsdf.node);
         }
@@ -103,6 +109,9 @@ impl<'a> Reader<'a> {
             }
             self.shape(shape.node);
         }
+        for texture in textures {
+            self.unused_texture(texture);
+        }
         for emitter in emitters.iter().filter(|e| self.loose_areas.get(&e.node) == Some(&false)) {
             self.report.warning(emitter.place, "this area emitter belongs to no shape and lights nothing");
         }
@@ -111,6 +120,27 @@ impl<'a> Reader<'a> {
             let place = self.document.element(root).map_or_else(Default::default, |e| e.place);
             self.report.warning(place, "the scene has no sensor");
         }
+    }
+
+    /// References directly inside the scene would have it twice what they mean, unless that has an effect only where it is used.
+    fn refuse_references(&mut self, root: NodeId) {
+        let has_effect = |node| {
+            let target = self.document.element(node).map_or("", |e| e.name.as_str());
+            matches!(target, "shape" | "emitter" | "sensor" | "integrator")
+        };
+        for (_, reference) in self.document.elements_in(root).filter(|(_, e)| e.name == "ref") {
+            if self.ids.target(reference).is_some_and(has_effect) {
+                self.report.error(reference.place, "<ref> directly inside the scene is not supported yet");
+            }
+        }
+    }
+
+    /// The first of some plugins; an error where there are more.
+    pub(crate) fn only_one(&mut self, found: Vec<Object<'a>>, what: &str) -> Option<Object<'a>> {
+        if let Some(second) = found.get(1) {
+            self.report.error(second.place, format!("a scene has only one {what}"));
+        }
+        found.into_iter().next()
     }
 
     /// Whether the root is a scene of a version that is read.
@@ -146,7 +176,28 @@ impl<'a> Reader<'a> {
             format!("unknown {kind} {}{hint}", quoted(name))
         };
         self.report.error(attribute.value_place, message);
+        let supported: BTreeSet<_> = supported.into_iter().collect();
+        let names = supported.into_iter().collect::<Vec<_>>().join(", ");
+        self.report.help(format!("the {kind} plugins that foton reads are {names}"));
         None
+    }
+
+    /// The plugin that an element names, or the one that stands for those that are not read, with a warning.
+    pub(crate) fn replaceable(
+        &mut self,
+        element: &Element,
+        plugins: &Plugins,
+        instead: &'static str,
+    ) -> &'static str {
+        let Some(attribute) = element.attribute("type").filter(|t| !t.broken) else { return instead };
+        let supported = (plugins.supported)();
+        if let Some(known) = supported.iter().find(|s| **s == attribute.value) {
+            return known;
+        }
+        let (kind, name) = (plugins.kind, quoted(&attribute.value));
+        let message = format!("{kind} {name} is not supported, \"{instead}\" stands for it");
+        self.report.warning(attribute.value_place, message);
+        instead
     }
 
     /// The id of an element, or `kind` and the number in its list. What is not printable in an id is escaped, and a very long one

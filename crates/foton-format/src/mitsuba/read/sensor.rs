@@ -11,7 +11,7 @@ use foton_scene::plugins::sensors::{
 use crate::diagnostic::Place;
 use crate::mitsuba::document::NodeId;
 use crate::mitsuba::names::{FILMS, FILTERS, SENSORS};
-use crate::mitsuba::read::properties::{Located, Properties};
+use crate::mitsuba::read::properties::{Located, Object, Properties};
 use crate::mitsuba::read::reader::Reader;
 use crate::mitsuba::read::transform::even_scale;
 
@@ -44,6 +44,12 @@ impl Reader<'_> {
         let (near_clip, far_clip) = self.clips(&mut p);
         let lens = (plugin == THINLENS.name).then(|| self.lens(&mut p, far_clip));
         let film = self.films(&mut p);
+        if plugin == PERSPECTIVE.name
+            && let Some(focus) = p.number(FOCUS_DISTANCE.name, &mut self.report)
+        {
+            let message = "a pinhole camera shows everything sharp: \"focus_distance\" has no effect";
+            self.report.warning(focus.place, message);
+        }
         p.nested("sampler");
         self.refuse_shift(&mut p, "principal_point_offset_x");
         self.refuse_shift(&mut p, "principal_point_offset_y");
@@ -182,13 +188,30 @@ impl Reader<'_> {
         if let Some(second) = films.get(1) {
             self.report.error(second.place, "a sensor has only one film");
         }
-        let film = films.first().and_then(|film| self.film(film.node));
-        film.unwrap_or(Film { width: 768, height: 576, crop: None, filter: DEFAULT_FILTER })
+        // What stands beside a film instead of inside of it is meant for it.
+        let filter = p.nested("rfilter").first().copied().or(self.loose_filter);
+        if let Some(film) = films.first().copied().or(self.loose_film)
+            && let Some(film) = self.film(film.node, filter)
+        {
+            return film;
+        }
+        let filter = filter.and_then(|filter| self.filter(filter.node)).unwrap_or(DEFAULT_FILTER);
+        Film { width: 768, height: 576, crop: None, filter }
     }
 
-    fn film(&mut self, node: NodeId) -> Option<Film> {
+    /// Says what became of a film and a filter that stand in no sensor.
+    pub(crate) fn say_loose(&mut self) {
+        for loose in [self.loose_film, self.loose_filter].into_iter().flatten() {
+            let tag = &loose.element.name;
+            let message = format!("this {tag} stands in no sensor; sensors that have none take it");
+            self.report.warning(loose.place, message);
+        }
+    }
+
+    /// A film; `filter` is its filter where it has none inside.
+    fn film(&mut self, node: NodeId, filter: Option<Object<'_>>) -> Option<Film> {
         let element = self.document.element(node)?;
-        let plugin = self.plugin(element, &FILMS)?;
+        let plugin = self.replaceable(element, &FILMS, "hdrfilm");
         let mut p = self.properties(node, plugin);
         let width = self.pixels(&mut p, "width", 768);
         let height = self.pixels(&mut p, "height", 576);
@@ -200,6 +223,8 @@ impl Reader<'_> {
             "file_format",
             "pixel_format",
             "component_format",
+            "gamma",
+            "exposure",
             "banner",
             "attach_log",
             "compensate",
@@ -210,7 +235,7 @@ impl Reader<'_> {
         if let Some(second) = filters.get(1) {
             self.report.error(second.place, "a film has only one rfilter");
         }
-        let filter = filters.first().and_then(|filter| self.filter(filter.node));
+        let filter = filters.first().copied().or(filter).and_then(|filter| self.filter(filter.node));
         p.finish(&mut self.report);
         Some(Film { width, height, crop, filter: filter.unwrap_or(DEFAULT_FILTER) })
     }
@@ -243,7 +268,10 @@ impl Reader<'_> {
 
     fn filter(&mut self, node: NodeId) -> Option<Filter> {
         let element = self.document.element(node)?;
-        let plugin = self.plugin(element, &FILTERS)?;
+        let plugin = self.replaceable(element, &FILTERS, "gaussian");
+        if element.attribute("type").is_none_or(|t| t.value != plugin) {
+            return Some(DEFAULT_FILTER);
+        }
         let mut p = self.properties(node, plugin);
         let filter = match plugin {
             "box" => Filter::Box { radius: 0.5 },

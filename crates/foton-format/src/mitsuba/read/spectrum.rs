@@ -15,6 +15,9 @@ pub(crate) struct Spectrum(Vec<(f64, f64)>);
 impl Spectrum {
     /// `400:0.1, 700:0.9`.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
+        // A colon may have space around it.
+        let parts: Vec<&str> = text.split(':').map(str::trim).collect();
+        let text = parts.join(":");
         let pairs = text.split(|c: char| c == ',' || c.is_whitespace()).filter(|t| !t.is_empty());
         let pair = |pair: &str| {
             let (wavelength, value) = pair.split_once(':').ok_or_else(|| {
@@ -22,7 +25,7 @@ impl Spectrum {
             })?;
             Ok((values::number(wavelength)?, values::number(value)?))
         };
-        Self::new(pairs.map(pair).collect::<Result<_, String>>()?)
+        Self::of_points(pairs.map(pair).collect::<Result<_, String>>()?)
     }
 
     /// A file: a wavelength and a value a line; lines that begin with `#` are comments.
@@ -34,10 +37,25 @@ impl Spectrum {
             Ok(&[wavelength, value]) => Ok((wavelength, value)),
             _ => Err(format!("it is no spectrum: line {number} is not a wavelength and a value")),
         };
-        Self::new(lines.map(pair).collect::<Result<_, String>>()?)
+        Self::of_points(lines.map(pair).collect::<Result<_, String>>()?)
     }
 
-    fn new(points: Vec<(f64, f64)>) -> Result<Self, String> {
+    /// The radiance of a black body of so many kelvin, in watts per square metre, steradian and nanometre: Planck's law.
+    pub(crate) fn of_black_body(kelvin: f64) -> Self {
+        /// The speed of light in m/s, Planck's constant in J s, and Boltzmann's in J/K.
+        const C: f64 = 299_792_458.0;
+        const H: f64 = 6.626_070_15e-34;
+        const K: f64 = 1.380_649e-23;
+        let radiance = |nm: f64| {
+            let lambda = nm * 1e-9;
+            2.0 * H * C * C / lambda.powi(5) / (H * C / (lambda * K * kelvin)).exp_m1() * 1e-9
+        };
+        let wavelengths = FIRST_NM..=FIRST_NM + 5 * (TABLE.len() as u32 - 1);
+        Self(wavelengths.map(f64::from).map(|nm| (nm, radiance(nm))).collect())
+    }
+
+    /// Values at wavelengths in nm, at least two, which grow.
+    pub(crate) fn of_points(points: Vec<(f64, f64)>) -> Result<Self, String> {
         if points.len() < 2 {
             return Err(format!("a spectrum needs two wavelengths or more, not {}", points.len()));
         }
@@ -225,6 +243,21 @@ mod tests {
         let uneven = Spectrum::parse_file("# x\n300 0.5\n400 1\n\n500 0.3\n900 2").unwrap();
         assert_close(uneven.lit(), [0.937_104, 0.438_221, 0.632_585]);
         assert_close(uneven.emitted(), [1.089_672, 0.415_851, 0.586_876]);
+    }
+
+    #[test]
+    fn black_bodies_are_those_of_mitsuba() {
+        // Integrals over what Mitsuba 3.9.1 says of them from 360 to 830 nm.
+        for (kelvin, wanted) in [
+            (2000.0, [16.014_2, 4.111_809, 0.130_369]),
+            (5000.0, [15_263.054, 12_082.584, 9_592.587]),
+            (6500.0, [43_918.658, 41_407.22, 43_582.869]),
+        ] {
+            let found = Spectrum::of_black_body(kelvin).emitted();
+            for (a, b) in found.to_array().iter().zip(wanted) {
+                assert!((a / b - 1.0).abs() < 1e-3, "{found:?} is not {wanted:?}");
+            }
+        }
     }
 
     #[test]

@@ -157,6 +157,14 @@ impl Parameters {
                 let (name, few) = (&after[..end], self.known.len() <= MAX_NAMES);
                 let names = self.known.keys().filter(|_| few).map(String::as_str);
                 let hint = report.did_you_mean(name, names).replacen('"', "\"$", 1);
+                let hint = if hint.is_empty() {
+                    format!(
+                        ": give it a value by -D {}=VALUE, or by a <default> before this place",
+                        shown(name)
+                    )
+                } else {
+                    hint
+                };
                 let name = quoted(&format!("${name}"));
                 report.error(place, format!("unknown parameter {name}{hint}"));
             }
@@ -171,9 +179,8 @@ impl Parameters {
 mod tests {
     use std::path::Path;
 
-    use foton_math::Cancel;
-
     use super::*;
+    use crate::Options;
     use crate::files::Files;
     use crate::limits::Budget;
     use crate::mitsuba::read::include::expand;
@@ -187,7 +194,7 @@ mod tests {
         let document = expand(
             &document,
             &defines,
-            &mut Files::new(&no_files, &Cancel::default(), Budget::new(None)),
+            &mut Files::new(&no_files, &Options::default(), Budget::new(None)),
             &mut report,
         )
         .document;
@@ -215,7 +222,8 @@ mod tests {
     #[test]
     fn a_default_counts_only_after_its_place_but_a_define_everywhere() {
         let xml = "<a v='$size'/><default name='size' value='1'/>";
-        assert_eq!(last(xml, &[]).1, ["s:1:14: unknown parameter \"$size\""]);
+        let said = "s:1:14: unknown parameter \"$size\": give it a value by -D size=VALUE, or by a <default> before this place";
+        assert_eq!(last(xml, &[]).1, [said]);
         assert_eq!(last("<a v='$size'/>", &[("size", "3")]), ("3".to_owned(), vec![]));
     }
 

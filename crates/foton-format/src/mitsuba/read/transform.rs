@@ -20,7 +20,7 @@ pub(crate) fn read(document: &Document, node: NodeId, report: &mut Report) -> Op
             "rotate" => rotate(element, report),
             "scale" => scale(element, report),
             "matrix" => matrix(element, report),
-            "lookat" => look_at(element, report),
+            "lookat" | "lookAt" => look_at(element, report),
             tag => {
                 let hint = did_you_mean(tag, STEPS.iter().copied());
                 report.error(element.place, format!("unknown step <{}> of a transform{hint}", shown(tag)));

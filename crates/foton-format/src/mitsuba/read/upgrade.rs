@@ -5,25 +5,71 @@
 
 use foton_scene::description::Bsdf;
 
-use crate::mitsuba::document::Element;
+use crate::mitsuba::document::{Attribute, Element};
+
+/// Tags that were other ones.
+const TAGS: [(&str, &str); 3] = [("lookAt", "lookat"), ("camera", "sensor"), ("luminaire", "emitter")];
+
+/// Plugins that had other names, by their tag.
+const PLUGINS: [(&str, &str, &str); 11] = [
+    // Both are images; ours is written as the command line says.
+    ("film", "ldrfilm", "hdrfilm"),
+    ("film", "pngfilm", "hdrfilm"),
+    ("film", "exrfilm", "hdrfilm"),
+    ("bsdf", "lambertian", "diffuse"),
+    ("bsdf", "mirror", "conductor"),
+    ("bsdf", "roughmetal", "roughconductor"),
+    ("bsdf", "roughglass", "roughdielectric"),
+    ("bsdf", "microfacet", "roughplastic"),
+    ("bsdf", "composite", "mixturebsdf"),
+    ("texture", "ldrtexture", "bitmap"),
+    ("texture", "exrtexture", "bitmap"),
+];
+
+/// Parameters of other plugins than BSDFs that had other names.
+const PARAMETERS: [(&str, &str, &str); 4] = [
+    ("area", "intensity", "radiance"),
+    ("constant", "intensity", "radiance"),
+    ("directional", "intensity", "irradiance"),
+    ("envmap", "intensity_scale", "scale"),
+];
 
 /// Renames what stands in an element of an old file; `parent` is the plugin around it.
 pub(crate) fn element(element: &mut Element, parent: &str) {
+    if let Some((_, now)) = TAGS.iter().find(|(once, _)| *once == element.name) {
+        (*now).clone_into(&mut element.name);
+    }
     match element.name.as_str() {
-        "lookAt" => element.name = "lookat".to_owned(),
         "default" => return,
-        "film" => {
-            let kind = element.attributes.iter_mut().find(|a| a.name == "type" && a.value == "ldrfilm");
-            // Both are images; ours is written as the command line says.
-            kind.into_iter().for_each(|kind| kind.value = "hdrfilm".to_owned());
-        }
+        "lookat" => gather_points(element),
         _ => {}
+    }
+    let tag = element.name.as_str();
+    if let Some(kind) = element.attributes.iter_mut().find(|a| a.name == "type")
+        && let Some((.., now)) = PLUGINS.iter().find(|(of, once, _)| *of == tag && *once == kind.value)
+    {
+        (*now).clone_into(&mut kind.value);
     }
     for attribute in element.attributes.iter_mut().filter(|a| a.name == "name") {
         attribute.value = snake_case(&attribute.value);
-        if let Some(name) = name_now(parent, &attribute.value) {
+        let known = PARAMETERS.iter().find(|(of, once, _)| *of == parent && *once == attribute.value);
+        if let Some(name) = known.map(|(.., now)| *now).or_else(|| name_now(parent, &attribute.value)) {
             attribute.value = name.to_owned();
         }
+    }
+}
+
+/// `ox`, `oy` and `oz` of the oldest files to `origin`, and so on.
+fn gather_points(element: &mut Element) {
+    for (name, letter) in [("origin", 'o'), ("target", 't'), ("up", 'u')] {
+        let axes = ["x", "y", "z"].map(|axis| format!("{letter}{axis}"));
+        let [Some(x), Some(y), Some(z)] = axes.each_ref().map(|axis| element.attribute(axis).cloned()) else {
+            continue;
+        };
+        element.attributes.retain(|a| !axes.contains(&a.name));
+        let value = format!("{} {} {}", x.value, y.value, z.value);
+        let broken = x.broken || y.broken || z.broken;
+        element.attributes.push(Attribute { name: name.to_owned(), value, broken, ..x });
     }
 }
 

@@ -19,9 +19,9 @@ pub(crate) fn integer(text: &str) -> Result<i64, String> {
 
 /// `true` or `false`, in any case.
 pub(crate) fn boolean(text: &str) -> Result<bool, String> {
-    match text {
-        _ if text.eq_ignore_ascii_case("true") => Ok(true),
-        _ if text.eq_ignore_ascii_case("false") => Ok(false),
+    match text.trim() {
+        text if text.eq_ignore_ascii_case("true") => Ok(true),
+        text if text.eq_ignore_ascii_case("false") => Ok(false),
         _ => Err(format!("{} is neither \"true\" nor \"false\"", quoted(text))),
     }
 }

@@ -13,6 +13,7 @@ use super::materials;
 use super::pairs::Pairs;
 use super::tree::Obstacle;
 use crate::mitsuba::document::{Document, Element, NodeId};
+use crate::mitsuba::names::is_called;
 use crate::mitsuba::write::xml::{colour, matrix, number, single, vector};
 use crate::opened::MitsubaScene;
 
@@ -85,7 +86,7 @@ impl<'a> Changes<'a> {
         }
         let matrix = self.document.build("matrix", &[("value", &matrix(to_world))], Vec::new())?;
         let new = self.document.build("transform", &[("name", "to_world")], vec![matrix])?;
-        let is_old = |e: &Element| e.attribute("name").is_some_and(|a| a.value == "to_world");
+        let is_old = |e: &Element| e.attribute("name").is_some_and(|a| is_called(&a.value, "to_world"));
         self.document.replace_child(node, is_old, Some(new));
         Ok(())
     }

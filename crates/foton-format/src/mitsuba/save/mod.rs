@@ -88,7 +88,7 @@ fn changed_text(opened: &Opened, edited: &SceneDescription, path: &Path) -> Resu
     set_defaults(&mut document, &opened.options)?;
     let text = document.text();
     let mut report = Report::new(&path.to_string_lossy(), path.parent().unwrap_or(Path::new("")));
-    report.main_text(&text);
+    report.main_text(&text, false);
     // Defaults say what parameters did; the memory is that of opening it.
     let options = Options { defines: Vec::new(), ..opened.options.clone() };
     let again = read(report, &text, &|file| options.read(file, Named::ByFile), &options);

@@ -96,6 +96,7 @@ fn same_mesh(a: &Mesh, b: &Mesh) -> bool {
     a.triangles == b.triangles
         && a.positions == b.positions
         && a.texture_coordinates == b.texture_coordinates
+        && a.attributes == b.attributes
         && a.normals.len() == b.normals.len()
         && a.normals.iter().zip(&b.normals).all(near)
 }
@@ -149,15 +150,23 @@ fn same_colour((a, x): (&SceneDescription, Colour), (b, y): (&SceneDescription, 
     match (x, y) {
         (Colour::Constant(x), Colour::Constant(y)) => x == y,
         (Colour::Texture(x), Colour::Texture(y)) => {
-            a.textures.get(x).zip(b.textures.get(y)).is_some_and(|(x, y)| same_texture(x, y))
+            a.textures.get(x).zip(b.textures.get(y)).is_some_and(|(x, y)| same_texture((a, x), (b, y)))
         }
         _ => false,
     }
 }
 
-fn same_texture(a: &Texture, b: &Texture) -> bool {
+type TextureOf<'a> = (&'a SceneDescription, &'a Texture);
+
+fn same_texture((in_a, a): TextureOf<'_>, (in_b, b): TextureOf<'_>) -> bool {
     let kind = match (&a.kind, &b.kind) {
-        (TextureKind::Checkerboard { colours: x }, TextureKind::Checkerboard { colours: y }) => x == y,
+        (TextureKind::Checkerboard { colours: x }, TextureKind::Checkerboard { colours: y }) => {
+            x.iter().zip(y).all(|(x, y)| same_colour((in_a, *x), (in_b, *y)))
+        }
+        (
+            TextureKind::Attribute { name: x, scale: s, most: m },
+            TextureKind::Attribute { name: y, scale: t, most: n },
+        ) => (x, s, m) == (y, t, n),
         (
             TextureKind::Bitmap { bitmap: x, wrap: v, bilinear: s },
             TextureKind::Bitmap { bitmap: y, wrap: w, bilinear: t },

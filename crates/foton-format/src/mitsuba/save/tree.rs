@@ -6,6 +6,7 @@ use std::fmt::Write;
 
 use crate::diagnostic::Place;
 use crate::mitsuba::document::{Attribute, Document, Element, Node, NodeId};
+use crate::mitsuba::names::is_called;
 
 /// Why a document cannot be changed as wanted.
 pub(super) type Obstacle = String;
@@ -123,7 +124,7 @@ impl Document {
         value: Option<&str>,
     ) -> Result<(), Obstacle> {
         let new = value.map(|v| self.build(tag, &[("name", name), ("value", v)], Vec::new())).transpose()?;
-        self.replace_child(parent, |e| e.attribute("name").is_some_and(|a| a.value == name), new);
+        self.replace_child(parent, |e| e.attribute("name").is_some_and(|a| is_called(&a.value, name)), new);
         Ok(())
     }
 

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use foton_math::glam::{DVec2, DVec3};
-use foton_scene::description::Mesh;
+use foton_scene::description::{Attribute, Mesh};
 
 /// Whether two meshes are the same, number by number.
 pub(crate) fn same(a: &Mesh, b: &Mesh) -> bool {
@@ -11,11 +11,12 @@ pub(crate) fn same(a: &Mesh, b: &Mesh) -> bool {
         && a.positions == b.positions
         && a.normals == b.normals
         && a.texture_coordinates == b.texture_coordinates
+        && a.attributes == b.attributes
 }
 
 /// Writes a mesh.
 pub(crate) fn write_ply(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
-    let Mesh { positions, normals, texture_coordinates, triangles } = mesh;
+    let Mesh { positions, normals, texture_coordinates, triangles, .. } = mesh;
     let is_narrow = positions.iter().chain(normals).all(|v| v.to_array().into_iter().all(is_single))
         && texture_coordinates.iter().all(|v| v.to_array().into_iter().all(is_single));
     let kind = if is_narrow { "float" } else { "double" };
@@ -26,12 +27,13 @@ pub(crate) fn write_ply(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     for name in names {
         writeln!(out, "property {kind} {name}")?;
     }
+    let of_vertices: Vec<&Attribute> = mesh.attributes.iter().filter(|a| !a.is_of_faces()).collect();
+    let of_faces: Vec<&Attribute> = mesh.attributes.iter().filter(|a| a.is_of_faces()).collect();
+    declare(&of_vertices, "vertex_", out)?;
     let index = if i32::try_from(positions.len()).is_ok() { "int" } else { "uint" };
-    writeln!(
-        out,
-        "element face {}\nproperty list uchar {index} vertex_indices\nend_header",
-        triangles.len()
-    )?;
+    writeln!(out, "element face {}\nproperty list uchar {index} vertex_indices", triangles.len())?;
+    declare(&of_faces, "face_", out)?;
+    writeln!(out, "end_header")?;
     for (i, position) in positions.iter().enumerate() {
         let normal = normals.get(i).map(DVec3::to_array);
         let uv = texture_coordinates.get(i).map(DVec2::to_array);
@@ -40,11 +42,34 @@ pub(crate) fn write_ply(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
         for value in position.to_array().iter().chain(normal).chain(uv) {
             write_number(*value, is_narrow, out)?;
         }
+        write_attributes(&of_vertices, i, out)?;
     }
-    for triangle in triangles {
+    for (i, triangle) in triangles.iter().enumerate() {
         out.write_all(&[3])?;
         for corner in triangle {
             out.write_all(&corner.to_le_bytes())?;
+        }
+        write_attributes(&of_faces, i, out)?;
+    }
+    Ok(())
+}
+
+/// Lines of the header for attributes whose names begin with a prefix.
+fn declare(attributes: &[&Attribute], prefix: &str, out: &mut impl Write) -> io::Result<()> {
+    for attribute in attributes {
+        let name = attribute.name.strip_prefix(prefix).unwrap_or(&attribute.name);
+        for channel in 0..attribute.channels {
+            writeln!(out, "property float {name}_{channel}")?;
+        }
+    }
+    Ok(())
+}
+
+fn write_attributes(attributes: &[&Attribute], index: usize, out: &mut impl Write) -> io::Result<()> {
+    for attribute in attributes {
+        let channels = attribute.channels;
+        for value in &attribute.values[index * channels..(index + 1) * channels] {
+            out.write_all(&value.to_le_bytes())?;
         }
     }
     Ok(())

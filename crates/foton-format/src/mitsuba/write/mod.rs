@@ -185,7 +185,7 @@ impl<'a> Writer<'a> {
             return Ok(file.clone());
         }
         let (file, path) = self.file(TEXTURES, name, "exr")?;
-        let Bitmap { width, height, pixels } = &**bitmap;
+        let Bitmap { width, height, pixels, .. } = &**bitmap;
         let image = Image { width: *width, height: *height, pixels: pixels.clone() };
         write_exr(&path, &image, &[], &Metadata::default())?;
         self.bitmaps.insert(key, file.clone());

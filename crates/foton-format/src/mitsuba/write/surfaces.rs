@@ -39,9 +39,15 @@ impl Writer<'_> {
             TextureKind::Checkerboard { colours } => {
                 let xml = &mut self.xml;
                 xml.open("texture", &[("type", textures::CHECKERBOARD.name), ("id", &id)]);
-                xml.value("rgb", textures::COLOR0.name, &colour(colours[0]));
-                xml.value("rgb", textures::COLOR1.name, &colour(colours[1]));
                 xml.transform(textures::TO_UV.name, &in_space(texture.to_uv));
+                self.colour(textures::COLOR0.name, colours[0]);
+                self.colour(textures::COLOR1.name, colours[1]);
+            }
+            TextureKind::Attribute { name, scale, .. } => {
+                let xml = &mut self.xml;
+                xml.open("texture", &[("type", textures::MESH_ATTRIBUTE.name), ("id", &id)]);
+                xml.value("string", textures::NAME.name, name);
+                xml.value("float", textures::ATTRIBUTE_SCALE.name, &single(*scale));
             }
         }
         self.xml.close("texture");
@@ -62,7 +68,7 @@ impl Writer<'_> {
             }
         }
         match material.back {
-            Some(back) if !material.front.transmits() => {
+            Some(back) if !material.front.has_two_sides() => {
                 let mut outer = vec![("type", wrappers::TWOSIDED.name)];
                 outer.append(&mut attributes);
                 self.xml.open("bsdf", &outer);
@@ -161,7 +167,7 @@ pub(crate) fn stated(binding: &Binding<'_>) -> Vec<Stated> {
             Kind::Choice(words) => vec![of("string", name, words[**i].to_owned())],
             _ => Vec::new(),
         },
-        Slot::Refraction(ior) => vec![of("float", name, single(**ior))],
+        Slot::Refraction(ior) | Slot::Reflectivity(ior) => vec![of("float", name, single(**ior))],
         Slot::Boolean(flag) => vec![of("boolean", name, flag.to_string())],
         Slot::Metal { eta, k } => vec![of("rgb", "eta", colour(**eta)), of("rgb", "k", colour(**k))],
         Slot::Roughness(Some(r)) => {

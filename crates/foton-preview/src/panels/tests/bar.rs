@@ -134,6 +134,30 @@ fn notices_go_and_errors_stay_until_they_are_closed() {
 }
 
 #[test]
+fn lines_of_a_file_stand_letter_below_letter_in_a_message() {
+    let marks = format!("  |{}^^^^^", " ".repeat(15));
+    let line = "3 | <iiiiiiiiii='WWWWW'";
+    let text =
+        format!("ruin.xml:3:14: unknown\n  |\n{line}\n{marks}\n  = help: there is more\nruin.xml:4:1: other");
+    let mut harness = window(|state| state.hear(Event::Failed(text)));
+    assert!(harness.query_by_label("ruin.xml:4:1: other").is_some());
+    assert_eq!(line.len(), marks.len());
+    let [line, marks] = [line, &marks].map(|text| harness.get_by_label(text).rect());
+    assert!((line.width() - marks.width()).abs() < 0.5 && line.left() == marks.left(), "{line} {marks}");
+    assert!(line.bottom() <= marks.top() + 0.5);
+    click(&mut harness, Role::Button, "Dismiss");
+    assert!(harness.state().messages.is_empty());
+}
+
+#[test]
+fn messages_of_very_many_lines_stay_in_the_window() {
+    let text = (0..1000).map(|i| format!("ruin.xml:{i}:1: unknown\n")).collect::<String>();
+    let mut harness = window(|state| state.hear(Event::Failed(text)));
+    click(&mut harness, Role::Button, "Dismiss");
+    assert!(harness.state().messages.is_empty());
+}
+
+#[test]
 fn the_same_message_again_is_counted_and_not_piled_up() {
     let fail = |state: &mut State| state.hear(Event::Failed("no scene can be made of it".into()));
     let mut harness = window(|state| (0..7).for_each(|_| fail(state)));

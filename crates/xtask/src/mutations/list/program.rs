@@ -87,8 +87,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "what makes no scene has its place",
         file: "crates/foton/src/console/failure.rs",
-        from: "Self::Build(opened.finding(Severity::Error, scene, cause.part(), cause.to_string()))",
-        to: "Self::Build(opened.finding(Severity::Error, scene, None, cause.to_string()))",
+        from: "Self::Build(Box::new(opened.finding(Severity::Error, scene, cause.part(), cause.to_string())))",
+        to: "Self::Build(Box::new(opened.finding(Severity::Error, scene, None, cause.to_string())))",
         target: CLI,
         test: "what_single_precision_does_not_hold_is_said_with_its_place",
     },

@@ -79,7 +79,7 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "texture coordinates beyond all fractions are zero",
-        file: "crates/foton-scene/src/texture.rs",
+        file: "crates/foton-scene/src/texture/mod.rs",
         from: "if uv.abs().max_element() < FARTHEST { uv } else { Vec2::ZERO }",
         to: "uv",
         target: SCENE,
