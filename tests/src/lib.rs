@@ -57,6 +57,7 @@ impl Sketch {
         self.0.materials.push(Material { name: name.clone(), front, back: None, opacity: None });
         let material = self.0.materials.len() - 1;
         let flip_normals = false;
+        let radiance = radiance.map(Into::into);
         self.0.shapes.push(ShapeDescription { name, geometry, to_world, flip_normals, material, radiance });
         self
     }

@@ -153,7 +153,7 @@ pub(crate) fn add(
 }
 
 /// The surface of a thing that has one.
-fn surface(thing: NewThing, site: Site) -> Option<(Geometry, DAffine3, Option<Rgb>)> {
+fn surface(thing: NewThing, site: Site) -> Option<(Geometry, DAffine3, Option<Colour>)> {
     let half = site.half();
     let mesh = |mesh, turn: DMat3, size: f64, at: DVec3| {
         let to_world = DAffine3::from_mat3_translation(turn * size, at);
@@ -173,7 +173,7 @@ fn surface(thing: NewThing, site: Site) -> Option<(Geometry, DAffine3, Option<Rg
             let radiance = BRIGHTNESS * std::f64::consts::PI * height * height / area;
             let (geometry, to_world, _) =
                 mesh(Mesh::rectangle(), site.stand(DVec3::NEG_Z), side, site.above(HIGH))?;
-            Some((geometry, to_world, Some(Rgb::splat(radiance as f32))))
+            Some((geometry, to_world, Some(Rgb::splat(radiance as f32).into())))
         }
         _ => None,
     }
@@ -242,7 +242,8 @@ pub(crate) fn import(
     for shape in &from.shapes {
         let name = names::free(description, &shape.name);
         let material = shape.material + materials;
-        description.shapes.push(ShapeDescription { name, material, ..shape.clone() });
+        let radiance = shape.radiance.map(moved);
+        description.shapes.push(ShapeDescription { name, material, radiance, ..shape.clone() });
     }
     stand(&mut description.shapes[first..], site);
     (description.shapes.len() > first).then_some(Target::Shape(first))

@@ -63,7 +63,7 @@ fn scene() -> SceneDescription {
     let floor = DAffine3::from_mat3(flat);
     let ball = Geometry::Sphere { centre: DVec3::new(0.0, 1.0, 0.0), radius: 1.0 };
     let mut lamp = shape("lamp", Geometry::Disc, DAffine3::from_translation(DVec3::new(-2.0, 3.0, -2.0)), 0);
-    lamp.radiance = Some(Rgb::new(2.0, 1.0, 0.5));
+    lamp.radiance = Some(Rgb::new(2.0, 1.0, 0.5).into());
     let light = |name: &str, kind| EmitterDescription { name: name.into(), kind };
     SceneDescription {
         sensors: vec![sensor(looking(DVec3::new(1.0, 3.0, 8.0), DVec3::new(0.0, 0.5, 0.0), DVec3::Y))],

@@ -203,7 +203,9 @@ fn shapes(materials: usize) -> Vec<ShapeDescription> {
         to_world: if i % 4 < 2 { odd_transform() } else { odd_transform() * mirror },
         flip_normals: i.is_multiple_of(3),
         material: i % materials,
-        radiance: i.is_multiple_of(5).then(|| Rgb::new(0.1, 1e-12, 1e12)),
+        radiance: i
+            .is_multiple_of(5)
+            .then(|| if i == 5 { Colour::Texture(1) } else { Rgb::new(0.1, 1e-12, 1e12).into() }),
     };
     (0..24).map(shape).collect()
 }

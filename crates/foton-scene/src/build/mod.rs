@@ -13,18 +13,19 @@ mod textures;
 
 use std::sync::Arc;
 
-use foton_math::Aabb;
 use foton_math::glam::{DVec3, Vec3};
+use foton_math::{Aabb, Rgb};
 
 use crate::coincident::Coincidences;
-use crate::description::{SceneDescription, SensorDescription, ShapeDescription};
+use crate::description::{Colour, SceneDescription, SensorDescription, ShapeDescription};
 use crate::emitter::{Aim, Area, Emitter, Kind};
 use crate::normalise::Normalisation;
 use crate::scene::{Moving, Part, Scene, Shape};
 use crate::sensor::Sensor;
 use crate::texture::{Sampler, samplers};
 use checks::{
-    check_described_emitters, check_emitters, check_material, check_sensors, shape_bounds, world_bounds,
+    check_described_emitters, check_emitters, check_material, check_radiance, check_sensors, shape_bounds,
+    world_bounds,
 };
 use emitters::{ball, emitter_choice, unattached_emitter};
 pub use error::BuildError;
@@ -85,6 +86,9 @@ impl Scene {
             gathered.census.textures |= material.textures().next().is_some();
             gathered.census.anisotropy |= material.is_anisotropic();
         }
+        for shape in &description.shapes {
+            gathered.census.textures |= check_radiance(shape, &textures)?;
+        }
         let (shapes, emitters) = (Vec::new(), Vec::new());
         // Attributes of meshes come later: nothing here asks for their values.
         let samplers_so_far = samplers(&description.textures, &vec![None; description.textures.len()]);
@@ -96,6 +100,9 @@ impl Scene {
         let Parts { mut gathered, shapes, mut emitters, casters, .. } = parts;
         let bounds = gathered.primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
         let bounds = if bounds.is_empty() { Aabb::around(Vec3::ZERO, 1.0) } else { bounds };
+        let attributes = gathered.attributes();
+        let samplers = samplers(&description.textures, &attributes);
+        let patterned = gathered.add_patterns(&mut emitters, description, &samplers);
         let scene_ball = ball(&bounds);
         let casters =
             (!casters.is_empty()).then(|| ball(&casters)).filter(|c| c.radius < 0.5 * scene_ball.radius);
@@ -106,13 +113,12 @@ impl Scene {
         let mut index = 0..;
         let is_hidden = |i: usize| i >= surfaces && description.hidden.emitters.contains(&(i - surfaces));
         emitters.retain(|_| !index.next().is_some_and(is_hidden));
-        let attributes = gathered.attributes();
         let mut scene = gathered.into_scene(normalisation, bounds, options)?;
         scene.shapes = shapes;
-        if attributes.iter().all(Option::is_none) {
+        if attributes.iter().all(Option::is_none) && !patterned {
             scene.order = Arc::default();
         }
-        scene.textures = samplers(&description.textures, &attributes);
+        scene.textures = samplers;
         scene.materials.clone_from(&description.materials);
         scene.max_depth = description.max_depth;
         let attribute_bytes: usize = attributes.iter().flatten().map(|a| a.bytes()).sum();
@@ -145,6 +151,7 @@ impl Scene {
         for emitter in emitters {
             if let Kind::Area(area) = &mut emitter.kind {
                 area.gap = self.coincidences.gap(area.shape as usize);
+                area.pattern.iter_mut().for_each(|pattern| pattern.set_order(&self.order));
             }
         }
         Ok(())
@@ -224,7 +231,10 @@ impl Parts<'_> {
         let material = material.ok_or_else(|| BuildError::NoMaterial(shape.name.clone()))?;
         if !is_hidden {
             gathered.add(index, shape, normalisation, gauge)?;
-            material.textures().try_for_each(|texture| check_attributes(texture, shape, description))?;
+            let radiance =
+                if let Some(Colour::Texture(texture)) = shape.radiance { Some(texture) } else { None };
+            let mut textures = material.textures().chain(radiance);
+            textures.try_for_each(|texture| check_attributes(texture, shape, description))?;
         }
         gauge.add(gathered.primitives.len() - first)?;
         if gathered.primitives.len() > i32::MAX as usize {
@@ -238,7 +248,9 @@ impl Parts<'_> {
         if material.casts(textures) {
             *casters = primitives.iter().fold(*casters, |b, p| b.union(p.bounds()));
         }
-        let emitter = shape.radiance.filter(|r| !r.is_black() && !is_hidden).map(|radiance| {
+        let shines = |radiance: &Colour| *radiance != Colour::Constant(Rgb::BLACK) && !is_hidden;
+        let emitter = shape.radiance.filter(shines).map(|radiance| {
+            let radiance = if let Colour::Constant(c) = radiance { c } else { Rgb::BLACK };
             let kind = Kind::Area(Area::new(index, radiance, primitives));
             emitters.push(Emitter { name: shape.name.clone(), kind, aim: Aim::default() });
             emitters.len() as u32 - 1

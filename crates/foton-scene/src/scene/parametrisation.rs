@@ -4,6 +4,7 @@ use foton_math::Frame;
 use foton_math::glam::{Vec2, Vec3};
 
 use super::Scene;
+use crate::coordinates::coordinate;
 use crate::primitive::Primitive;
 use crate::surface::Surface;
 
@@ -24,31 +25,12 @@ impl Scene {
         }
     }
 
-    /// Texture coordinate of a point, as Mitsuba 3 lays it on each kind of shape.
+    /// Texture coordinate of a point.
     pub(super) fn texture_coordinate(&self, surface: &Surface) -> Vec2 {
-        use std::f32::consts::PI;
-        let turn = |a: f32| a - a.floor();
-        let to_object = self.shapes[surface.shape as usize].to_object;
-        match self.accel.primitives()[surface.primitive as usize] {
-            Primitive::Triangle(_) => {
-                let [a, b, c] = self.vertex_uvs[surface.primitive as usize];
-                let (v, w) = (surface.barycentric.x, surface.barycentric.y);
-                a * (1.0 - v - w) + b * v + c * w
-            }
-            Primitive::Sphere { centre, .. } => {
-                let p = (to_object * (surface.position - centre)).normalize_or(Vec3::Z);
-                Vec2::new(turn(p.y.atan2(p.x) / (2.0 * PI)), p.z.clamp(-1.0, 1.0).acos() / PI)
-            }
-            Primitive::Disc { centre, radius, .. } => {
-                let p = to_object * (surface.position - centre);
-                Vec2::new(p.x.hypot(p.y) / radius, turn(p.y.atan2(p.x) / (2.0 * PI)))
-            }
-            Primitive::Cylinder { from, axis, .. } => {
-                let p = surface.position - from;
-                let q = Frame::from_normal(axis.normalize()).to_local(p);
-                Vec2::new(turn(q.y.atan2(q.x) / (2.0 * PI)), p.dot(axis) / axis.length_squared())
-            }
-        }
+        let i = surface.primitive as usize;
+        let uvs = self.vertex_uvs.get(i).copied().unwrap_or_default();
+        let to_object = &self.shapes[surface.shape as usize].to_object;
+        coordinate(&self.accel.primitives()[i], surface.position, surface.barycentric, uvs, to_object)
     }
 
     /// The direction in which u grows; any length.

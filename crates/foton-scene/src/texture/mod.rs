@@ -164,7 +164,6 @@ impl Sampler {
         if matches!(self.kind, Kind::Bitmap { .. }) { colour.luminance() } else { colour.mean() }
     }
 
-    #[allow(dead_code, reason = "for emitters with textures")]
     /// About how many pixels there are to a unit of the surface's u and v; `None` where there are none.
     pub(crate) fn detail(&self) -> Option<Vec2> {
         let m = self.to_uv.matrix2.as_mat2();

@@ -169,7 +169,7 @@ fn of_two_opaque_surfaces_the_first_counts_where_it_is_described() {
         for lamp in [0, 1] {
             let mut shapes = vec![of(BOTH, floor(place)), of(BOTH, floor(place))];
             shapes[lamp] = of(BOTH, decal(place, true));
-            shapes[lamp].radiance = Some(Rgb::WHITE);
+            shapes[lamp].radiance = Some(Rgb::WHITE.into());
             let scene = scene(shapes);
             met(&scene, place, true, |_, hit| assert_eq!(hit.shape as usize, lamp));
             met(&scene, place, false, |_, hit| assert_eq!(hit.shape, 0));

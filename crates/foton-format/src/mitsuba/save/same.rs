@@ -39,7 +39,11 @@ pub(super) fn difference(a: &SceneDescription, b: &SceneDescription) -> Option<S
         return Some(format!("emitter \"{}\"", a.name));
     }
     for (x, y) in a.shapes.iter().zip(&b.shapes) {
-        let placed = (x.to_world, x.flip_normals, x.radiance) == (y.to_world, y.flip_normals, y.radiance);
+        let shines = match (x.radiance, y.radiance) {
+            (Some(x), Some(y)) => same_colour((a, x), (b, y)),
+            (x, y) => x.is_none() && y.is_none(),
+        };
+        let placed = (x.to_world, x.flip_normals) == (y.to_world, y.flip_normals) && shines;
         if !placed || !same_geometry(&x.geometry, &y.geometry) {
             return Some(format!("shape \"{}\"", x.name));
         }

@@ -337,13 +337,11 @@ impl<'a> Writer<'a> {
             xml.leaf("ref", &[("id", material)]);
         }
         if let Some(radiance) = shape.radiance {
-            xml.plugin(
-                "emitter",
-                emitters::AREA.name,
-                &[("rgb", emitters::RADIANCE.name, &colour(radiance))],
-            );
+            xml.open("emitter", &[("type", emitters::AREA.name)]);
+            self.colour(emitters::RADIANCE.name, radiance);
+            self.xml.close("emitter");
         }
-        xml.close("shape");
+        self.xml.close("shape");
         Ok(())
     }
 

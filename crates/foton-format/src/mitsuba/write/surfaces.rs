@@ -112,7 +112,7 @@ impl Writer<'_> {
         self.xml.close("bsdf");
     }
 
-    fn colour(&mut self, name: &str, value: Colour) {
+    pub(super) fn colour(&mut self, name: &str, value: Colour) {
         match value {
             Colour::Constant(c) => self.xml.value("rgb", name, &colour(c)),
             Colour::Texture(i) => self.xml.leaf("ref", &[("name", name), ("id", &self.texture_ids[i])]),
