@@ -29,11 +29,8 @@ pub(crate) const SHAPES: Plugins = Plugins {
     ],
 };
 
-pub(crate) const BSDFS: Plugins = Plugins {
-    kind: "bsdf",
-    supported: || bsdfs().collect(),
-    elsewhere: &["blendbsdf", "bumpmap", "normalmap", "coating", "roughcoating", "mixturebsdf"],
-};
+pub(crate) const BSDFS: Plugins =
+    Plugins { kind: "bsdf", supported: || bsdfs().collect(), elsewhere: &["coating", "roughcoating"] };
 
 pub(crate) const TEXTURES: Plugins = Plugins {
     kind: "texture",
