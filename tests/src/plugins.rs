@@ -2,7 +2,7 @@
 
 use foton_scene::bsdf::Bsdf;
 use foton_scene::parameter::{Kind, Parameter};
-use foton_scene::plugins::{Plugin, emitters, sensors, shapes, textures, wrappers};
+use foton_scene::plugins::{Plugin, emitters, sensors, shapes, stand_ins, textures, wrappers};
 
 /// A plugin with the parameters that it declares.
 pub struct Declared {
@@ -77,6 +77,21 @@ pub fn document() -> String {
                 "\n| parameter | type | range | default | texture | meaning |\n|---|---|---|---|---|---|\n";
             plugin.parameters.iter().for_each(|p| text += &row(p));
         }
+    }
+    text += &not_modelled();
+    text
+}
+
+fn not_modelled() -> String {
+    let mut text = String::from(
+        "\n## What is not modelled\n\n\
+         These BSDFs, and models of light below surfaces, are read as others, which take their place with what both have in\n\
+         common. A warning says so where the first of a kind stands. Those without a stand-in are an error, or magenta with `--allow-missing`.\n\n\
+         | plugin | instead | what is different |\n|---|---|---|\n",
+    );
+    for it in stand_ins::ALL {
+        let instead = it.instead.map_or_else(|| "none".to_owned(), |name| format!("`{name}`"));
+        text += &format!("| `{}` | {instead} | {} |\n", it.name, it.help);
     }
     text
 }

@@ -45,7 +45,7 @@ pub(crate) fn kind_name(material: &Material) -> String {
 /// Appends a material's fields. Whether some values come from textures, which cannot be edited.
 pub(crate) fn fields(material: &Material, out: &mut Fields) -> bool {
     let mut textured = side_fields(&material.front, Side::Front, out);
-    if let Some(back) = material.back.filter(|b| *b != material.front && !material.front.transmits()) {
+    if let Some(back) = material.back.filter(|b| *b != material.front && !material.front.has_two_sides()) {
         textured |= side_fields(&back, Side::Back, out);
     }
     match material.opacity.unwrap_or(WHITE) {
@@ -76,10 +76,10 @@ fn side_fields(bsdf: &Bsdf, side: Side, out: &mut Fields) -> bool {
                 }
             }
             Slot::Share(Colour::Texture(_)) | Slot::Number(Number::Texture(_)) => textured = true,
-            Slot::Number(Number::Constant(x)) | Slot::Refraction(x) => {
+            Slot::Number(Number::Constant(x)) | Slot::Refraction(x) | Slot::Reflectivity(x) => {
                 out.parameter(own, parameter, f64::from(*x));
                 // Outside is nearly always air.
-                if parameter.role == Some(Role::OutsideIor) {
+                if parameter.role == Some(Role::OutsideIor) || parameter.advanced {
                     out.advance();
                 }
             }
@@ -97,7 +97,7 @@ fn side_fields(bsdf: &Bsdf, side: Side, out: &mut Fields) -> bool {
 /// What people look for first: the index of refraction or the metal, then roughness, then colours.
 const fn rank(slot: &Slot<'_>) -> u8 {
     match slot {
-        Slot::Refraction(_) | Slot::Number(_) | Slot::Metal { .. } => 0,
+        Slot::Refraction(_) | Slot::Reflectivity(_) | Slot::Number(_) | Slot::Metal { .. } => 0,
         Slot::Roughness(_) => 1,
         Slot::Share(_) => 2,
         Slot::Boolean(_) => 3,
@@ -179,18 +179,18 @@ pub(crate) fn set(material: &mut Material, side: Side, property: Property, value
             None => return,
         },
     };
-    let was_clear = bsdf.transmits();
+    let was_clear = bsdf.has_two_sides();
     set_side(bsdf, property, value);
     if side == Side::Front && alike {
         material.back = Some(material.front);
     }
-    if material.front.transmits() {
+    if material.front.has_two_sides() {
         material.back = None;
     } else if was_clear && side == Side::Front {
         // Glass has two sides; what takes its place gets them, too.
         material.back = Some(material.front);
     }
-    if material.back.is_some_and(|b| b.transmits()) {
+    if material.back.is_some_and(|b| b.has_two_sides()) {
         material.back = None;
     }
 }
@@ -210,7 +210,9 @@ fn set_side(bsdf: &mut Bsdf, property: Property, value: Value) {
         match (slot, value) {
             (Slot::Share(share), Value::Colour(c)) if is_it => *share = Rgb::from_array(c).into(),
             (Slot::Number(place), Value::Number(x)) if is_it => *place = (x as f32).into(),
-            (Slot::Refraction(place), Value::Number(x)) if is_it => *place = x as f32,
+            (Slot::Refraction(place) | Slot::Reflectivity(place), Value::Number(x)) if is_it => {
+                *place = x as f32;
+            }
             (Slot::Boolean(flag), Value::Toggle(on)) if is_it => *flag = on,
             (Slot::Metal { eta, k }, _) => set_metal([eta, k], property, value),
             (Slot::Roughness(roughness), _) => set_roughness(roughness, property, value),
@@ -264,17 +266,42 @@ fn of_kind(kind: usize, old: &Bsdf) -> Bsdf {
     let before = old.parameters();
     for Binding { parameters, slot } in new.parameters() {
         let Some(role) = parameters[0].role else { continue };
-        let Some(from) = before.iter().find(|b| b.parameters[0].role == Some(role)) else { continue };
-        match (slot, &from.slot) {
-            (Slot::Share(new), Slot::Share(old)) => *new = **old,
-            (Slot::Number(new), Slot::Number(old)) => *new = **old,
-            (Slot::Refraction(new), Slot::Refraction(old)) => *new = **old,
-            (Slot::Roughness(new), Slot::Roughness(old)) => {
-                let is_isotropic = named(parameters, "alpha_v").is_none();
-                *new = old.map(|r| if is_isotropic { Microfacets { alpha_v: r.alpha_u, ..r } } else { r });
-            }
-            _ => {}
+        let is_same = |b: &&Binding<'_>| b.parameters[0].role == Some(role);
+        let is_akin = |b: &&Binding<'_>| b.parameters[0].role.is_some_and(|old| is_roughness(old, role));
+        let from = before.iter().find(is_same).or_else(|| before.iter().find(is_akin));
+        if let Some(from) = from {
+            keep(Binding { parameters, slot }, from);
         }
     }
     new
+}
+
+/// Whether both are a roughness, α or its square root.
+fn is_roughness(a: Role, b: Role) -> bool {
+    [a, b].iter().all(|role| matches!(role, Role::Roughness | Role::RootRoughness))
+}
+
+/// Takes over the value of a parameter of the same role.
+fn keep(new: Binding<'_>, old: &Binding<'_>) {
+    let (parameters, is_same) = (new.parameters, new.parameters[0].role == old.parameters[0].role);
+    match (new.slot, &old.slot) {
+        (Slot::Share(new), Slot::Share(old)) => *new = **old,
+        (Slot::Number(new), Slot::Number(old)) if is_same => *new = **old,
+        (
+            Slot::Refraction(new) | Slot::Reflectivity(new),
+            Slot::Refraction(old) | Slot::Reflectivity(old),
+        ) => *new = **old,
+        (Slot::Roughness(new), Slot::Roughness(old)) => {
+            let is_isotropic = named(parameters, "alpha_v").is_none();
+            *new = old.map(|r| if is_isotropic { Microfacets { alpha_v: r.alpha_u, ..r } } else { r });
+        }
+        (Slot::Number(new), Slot::Roughness(Some(Microfacets { alpha_u: Number::Constant(alpha), .. }))) => {
+            *new = alpha.sqrt().min(1.0).into();
+        }
+        (Slot::Roughness(new), Slot::Number(Number::Constant(root))) => {
+            let alpha = (root * root).max(1e-3);
+            *new = Some(Microfacets { alpha_u: alpha.into(), alpha_v: alpha.into(), ..Microfacets::PRESET });
+        }
+        _ => {}
+    }
 }

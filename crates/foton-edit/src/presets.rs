@@ -23,7 +23,7 @@ impl Preset {
     /// The material, under a name.
     #[must_use]
     pub fn material(&self, name: impl Into<String>) -> Material {
-        let back = (!self.front.transmits()).then_some(self.front);
+        let back = (!self.front.has_two_sides()).then_some(self.front);
         Material { name: name.into(), front: self.front, back, opacity: None }
     }
 }

@@ -251,6 +251,13 @@ impl Report {
         self.push_here(Severity::Warning, place, message.into());
     }
 
+    /// A warning, unless the same was said before.
+    pub(crate) fn warn_once(&mut self, place: Place, message: String) {
+        if !self.diagnostics.iter().any(|d| d.message == message) {
+            self.warning(place, message);
+        }
+    }
+
     /// An error in another file than the scene's own.
     pub(crate) fn error_in(&mut self, file: &str, place: Place, message: impl Into<String>) {
         self.push(Diagnostic::new(Severity::Error, file.to_owned(), place, message.into()), None);

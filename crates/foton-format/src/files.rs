@@ -47,6 +47,11 @@ impl<'a> Files<'a> {
         Self { read, cancel, allow_missing, has_helped: false, seen, hash, budget }
     }
 
+    /// Whether the user takes a picture in which parts are missing.
+    pub(crate) const fn allows_missing(&self) -> bool {
+        self.allow_missing
+    }
+
     /// What ends reading: from then on no file is read.
     pub(crate) const fn cancel(&self) -> &'a Cancel {
         self.cancel

@@ -1,7 +1,8 @@
 //! The inspector's fields: what they show, and what setting them does.
 
 use super::*;
-use foton_scene::description::{Conductor, Microfacets, Number};
+
+use foton_scene::description::{Conductor, Microfacets, Number, Principled};
 
 #[test]
 fn powers_are_those_by_which_the_scene_shares_its_photons() {
@@ -183,4 +184,36 @@ fn index_roughness_and_colour_come_first_and_what_physicists_set_is_advanced() {
     );
     assert_eq!(parted(&kind(5)).0, ["int_ior", "rough", "diffuse_reflectance"]);
     assert_eq!(parted(&kind(3)).0, ["specular_reflectance"], "the colour of a mirror");
+}
+
+#[test]
+fn colour_roughness_and_index_survive_a_change_to_the_principled_model_and_back() {
+    let field = |property| FieldId::Material(Side::Front, property);
+    let kind = |d: &SceneDescription, kind| set(d, BALL, field(Property::Kind), Value::Choice(kind));
+    let plastic = set(&kind(&scene(), 5), BALL, field(Property::Rough), Value::Toggle(true));
+    let plastic = set(&plastic, BALL, field(Property::Parameter("alpha")), Value::Number(0.25));
+    let plastic = set(&plastic, BALL, field(Property::Parameter("int_ior")), Value::Number(1.7));
+    let red = Value::Colour([0.7, 0.1, 0.1]);
+    let plastic = set(&plastic, BALL, field(Property::Parameter("diffuse_reflectance")), red);
+    let principled = kind(&plastic, 6);
+    let Bsdf::Principled(Principled { base_color, roughness, eta, .. }) = principled.materials[1].front
+    else {
+        panic!("principled")
+    };
+    assert_eq!(base_color, Rgb::new(0.7, 0.1, 0.1).into());
+    assert_eq!((roughness, eta), (Number::Constant(0.5), 1.7));
+    let smoother = set(&principled, BALL, field(Property::Parameter("roughness")), Value::Number(0.4));
+    let Bsdf::Plastic(back) = kind(&smoother, 5).materials[1].front else { panic!("plastic") };
+    let Some(Microfacets { alpha_u: Number::Constant(alpha), .. }) = back.roughness else { panic!("rough") };
+    assert!((alpha - 0.16).abs() < 1e-6 && back.int_ior == 1.7 && back.diffuse_reflectance == base_color);
+    // The window shows what most people set.
+    let fields = inspect(&principled, BALL).unwrap().fields;
+    let plain = fields.iter().filter(|f| !f.is_advanced).filter_map(|f| match f.id {
+        FieldId::Material(_, Property::Parameter(name)) => Some(name),
+        _ => None,
+    });
+    assert_eq!(
+        plain.collect::<Vec<_>>(),
+        ["roughness", "metallic", "spec_trans", "eta", "clearcoat", "base_color"]
+    );
 }

@@ -33,18 +33,9 @@ pub(crate) const BSDFS: Plugins = Plugins {
     kind: "bsdf",
     supported: || bsdfs().collect(),
     elsewhere: &[
-        "pplastic",
-        "principled",
-        "principledthin",
         "blendbsdf",
         "bumpmap",
         "normalmap",
-        "hair",
-        "measured",
-        "measured_polarized",
-        "polarizer",
-        "retarder",
-        "circular",
         "roughdiffuse",
         "coating",
         "roughcoating",
@@ -82,10 +73,11 @@ pub(crate) const FILTERS: Plugins = Plugins {
     elsewhere: &["mitchell", "catmullrom", "lanczos"],
 };
 
-/// Plugins of BSDFs: those of models, and those that stand around others.
+/// Plugins of BSDFs: those of models, those that stand around others, and those for which others stand in.
 fn bsdfs() -> impl Iterator<Item = &'static str> {
     let models = Bsdf::defaults(false).into_iter().chain(Bsdf::defaults(true)).map(|b| b.plugin());
-    plugins::names(plugins::wrappers::ALL).chain(models)
+    let stand_ins = plugins::stand_ins::ALL.iter().map(|s| s.name);
+    plugins::names(plugins::wrappers::ALL).chain(models).chain(stand_ins)
 }
 
 /// Tags of single values.
@@ -108,6 +100,7 @@ pub(crate) const VALUE_TAGS: &[&str] = &[
 pub(crate) const OBJECT_TAGS: &[&str] = &[
     "shape",
     "bsdf",
+    "subsurface",
     "emitter",
     "sensor",
     "film",

@@ -200,16 +200,17 @@ impl Dielectric<Rgb, f32> {
 }
 
 /// The facet that takes one direction to another.
-struct GlassFacet {
+pub(super) struct GlassFacet {
     /// Its normal, with z > 0.
-    normal: Vec3,
-    reflectance: f32,
+    pub(super) normal: Vec3,
+    /// What it reflects.
+    pub(super) reflectance: f32,
     /// Index on `wo`'s side over that on the other.
-    eta: f32,
+    pub(super) eta: f32,
 }
 
 impl GlassFacet {
-    fn between(wo: Vec3, wi: Vec3, int_ior: f32, ext_ior: f32) -> Option<Self> {
+    pub(super) fn between(wo: Vec3, wi: Vec3, int_ior: f32, ext_ior: f32) -> Option<Self> {
         let eta = if wo.z > 0.0 { ext_ior / int_ior } else { int_ior / ext_ior };
         let sum = if wo.z * wi.z > 0.0 { wo + wi } else { wo * eta + wi };
         let normal = sum.try_normalize()?;
@@ -221,7 +222,7 @@ impl GlassFacet {
     }
 
     /// η (wo·h) + (wi·h), the indices being relative to `wi`'s side.
-    fn denominator(&self, wo: Vec3, wi: Vec3) -> f32 {
+    pub(super) fn denominator(&self, wo: Vec3, wi: Vec3) -> f32 {
         self.eta * wo.dot(self.normal) + wi.dot(self.normal)
     }
 }

@@ -17,11 +17,12 @@ mod mirror;
 mod model;
 mod null;
 mod plastic;
+mod principled;
 mod reflect;
 mod scattering;
 mod thin_dielectric;
 
-use crate::description::{Colour, Number};
+use crate::description::{Amount, Colour, Number};
 use crate::parameter::Binding;
 pub use coat::Coat;
 pub(crate) use coat::Coats;
@@ -38,6 +39,7 @@ pub use mirror::Mirror;
 
 pub use null::Null;
 pub use plastic::Plastic;
+pub use principled::{Principled, PrincipledThin, index_of_specular};
 pub use scattering::Scattering;
 pub use thin_dielectric::ThinDielectric;
 
@@ -57,6 +59,10 @@ pub enum Bsdf<C = Colour, N = Number> {
     Conductor(Conductor<C, N>),
     /// A clear coat over a diffuse base.
     Plastic(Plastic<C, N>),
+    /// Disney's principled model, of a closed body.
+    Principled(Principled<C, N>),
+    /// The same of a thin sheet.
+    PrincipledThin(PrincipledThin<C, N>),
     /// Nothing: light passes as if there were no surface.
     Null(Null),
 }
@@ -74,6 +80,8 @@ macro_rules! each {
             Bsdf::Mirror($model) => $result,
             Bsdf::Conductor($model) => $result,
             Bsdf::Plastic($plastic) => $of_plastic,
+            Bsdf::Principled($model) => $result,
+            Bsdf::PrincipledThin($model) => $result,
             Bsdf::Null($model) => $result,
         }
     };
@@ -83,7 +91,7 @@ use each;
 impl Bsdf {
     /// Every model as a file means it that gives no parameters; smooth, or where it can be, rough. In the order of the window.
     #[must_use]
-    pub fn defaults(rough: bool) -> [Self; 7] {
+    pub fn defaults(rough: bool) -> [Self; 9] {
         [
             Self::Diffuse(Described::default(rough)),
             Self::Dielectric(Described::default(rough)),
@@ -91,6 +99,8 @@ impl Bsdf {
             Self::Mirror(Described::default(rough)),
             Self::Conductor(Described::default(rough)),
             Self::Plastic(Described::default(rough)),
+            Self::Principled(Described::default(rough)),
+            Self::PrincipledThin(Described::default(rough)),
             Self::Null(Described::default(rough)),
         ]
     }
@@ -117,6 +127,8 @@ impl Bsdf {
             Self::Mirror(m) => Self::Mirror(of(m)),
             Self::Conductor(m) => Self::Conductor(of(m)),
             Self::Plastic(m) => Self::Plastic(of(m)),
+            Self::Principled(m) => Self::Principled(of(m)),
+            Self::PrincipledThin(m) => Self::PrincipledThin(of(m)),
             Self::Null(m) => Self::Null(of(m)),
         }
     }
@@ -145,17 +157,36 @@ impl Bsdf {
     }
 }
 
-impl<C: Copy, N: Copy> Bsdf<C, N> {
+impl<C: Copy, N: Amount> Bsdf<C, N> {
     /// The lobes that it has.
     #[must_use]
-    pub const fn flags(&self) -> LobeFlags {
+    pub fn flags(&self) -> LobeFlags {
         each!(self, model => model.flags())
     }
 
-    /// Whether it describes both sides of the surface by itself, since light passes through.
+    /// Whether light passes through.
     #[must_use]
-    pub const fn transmits(&self) -> bool {
+    pub fn transmits(&self) -> bool {
         self.flags().intersects(LobeFlags::TRANSMISSION)
+    }
+
+    /// Whether it describes both sides of the surface by itself: light passes through, or it is a sheet that is the same from both.
+    #[must_use]
+    pub fn has_two_sides(&self) -> bool {
+        matches!(self, Self::PrincipledThin(_)) || self.transmits()
+    }
+
+    /// Whether its highlights are stretched along the texture's u or v.
+    #[must_use]
+    pub fn is_anisotropic(&self) -> bool
+    where
+        N: PartialEq,
+    {
+        match self {
+            Self::Principled(Principled { anisotropic, .. })
+            | Self::PrincipledThin(PrincipledThin { anisotropic, .. }) => anisotropic.most() > 0.0,
+            _ => self.roughness().is_some_and(|r| r.alpha_u != r.alpha_v),
+        }
     }
 
     /// Its microfacets, if any.
@@ -165,7 +196,7 @@ impl<C: Copy, N: Copy> Bsdf<C, N> {
             Self::Dielectric(Dielectric { roughness, .. })
             | Self::Conductor(Conductor { roughness, .. })
             | Self::Plastic(Plastic { roughness, .. }) => *roughness,
-            Self::Diffuse(_) | Self::ThinDielectric(_) | Self::Mirror(_) | Self::Null(_) => None,
+            _ => None,
         }
     }
 
@@ -184,6 +215,8 @@ impl<C: Copy, N: Copy> Bsdf<C, N> {
             Self::Mirror(model) => Bsdf::Mirror(model.map(colours)),
             Self::Conductor(model) => Bsdf::Conductor(model.map(colours, numbers)),
             Self::Plastic(model) => Bsdf::Plastic(model.map(colours, numbers)),
+            Self::Principled(model) => Bsdf::Principled(model.map(colours, numbers)),
+            Self::PrincipledThin(model) => Bsdf::PrincipledThin(model.map(colours, numbers)),
             Self::Null(model) => Bsdf::Null(*model),
         }
     }

@@ -19,13 +19,13 @@ impl Material {
 
     /// Whether its roughness differs along u and v.
     pub(crate) fn is_anisotropic(&self) -> bool {
-        self.bsdfs().filter_map(Bsdf::roughness).any(|r| r.alpha_u != r.alpha_v)
+        self.bsdfs().any(Bsdf::is_anisotropic)
     }
 
     /// The colours of its sides where they are Lambertian and nothing else.
     pub(super) fn lambertian(&self) -> [Option<Colour>; 2] {
         let colour = |bsdf: Option<&Bsdf>| bsdf.filter(|_| self.opacity.is_none()).and_then(Bsdf::lambertian);
-        let back = if self.front.transmits() { Some(&self.front) } else { self.back.as_ref() };
+        let back = if self.front.has_two_sides() { Some(&self.front) } else { self.back.as_ref() };
         [colour(Some(&self.front)), colour(back)]
     }
 

@@ -138,7 +138,7 @@ impl Material {
 
     /// Whether it is opaque and described on a side.
     fn shows(&self, outward: bool) -> bool {
-        self.is_opaque() && (outward || self.back.is_some())
+        self.is_opaque() && (outward || self.back.is_some() || self.front.has_two_sides())
     }
 }
 

@@ -14,7 +14,7 @@ mod texture;
 pub use crate::bitmap::{Bitmap, Smaller, Wrap};
 pub use crate::bsdf::{
     Bsdf, Conductor, Dielectric, Diffuse, MicrofacetDistribution, Microfacets, Mirror, Null, Plastic,
-    ThinDielectric,
+    Principled, PrincipledThin, ThinDielectric,
 };
 pub use emitter::{EmitterDescription, EmitterKind};
 pub use hidden::Hidden;
@@ -22,7 +22,7 @@ pub use material::Material;
 pub use motion::{Keyframes, Motion};
 pub use sensor::{Crop, Filter, FovAxis, Lens, SensorDescription};
 pub use shape::{Attribute, Geometry, Mesh, ShapeDescription};
-pub use texture::{Colour, Number, Texture, TextureKind};
+pub use texture::{Amount, Colour, Number, Texture, TextureKind};
 
 /// Everything that a scene consists of.
 #[derive(Clone, Debug, Default)]

@@ -42,6 +42,36 @@ impl Number {
     }
 }
 
+/// A number, or what is known of one: the ends between which it lies.
+pub trait Amount: Copy {
+    /// The least that it may be.
+    fn least(self) -> f32;
+    /// The most that it may be.
+    fn most(self) -> f32;
+}
+
+impl Amount for f32 {
+    fn least(self) -> f32 {
+        self
+    }
+
+    fn most(self) -> f32 {
+        self
+    }
+}
+
+impl Amount for Number {
+    /// Of a texture 0.
+    fn least(self) -> f32 {
+        self.constant().unwrap_or(0.0)
+    }
+
+    /// Of a texture 1.
+    fn most(self) -> f32 {
+        self.constant().unwrap_or(1.0)
+    }
+}
+
 impl From<f32> for Number {
     fn from(x: f32) -> Self {
         Self::Constant(x)

@@ -24,6 +24,8 @@ pub enum Slot<'a> {
     Number(&'a mut Number),
     /// An index of refraction.
     Refraction(&'a mut f32),
+    /// An index of refraction, or the reflectance at normal incidence that stands for it.
+    Reflectivity(&'a mut f32),
     /// True or false.
     Boolean(&'a mut bool),
     /// A metal's complex index of refraction: `eta` and `k`, or its name.
@@ -55,7 +57,7 @@ impl<'a> Binding<'a> {
             Slot::Share(Colour::Constant(c)) => is_within(c),
             Slot::Share(Colour::Texture(_)) | Slot::Boolean(_) | Slot::Number(Number::Texture(_)) => true,
             Slot::Number(Number::Constant(x)) => range.holds(f64::from(*x)),
-            Slot::Refraction(x) => positive(**x),
+            Slot::Refraction(x) | Slot::Reflectivity(x) => positive(**x),
             Slot::Metal { eta, k } => is_within(eta) && is_within(k),
             Slot::Roughness(r) => r.is_none_or(|r| {
                 [r.alpha_u, r.alpha_v].into_iter().filter_map(Number::constant).all(positive)

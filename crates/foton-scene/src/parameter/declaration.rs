@@ -31,6 +31,8 @@ pub struct Parameter {
     pub excludes: &'static [&'static str],
     /// What survives when a surface becomes another model in the window.
     pub role: Option<Role>,
+    /// Whether the window shows it only to those who ask for more.
+    pub advanced: bool,
     /// The range of its slider in the window, and whether that is logarithmic; empty: the range.
     pub slider: Option<(f64, f64, bool)>,
 }
@@ -79,8 +81,10 @@ pub enum Role {
     InsideIor,
     /// The index of refraction outside.
     OutsideIor,
-    /// The roughness.
+    /// The roughness α.
     Roughness,
+    /// The square root of the roughness α.
+    RootRoughness,
 }
 
 impl Parameter {
@@ -98,6 +102,7 @@ impl Parameter {
             textured: false,
             excludes: &[],
             role: None,
+            advanced: false,
             slider: None,
         }
     }
@@ -201,6 +206,12 @@ impl Parameter {
     #[must_use]
     pub const fn role(self, role: Role) -> Self {
         Self { role: Some(role), ..self }
+    }
+
+    /// Shown in the window only to those who ask for more.
+    #[must_use]
+    pub const fn advanced(self) -> Self {
+        Self { advanced: true, ..self }
     }
 
     /// With the range of its slider, and whether that is logarithmic.

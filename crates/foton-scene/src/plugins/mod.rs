@@ -4,6 +4,7 @@
 pub mod emitters;
 pub mod sensors;
 pub mod shapes;
+pub mod stand_ins;
 pub mod textures;
 pub mod wrappers;
 

@@ -32,7 +32,7 @@ impl Scene {
         footprint: Option<&Footprint>,
     ) -> Option<Scattering> {
         let material = self.material(surface.shape);
-        let front = outward || material.front.transmits();
+        let front = outward || material.front.has_two_sides();
         let bsdf = match &material.back {
             _ if front => &material.front,
             Some(back) => back,
@@ -64,7 +64,11 @@ impl Scene {
             Number::Constant(x) => x,
             Number::Texture(t) => lookup.scalar(&self.textures[t]).clamp(low, high),
         };
-        complete(bsdf.map(colour, number), opacity.clamp(0.0, 1.0))
+        let found = bsdf.map(colour, number);
+        // Light passes elsewhere on the surface and not here: this side is black.
+        let is_behind = front && !outward && !found.has_two_sides();
+        let black = Bsdf::Diffuse(Diffuse { reflectance: Rgb::BLACK });
+        complete(if is_behind { black } else { found }, opacity.clamp(0.0, 1.0))
     }
 
     /// The reflectance of a side that is Lambertian and nothing else, its colour looked up: what most photons meet, and with a

@@ -4,6 +4,7 @@ use foton_input::{quoted, shown};
 
 use crate::diagnostic::Report;
 use crate::mitsuba::document::{Attribute, Element};
+use crate::mitsuba::names::{OBJECT_TAGS, VALUE_TAGS};
 
 /// Reports attributes that are unknown or missing; whether none was.
 pub(crate) fn check_attributes(
@@ -41,4 +42,21 @@ pub(crate) fn parse_attribute<T>(
         return None;
     }
     parse(&attribute.value).map_err(|message| report.error(attribute.value_place, message)).ok()
+}
+
+/// Reports a tag that is neither a value nor a plugin, where it has no business.
+pub(crate) fn report_tag(element: &Element, report: &mut Report) {
+    let tag = element.name.as_str();
+    match tag {
+        "default" | "alias" => {}
+        _ => {
+            let known = VALUE_TAGS
+                .iter()
+                .chain(OBJECT_TAGS)
+                .copied()
+                .chain(["default", "ref", "include", "alias", "path"]);
+            let hint = report.did_you_mean(tag, known);
+            report.error(element.place, format!("unknown element <{}>{hint}", shown(tag)));
+        }
+    }
 }

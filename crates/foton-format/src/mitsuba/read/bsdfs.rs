@@ -2,9 +2,10 @@
 
 use foton_input::quoted;
 use foton_math::Rgb;
-use foton_scene::bsdf::{DISTRIBUTIONS, MicrofacetDistribution, Microfacets};
+use foton_scene::bsdf::{DISTRIBUTIONS, MicrofacetDistribution, Microfacets, index_of_specular};
 use foton_scene::description::{Bsdf, Conductor, Mirror, Number};
 use foton_scene::parameter::{Binding, Parameter, Slot};
+use foton_scene::plugins::stand_ins;
 
 use crate::image::Purpose;
 use crate::mitsuba::names::REFRACTION;
@@ -19,6 +20,9 @@ const MIN_ALPHA: f32 = 1e-4;
 impl Reader<'_> {
     /// The BSDF of a plugin that has no others inside.
     pub(crate) fn bsdf(&mut self, plugin: &str, p: &mut Properties<'_>) -> Option<Bsdf> {
+        if let Some(it) = stand_ins::find(plugin) {
+            return self.stand_in(it, p);
+        }
         let mut bsdf = Bsdf::of_plugin(plugin)?;
         // All of them, so that every fault is found at once.
         let mut is_complete = true;
@@ -49,6 +53,7 @@ impl Reader<'_> {
             Slot::Share(share) => *share = self.share(p, &parameters[0]),
             Slot::Number(number) => *number = self.number(p, &parameters[0])?,
             Slot::Refraction(ior) => *ior = self.refraction(p, &parameters[0])?,
+            Slot::Reflectivity(ior) => *ior = self.reflectivity(p, parameters)?,
             Slot::Boolean(flag) => {
                 *flag = p.boolean(parameters[0].name, &mut self.report).is_some_and(|found| found.value);
             }
@@ -61,7 +66,7 @@ impl Reader<'_> {
 
     /// A number within its range, or the texture that gives it.
     #[allow(clippy::cast_possible_truncation, reason = "optics is single precision")]
-    fn number(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Option<Number> {
+    pub(super) fn number(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Option<Number> {
         let Parameter { name, range: (min, max), .. } = *parameter;
         if let Some(texture) = p.texture(name).filter(|_| parameter.textured) {
             return self.texture_for(texture, Purpose::Number).map(Number::Texture);
@@ -98,7 +103,7 @@ impl Reader<'_> {
 
     /// An index of refraction, a number or the name of a substance.
     #[allow(clippy::cast_possible_truncation, reason = "optics is single precision")]
-    fn refraction(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Option<f32> {
+    pub(super) fn refraction(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Option<f32> {
         let name = parameter.name;
         if p.is_string(name) {
             let substance = p.string(name, &mut self.report)?;
@@ -119,6 +124,22 @@ impl Reader<'_> {
         }
         self.report.error(ior.place, "an index of refraction must be above zero");
         None
+    }
+
+    /// An index of refraction, or the `specular` that stands for it.
+    fn reflectivity(&mut self, p: &mut Properties<'_>, parameters: &'static [Parameter]) -> Option<f32> {
+        let [eta, specular, ..] = parameters else { return None };
+        if !p.has(specular.name) {
+            return self.refraction(p, eta);
+        }
+        if p.has(eta.name) {
+            let message = format!("a {} has an \"eta\" or a \"specular\", not both", p.subject());
+            self.report.error(p.place, message);
+        }
+        match self.number(p, specular)? {
+            Number::Constant(specular) => Some(index_of_specular(specular)),
+            Number::Texture(_) => None,
+        }
     }
 
     /// `distribution` and `alpha`, or `alpha_u` and `alpha_v` where they are declared.

@@ -116,7 +116,7 @@ impl Reader<'_> {
     /// The front of a BSDF inside a twosided one, which must not transmit light.
     fn reflecting(&mut self, nested: Object<'_>) -> Option<Bsdf> {
         let Sides { front, opacity, .. } = self.nested_sides(nested)?;
-        if front.transmits() || opacity.is_some() {
+        if front.has_two_sides() || opacity.is_some() {
             let kind = nested.element.attribute("type").map_or("bsdf", |t| &t.value);
             let message = format!("a {kind} transmits light and cannot stand inside a twosided bsdf");
             self.report.error(nested.place, message);

@@ -17,6 +17,7 @@ pub(crate) mod sensor;
 pub(crate) mod shapes;
 pub(crate) mod spectra;
 pub(crate) mod spectrum;
+pub(crate) mod stand_ins;
 pub(crate) mod substitute;
 pub(crate) mod textures;
 pub(crate) mod transform;

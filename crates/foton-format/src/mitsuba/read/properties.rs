@@ -13,7 +13,7 @@ use foton_scene::parameter::{Kind, Parameter};
 use crate::diagnostic::{Place, Report};
 use crate::mitsuba::document::{Document, Element, NodeId};
 use crate::mitsuba::names::{OBJECT_TAGS, SPECTRUM_PLUGINS, VALUE_TAGS, is_called};
-use crate::mitsuba::read::attributes::{check_attributes, parse_attribute};
+use crate::mitsuba::read::attributes::{check_attributes, parse_attribute, report_tag};
 use crate::mitsuba::read::ids::Ids;
 use crate::mitsuba::read::{animation, transform, values};
 
@@ -304,6 +304,21 @@ impl<'a> Properties<'a> {
         self.refuse(&of(Kind::Unsupported).collect::<Vec<_>>(), report);
     }
 
+    /// Calls a value or a texture by another name, where nothing has that yet.
+    pub(crate) fn rename(&mut self, old: &str, new: &'static str) {
+        if self.states(new) {
+            return;
+        }
+        self.values.iter_mut().filter(|v| is_called(v.name, old)).for_each(|v| v.name = new);
+        self.objects.iter_mut().filter(|o| is_called(o.name, old)).for_each(|o| o.name = new);
+    }
+
+    /// Takes all that is left, not looked at.
+    pub(crate) fn leave_rest(&mut self) {
+        self.values.iter_mut().for_each(|v| v.taken = true);
+        self.objects.iter_mut().for_each(|o| o.taken = true);
+    }
+
     /// Values that change nothing in our images: taken, not looked at.
     pub(crate) fn ignore(&mut self, names: &[&'static str]) {
         let is_one = |value: &&mut Value<'_>| names.iter().any(|name| is_called(value.name, name));
@@ -376,21 +391,4 @@ impl<'a> Properties<'a> {
 
 fn is_texture(tag: &str) -> bool {
     matches!(tag, "texture" | "spectrum")
-}
-
-/// Reports a tag that is neither a value nor a plugin, where it has no business.
-fn report_tag(element: &Element, report: &mut Report) {
-    let tag = element.name.as_str();
-    match tag {
-        "default" | "alias" => {}
-        _ => {
-            let known = VALUE_TAGS
-                .iter()
-                .chain(OBJECT_TAGS)
-                .copied()
-                .chain(["default", "ref", "include", "alias", "path"]);
-            let hint = report.did_you_mean(tag, known);
-            report.error(element.place, format!("unknown element <{}>{hint}", shown(tag)));
-        }
-    }
 }

@@ -92,7 +92,9 @@ impl Reader<'_> {
         if let Some(second) = bsdfs.get(1) {
             self.report.error(second.place, "a shape has only one bsdf");
         }
-        let material = match bsdfs.first() {
+        // Light that scatters below the surface is seen on it.
+        let below = p.nested("subsurface");
+        let material = match below.first().or(bsdfs.first()) {
             Some(bsdf) => self.material(bsdf.node),
             None => Some(self.default_material(!emitters.is_empty())),
         };

@@ -68,7 +68,7 @@ impl Writer<'_> {
             }
         }
         match material.back {
-            Some(back) if !material.front.transmits() => {
+            Some(back) if !material.front.has_two_sides() => {
                 let mut outer = vec![("type", wrappers::TWOSIDED.name)];
                 outer.append(&mut attributes);
                 self.xml.open("bsdf", &outer);
@@ -163,7 +163,7 @@ pub(crate) fn stated(binding: &Binding<'_>) -> Vec<Stated> {
         Slot::Share(Colour::Constant(c)) => vec![of("rgb", name, colour(*c))],
         Slot::Share(Colour::Texture(_)) | Slot::Roughness(None) => Vec::new(),
         Slot::Number(x) => number(name, **x).into_iter().collect(),
-        Slot::Refraction(ior) => vec![of("float", name, single(**ior))],
+        Slot::Refraction(ior) | Slot::Reflectivity(ior) => vec![of("float", name, single(**ior))],
         Slot::Boolean(flag) => vec![of("boolean", name, flag.to_string())],
         Slot::Metal { eta, k } => vec![of("rgb", "eta", colour(**eta)), of("rgb", "k", colour(**k))],
         Slot::Roughness(Some(r)) => {
