@@ -32,6 +32,8 @@ impl Reader<'_> {
             "envmap" => self.envmap(&mut p),
             _ => self.constant(&mut p),
         };
+        // It steers another renderer's sampling.
+        p.ignore(&["sampling_weight"]);
         p.finish(&mut self.report);
         if let Some(kind) = kind {
             let name = self.name(element, plugin, self.description.emitters.len() + 1);
@@ -59,6 +61,8 @@ impl Reader<'_> {
             self.report.error(to_world.place, "an area emitter takes its transform from its shape");
         }
         let radiance = self.emission(&mut p, &RADIANCE);
+        // It steers another renderer's sampling.
+        p.ignore(&["sampling_weight"]);
         p.finish(&mut self.report);
         Some(radiance)
     }
