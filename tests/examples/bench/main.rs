@@ -24,7 +24,7 @@ fn main() {
         Some("accuracy") => accuracy::print(),
         Some("answers") => answers::print(),
         Some("first-light") => first_light::print(),
-        Some("loading") => loading::print(),
+        Some("loading") => loading::print(std::env::args().nth(2).as_deref()),
         Some("to-error") => to_error::print(&std::env::args().skip(2).collect::<Vec<_>>()),
         Some(other) => {
             eprintln!(

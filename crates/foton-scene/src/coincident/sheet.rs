@@ -152,9 +152,14 @@ pub(super) fn meet_at(own: &Primitive, other: &Primitive, p: DVec3) -> bool {
 /// How far within a primitive's edges a point of its surface is; negative outside.
 fn room(primitive: &Primitive, p: DVec3) -> f64 {
     match *primitive {
-        Primitive::Triangle(_) => inward_edges(&Face::of(primitive, Face::normal_of(primitive))).map_or(0.0, |edges| {
-            edges.into_iter().map(|(corner, inward)| (p - corner).dot(inward)).fold(f64::INFINITY, f64::min)
-        }),
+        Primitive::Triangle(_) => {
+            inward_edges(&Face::of(primitive, Face::normal_of(primitive))).map_or(0.0, |edges| {
+                edges
+                    .into_iter()
+                    .map(|(corner, inward)| (p - corner).dot(inward))
+                    .fold(f64::INFINITY, f64::min)
+            })
+        }
         Primitive::Disc { centre, radius, .. } => f64::from(radius) - p.distance(centre.as_dvec3()),
         Primitive::Sphere { .. } => f64::INFINITY,
         Primitive::Cylinder { from, axis, .. } => {
