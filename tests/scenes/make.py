@@ -56,7 +56,7 @@ def normals(side=SIDE):
     grey = height(side)
     du = (np.roll(grey, -1, 1) - np.roll(grey, 1, 1)) * side / 2
     dv = (np.roll(grey, -1, 0) - np.roll(grey, 1, 0)) * side / 2
-    normal = np.stack([-0.15 * du, 0.15 * dv, np.ones_like(grey)], axis=2)
+    normal = np.stack([-0.08 * du, 0.08 * dv, np.ones_like(grey)], axis=2)
     return 0.5 + 0.5 * normal / np.linalg.norm(normal, axis=2, keepdims=True)
 
 

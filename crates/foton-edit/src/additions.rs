@@ -6,7 +6,7 @@ use std::sync::Arc;
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DMat3, DQuat, DVec3};
 use foton_scene::description::{
-    Bsdf, Colour, Diffuse, EmitterDescription, EmitterKind, Geometry, Material, Mesh, Number,
+    Blend, Bsdf, Colour, Diffuse, EmitterDescription, EmitterKind, Geometry, Material, Mesh, Number, Relief,
     SceneDescription, ShapeDescription, Texture, TextureKind,
 };
 
@@ -153,7 +153,7 @@ pub(crate) fn add(
 }
 
 /// The surface of a thing that has one.
-fn surface(thing: NewThing, site: Site) -> Option<(Geometry, DAffine3, Option<Rgb>)> {
+fn surface(thing: NewThing, site: Site) -> Option<(Geometry, DAffine3, Option<Colour>)> {
     let half = site.half();
     let mesh = |mesh, turn: DMat3, size: f64, at: DVec3| {
         let to_world = DAffine3::from_mat3_translation(turn * size, at);
@@ -173,7 +173,7 @@ fn surface(thing: NewThing, site: Site) -> Option<(Geometry, DAffine3, Option<Rg
             let radiance = BRIGHTNESS * std::f64::consts::PI * height * height / area;
             let (geometry, to_world, _) =
                 mesh(Mesh::rectangle(), site.stand(DVec3::NEG_Z), side, site.above(HIGH))?;
-            Some((geometry, to_world, Some(Rgb::splat(radiance as f32))))
+            Some((geometry, to_world, Some(Rgb::splat(radiance as f32).into())))
         }
         _ => None,
     }
@@ -204,7 +204,7 @@ fn own_material(description: &mut SceneDescription, thing: NewThing, is_light: b
     let reflectance = Colour::Constant(if is_light { Rgb::BLACK } else { Rgb::splat(GREY) });
     let front = Bsdf::Diffuse(Diffuse { reflectance });
     let name = names::free(description, &format!("{}-material", thing.stem()));
-    description.materials.push(Material { name, front, back: Some(front), opacity: None });
+    description.materials.push(Material { name, front, back: Some(front), ..Material::default() });
     description.materials.len() - 1
 }
 
@@ -234,15 +234,23 @@ pub(crate) fn import(
     };
     for material in &from.materials {
         let name = names::free(description, &material.name);
-        let Material { front, back, opacity, .. } = material;
+        let Material { front, back, opacity, relief, mixture, .. } = material;
         let moved_side = |b: &Bsdf| b.map(moved, moved_number);
         let (front, back) = (moved_side(front), back.as_ref().map(moved_side));
-        description.materials.push(Material { name, front, back, opacity: opacity.map(moved) });
+        let relief = relief.map(|relief| Relief { texture: relief.texture + textures, ..relief });
+        let moved_blend = |blend: &Blend| Blend {
+            material: blend.material + materials,
+            weight: moved_number(blend.weight, [0.0, 1.0]),
+        };
+        let mixture = mixture.iter().map(moved_blend).collect();
+        let opacity = opacity.map(moved);
+        description.materials.push(Material { name, front, back, opacity, relief, mixture });
     }
     for shape in &from.shapes {
         let name = names::free(description, &shape.name);
         let material = shape.material + materials;
-        description.shapes.push(ShapeDescription { name, material, ..shape.clone() });
+        let radiance = shape.radiance.map(moved);
+        description.shapes.push(ShapeDescription { name, material, radiance, ..shape.clone() });
     }
     stand(&mut description.shapes[first..], site);
     (description.shapes.len() > first).then_some(Target::Shape(first))

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use foton_math::glam::{DAffine3, DVec3};
-use foton_scene::description::{Geometry, Mesh, ShapeDescription};
+use foton_scene::description::{Colour, Geometry, Mesh, ShapeDescription};
 
 /// The corners of a surface's bounds in object space.
 pub(crate) fn object_bounds(geometry: &Geometry) -> (DVec3, DVec3) {
@@ -75,7 +75,7 @@ pub(crate) fn translate(shape: &mut ShapeDescription, by: DVec3) {
     }
 }
 
-/// Scales a shape about its middle. Where it emits, its power stays: the radiance falls with the area.
+/// Scales a shape about its middle. Where it emits, its power stays: the radiance falls with the area. A texture stays as it is.
 pub(crate) fn scale(shape: &mut ShapeDescription, factor: f64) {
     if let Geometry::Sphere { radius, .. } = &mut shape.geometry {
         *radius *= factor;
@@ -84,7 +84,7 @@ pub(crate) fn scale(shape: &mut ShapeDescription, factor: f64) {
         shape.to_world.matrix3 *= factor;
         shape.to_world.translation = c + (shape.to_world.translation - c) * factor;
     }
-    if let Some(radiance) = &mut shape.radiance {
+    if let Some(Colour::Constant(radiance)) = &mut shape.radiance {
         *radiance *= (1.0 / (factor * factor)) as f32;
     }
 }
@@ -107,7 +107,8 @@ pub(crate) fn stretch(shape: &mut ShapeDescription, factors: DVec3) {
     let moved = centre(shape);
     shape.to_world.translation += c - moved;
     let after = area(shape);
-    if let Some(radiance) = shape.radiance.as_mut().filter(|_| before > 0.0 && after > 0.0) {
+    let seen = before > 0.0 && after > 0.0;
+    if let Some(Colour::Constant(radiance)) = shape.radiance.as_mut().filter(|_| seen) {
         *radiance *= (before / after) as f32;
     }
 }

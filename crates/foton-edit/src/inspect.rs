@@ -1,7 +1,7 @@
 //! What an inspector shows of a shape or light: its title, its fields, and whom an edit would touch besides.
 
 use foton_input::quoted;
-use foton_scene::description::{Geometry, SceneDescription, ShapeDescription};
+use foton_scene::description::{Colour, Geometry, SceneDescription, ShapeDescription};
 
 use super::camera::UpAxis;
 use super::field::{Field, FieldId, Fields};
@@ -167,7 +167,7 @@ fn shape(description: &SceneDescription, index: usize, mut fields: Fields) -> Op
     if shapes > 1 {
         notes.push(format!("The material {} is shared by {shapes} shapes.", quoted(&used.name)));
     }
-    if textured {
+    if textured || matches!(shape.radiance, Some(Colour::Texture(_))) {
         notes.push("Values that come from textures cannot be edited here.".to_owned());
     }
     let kind = shape_kind(description, shape);

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use foton_math::Rgb;
 use foton_math::glam::{DMat3, DQuat, DVec3};
-use foton_scene::description::{EmitterKind, ShapeDescription};
+use foton_scene::description::{Colour, EmitterKind, ShapeDescription};
 use foton_scene::parameter::Parameter;
 use foton_scene::plugins::emitters;
 
@@ -70,7 +70,7 @@ fn set_emission(light: &mut Rgb, watts: Option<f64>, field: FieldId, value: Valu
 
 /// Appends the fields of a shape that emits.
 pub(crate) fn surface_fields(shape: &ShapeDescription, out: &mut Fields) {
-    if let Some(radiance) = shape.radiance {
+    if let Some(Colour::Constant(radiance)) = shape.radiance {
         let watts = PI * geometry::area(shape);
         emission_fields(radiance, &emitters::RADIANCE, Some(watts), out);
     }
@@ -78,7 +78,7 @@ pub(crate) fn surface_fields(shape: &ShapeDescription, out: &mut Fields) {
 
 pub(crate) fn set_surface(shape: &mut ShapeDescription, field: FieldId, value: Value) {
     let watts = PI * geometry::area(shape);
-    if let Some(radiance) = &mut shape.radiance {
+    if let Some(Colour::Constant(radiance)) = &mut shape.radiance {
         set_emission(radiance, Some(watts), field, value);
     }
 }

@@ -252,9 +252,9 @@ fn a_shape_gets_a_material_of_its_own() {
 #[test]
 fn lights_and_cameras_change_in_place() {
     let folder = Folder::new("lights");
-    let lines = changed_lines(&folder, |d| d.shapes[4].radiance = Some(Rgb::new(0.5, 1.0 / 3.0, 7.0)));
+    let lines = changed_lines(&folder, |d| d.shapes[4].radiance = Some(Rgb::new(0.5, 1.0 / 3.0, 7.0).into()));
     assert_eq!(lines.len(), 1);
-    changed_lines(&folder, |d| d.shapes[0].radiance = Some(Rgb::splat(2.0)));
+    changed_lines(&folder, |d| d.shapes[0].radiance = Some(Rgb::splat(2.0).into()));
     changed_lines(&folder, |d| {
         let EmitterKind::Point { position, intensity } = &mut d.emitters[0].kind else { panic!("a point") };
         (*position, *intensity) = (DVec3::new(1.0, 2.0, 0.1), Rgb::new(0.1, 0.2, 0.3));

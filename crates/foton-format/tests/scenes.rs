@@ -266,7 +266,7 @@ fn an_area_emitter_stands_in_its_shape_or_is_referred_to() {
          <shape type='cube'><emitter type='area'><float name='radiance' value='3'/></emitter></shape><shape type='cube'/>",
     );
     let radiances: Vec<_> = opened.description.shapes.iter().map(|s| s.radiance).collect();
-    assert_eq!(radiances, [Some(Rgb::splat(2.0)), Some(Rgb::splat(3.0)), None]);
+    assert_eq!(radiances, [Some(Rgb::splat(2.0).into()), Some(Rgb::splat(3.0).into()), None]);
     assert!(opened.description.emitters.is_empty());
 }
 

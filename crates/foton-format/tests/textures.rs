@@ -196,3 +196,21 @@ fn textures_inside_themselves_are_errors() {
     let said = scene("<texture type='mesh_attribute'><string name='name' value='colour'/></texture>");
     assert!(said.contains("begins with \"vertex_\" or \"face_\""), "{said}");
 }
+
+#[test]
+fn a_surface_emits_a_picture_and_no_more_than_the_picture_has() {
+    let (description, warnings) = read(
+        "3.0.0",
+        "<texture type='bitmap' id='hdr'><string name='filename' value='little.pfm'/></texture>\
+         <shape type='rectangle'><emitter type='area'><ref id='hdr' name='radiance'/></emitter></shape>\
+         <bsdf type='diffuse'><ref id='hdr' name='reflectance'/></bsdf>",
+    );
+    let Some(Colour::Texture(light)) = description.shapes[0].radiance else { panic!("no texture") };
+    let Bsdf::Diffuse(Diffuse { reflectance: Colour::Texture(share) }) = description.materials[0].front
+    else {
+        panic!("no texture")
+    };
+    let brightest = |i: usize| pixels(&description.textures[i]).iter().fold(0.0, |m: f32, p| m.max(p.r));
+    assert_eq!([brightest(light), brightest(share)], [3.0, 1.0]);
+    assert_eq!(warnings.len(), 1, "as a share of light it is cut, and that is said: {warnings:?}");
+}

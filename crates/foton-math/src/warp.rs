@@ -18,6 +18,17 @@ pub fn square_to_disc(u: Vec2) -> Vec2 {
     if along_x { Vec2::new(along, across) } else { Vec2::new(across, along) }
 }
 
+/// The point of the unit square that [`square_to_disc`] maps to a point of the disc.
+#[must_use]
+pub fn disc_to_square(d: Vec2) -> Vec2 {
+    let along_x = d.x.abs() > d.y.abs();
+    let (along, across) = if along_x { (d.x, d.y) } else { (d.y, d.x) };
+    let major = d.length().copysign(along);
+    let minor = if along == 0.0 { 0.0 } else { major * (across / along).atan() / FRAC_PI_4 };
+    let p = if along_x { Vec2::new(major, minor) } else { Vec2::new(minor, major) };
+    (p + 1.0) * 0.5
+}
+
 /// Sine and cosine of an angle within ±π/4, to single precision: Taylor's series up to x⁹, whose remainder is below 2⁻²⁷.
 ///
 /// Only basic operations: the functions of a system's library may differ in the last bit from machine to machine.

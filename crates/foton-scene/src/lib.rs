@@ -10,6 +10,7 @@ pub mod bsdf;
 mod build;
 mod census;
 mod coincident;
+mod coordinates;
 pub mod description;
 mod discrete;
 mod emitter;

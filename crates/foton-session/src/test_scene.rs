@@ -9,14 +9,14 @@ use foton_scene::description::{
 
 /// A small disc within a larger one, in front of the camera; behind them a lamp, which emits if asked to.
 pub(crate) fn discs(radiance: Option<Rgb>) -> Scene {
-    let disc = |name: &str, z: f64, radius: f64, radiance| ShapeDescription {
+    let disc = |name: &str, z: f64, radius: f64, radiance: Option<Rgb>| ShapeDescription {
         name: name.into(),
         geometry: Geometry::Disc,
         to_world: DAffine3::from_translation(DVec3::new(0.0, 0.0, z))
             * DAffine3::from_scale(DVec3::new(radius, radius, -1.0)),
         flip_normals: false,
         material: 0,
-        radiance,
+        radiance: radiance.map(Into::into),
     };
     let white = Bsdf::Diffuse(Diffuse { reflectance: Rgb::splat(0.5).into() });
     let description = SceneDescription {
@@ -33,7 +33,7 @@ pub(crate) fn discs(radiance: Option<Rgb>) -> Scene {
             far_clip: None,
             lens: None,
         }],
-        materials: vec![Material { name: "white".into(), front: white, back: None, opacity: None }],
+        materials: vec![Material { name: "white".into(), front: white, back: None, ..Material::default() }],
         shapes: vec![
             disc("sign", 1.0, 1.0, None),
             disc("letter", 1.0, 0.5, None),

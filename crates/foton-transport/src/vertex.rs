@@ -6,7 +6,7 @@ use foton_scene::{LobeFlags, LobeSample, LobeSamples, Scattering, Scene, Surface
 
 use crate::direct_light::Receiver;
 use crate::lobes::{Bounce, LobePolicy, LobeSplit};
-use crate::shading::{leaves_wrongly, on_the_right_side, shading_normal_towards};
+use crate::shading::{leaves_wrongly, on_the_right_side, shading_view};
 
 /// A point of a surface that a path from the camera has met.
 pub struct Vertex<'a> {
@@ -42,9 +42,9 @@ impl<'a> Vertex<'a> {
     #[must_use]
     pub fn new(scene: &Scene, surface: &'a Surface, wo: Vec3, policy: &LobePolicy) -> Option<Self> {
         let scattering = scene.scattering(surface, wo.dot(surface.normal) > 0.0)?;
-        let frame = scene.shading_frame(surface, shading_normal_towards(surface, wo));
+        let (frame, local) = shading_view(scene, surface, wo);
         let split = policy.split(&scattering.bsdf);
-        Some(Self { surface, scattering, split, frame, wo, local: frame.to_local(wo) })
+        Some(Self { surface, scattering, split, frame, wo, local })
     }
 
     /// Its point as one that light arrives at: on the side of the path, or `behind`. `edges` are those to an emitter at most.

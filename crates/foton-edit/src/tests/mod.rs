@@ -58,12 +58,13 @@ fn scene() -> SceneDescription {
         specular_transmittance: white,
         roughness: None,
     });
-    let material = |name: &str, front| Material { name: name.into(), front, back: None, opacity: None };
+    let material =
+        |name: &str, front| Material { name: name.into(), front, back: None, ..Material::default() };
     let flat = DMat3::from_cols(DVec3::X * 20.0, DVec3::NEG_Z * 20.0, DVec3::Y);
     let floor = DAffine3::from_mat3(flat);
     let ball = Geometry::Sphere { centre: DVec3::new(0.0, 1.0, 0.0), radius: 1.0 };
     let mut lamp = shape("lamp", Geometry::Disc, DAffine3::from_translation(DVec3::new(-2.0, 3.0, -2.0)), 0);
-    lamp.radiance = Some(Rgb::new(2.0, 1.0, 0.5));
+    lamp.radiance = Some(Rgb::new(2.0, 1.0, 0.5).into());
     let light = |name: &str, kind| EmitterDescription { name: name.into(), kind };
     SceneDescription {
         sensors: vec![sensor(looking(DVec3::new(1.0, 3.0, 8.0), DVec3::new(0.0, 0.5, 0.0), DVec3::Y))],

@@ -19,7 +19,8 @@ use foton_input::shown;
 use foton_math::glam::{DAffine3, DMat3, DVec3};
 use foton_math::{Cancel, Rgb};
 use foton_scene::description::{
-    EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Mesh, SceneDescription, SensorDescription,
+    Colour, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Mesh, SceneDescription,
+    SensorDescription,
 };
 
 use crate::diagnostic::{Diagnostic, OpenError, Place, Report};
@@ -345,6 +346,6 @@ fn add_rectangle(name: &str, to_world: DAffine3, radiance: Option<Rgb>, scene: &
     add_shape(name, Mesh::rectangle(), None, scene);
     if let Some(shape) = scene.shapes.last_mut() {
         shape.to_world = to_world;
-        shape.radiance = radiance;
+        shape.radiance = radiance.map(Colour::from);
     }
 }

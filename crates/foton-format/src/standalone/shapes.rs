@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use foton_math::Rgb;
 use foton_math::glam::DAffine3;
-use foton_scene::description::{Bsdf, Diffuse, Geometry, Material, Mesh, SceneDescription, ShapeDescription};
+use foton_scene::description::{
+    Bsdf, Colour, Diffuse, Geometry, Material, Mesh, SceneDescription, ShapeDescription,
+};
 
 use crate::mesh::mtl;
 
@@ -14,7 +16,7 @@ pub(super) type Library<'a> = dyn FnMut(&str) -> Option<(String, Result<Vec<u8>,
 /// Grey, from both sides.
 pub(super) fn grey(name: &str) -> Material {
     let front = Bsdf::Diffuse(Diffuse { reflectance: Rgb::splat(0.5).into() });
-    Material { name: name.to_owned(), front, back: Some(front), opacity: None }
+    Material { name: name.to_owned(), front, back: Some(front), ..Material::default() }
 }
 
 pub(super) fn add_shape(name: &str, mesh: Mesh, known: Option<&mtl::Entry>, scene: &mut SceneDescription) {
@@ -26,6 +28,6 @@ pub(super) fn add_shape(name: &str, mesh: Mesh, known: Option<&mtl::Entry>, scen
         to_world: DAffine3::IDENTITY,
         flip_normals: false,
         material: scene.materials.len() - 1,
-        radiance: known.and_then(|entry| entry.radiance),
+        radiance: known.and_then(|entry| entry.radiance.map(Colour::from)),
     });
 }

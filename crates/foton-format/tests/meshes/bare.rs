@@ -1,11 +1,18 @@
 //! A mesh file as the whole scene.
 
 use super::*;
+use foton_scene::description::Colour;
 
 const MTL: &str = "newmtl wall\nKd 0.5 0.25 0.125 # comment\nKs 0 0 0\nillum 2\nmap_Kd bricks.png\n\
     newmtl mirror\nKd 0 0 0\nKs 0.9 0.9 0.9\nillum 5\nnewmtl glass\nillum 7\nNi 1.33\nTf 0 0 0\n\
     newmtl pane\nd 0.25\nNi 1.5\nnewmtl veil\nKd 1 1 1\nTr 0.75\nnewmtl varnish\nKd 0.5\nKs 0.5 0.5 0.5\nNs 198\n\
     newmtl lamp\nKd 0 0 0\nKe 17 12 4\nNs x\n";
+
+/// A light's radiance, the same everywhere.
+fn light(radiance: Colour) -> Rgb {
+    let Colour::Constant(radiance) = radiance else { panic!("{radiance:?}") };
+    radiance
+}
 
 #[test]
 fn materials_of_an_obj_file_become_ours() {
@@ -41,7 +48,7 @@ fn materials_of_an_obj_file_become_ours() {
     let alpha = facets.alpha_u.constant().expect("a number");
     assert!((alpha - 0.1).abs() < 1e-6, "√(2 / 200)");
     assert_eq!(material(7).front, diffuse(0.5, 0.5, 0.5));
-    let emitting: Vec<_> = scene.shapes.iter().filter_map(|s| s.radiance).collect();
+    let emitting: Vec<_> = scene.shapes.iter().filter_map(|s| s.radiance).map(light).collect();
     assert_eq!(emitting, [Rgb::new(17.0, 12.0, 4.0)]);
     assert_eq!(
         warnings(&opened),
@@ -78,7 +85,7 @@ fn a_bare_mesh_is_in_view_lit_and_on_a_floor() {
     let scene = &opened.description;
     let names: Vec<_> = scene.shapes.iter().map(|s| s.name.as_str()).collect();
     assert_eq!(names, ["mesh", "default-light", "default-floor"]);
-    assert!(scene.shapes[1].radiance.is_some_and(|r| r.is_finite() && r.r > 0.0));
+    assert!(scene.shapes[1].radiance.map(light).is_some_and(|r| r.is_finite() && r.r > 0.0));
     assert!(matches!(scene.emitters[0].kind, EmitterKind::Constant { .. }));
     let reach = extent(&opened, &points());
     assert!(reach > 0.6 && reach < 1.0, "{reach}");

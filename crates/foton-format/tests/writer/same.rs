@@ -29,8 +29,8 @@ pub(super) fn assert_same(a: &SceneDescription, b: &SceneDescription) {
     assert_eq!(a.shapes.len(), b.shapes.len());
     for (x, y) in a.shapes.iter().zip(&b.shapes) {
         assert_eq!(
-            (x.flip_normals, x.radiance, x.to_world),
-            (y.flip_normals, y.radiance, y.to_world),
+            (x.flip_normals, light(a, x.radiance), x.to_world),
+            (y.flip_normals, light(b, y.radiance), y.to_world),
             "{}",
             x.name
         );
@@ -68,8 +68,22 @@ fn bitmap_text(bitmap: &Bitmap) -> String {
 
 /// What a material is, textures included, with numbers to all digits.
 fn material(scene: &SceneDescription, index: usize) -> String {
-    let Material { front, back, opacity, .. } = &scene.materials[index];
-    let mut text = format!("{front:?} {back:?} {opacity:?}");
+    let Material { front, back, opacity, relief, mixture, .. } = &scene.materials[index];
+    let relief = relief.map(|r| format!("{:?} {} {:?}", r.kind, r.same_behind, Colour::Texture(r.texture)));
+    let mut text = format!("{front:?} {back:?} {opacity:?} {relief:?}");
+    for Blend { material: other, weight } in mixture {
+        text += &format!(" {weight:?} of ({})", material(scene, *other));
+    }
+    with_textures(scene, text)
+}
+
+/// What a surface emits, the same way.
+fn light(scene: &SceneDescription, radiance: Option<Colour>) -> String {
+    with_textures(scene, format!("{radiance:?}"))
+}
+
+/// With what textures are in the place of their numbers.
+fn with_textures(scene: &SceneDescription, mut text: String) -> String {
     while let Some(at) = text.find("Texture(") {
         let end = at + text[at..].find(')').unwrap();
         let Texture { to_uv, kind, .. } = &scene.textures[text[at + 8..end].parse::<usize>().unwrap()];

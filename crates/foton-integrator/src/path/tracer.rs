@@ -64,7 +64,10 @@ impl PathTracer {
             seen.shape = Some(surface.shape);
         }
         self.see_emitter(scene, &path, &surface, seen);
-        let vertex = Vertex::new(scene, &surface, -path.ray.direction, &self.policy)?;
+        let wo = -path.ray.direction;
+        let u = if scene.is_mixture(&surface) { numbers.choice() } else { 0.0 };
+        let (surface, _) = scene.choose_component(surface, wo.dot(surface.normal) > 0.0, u);
+        let vertex = Vertex::new(scene, &surface, wo, &self.policy)?;
         seen.scatters |= path.class.is_none() && vertex.split.gathers();
         if path.edges >= self.max_depth {
             return None;

@@ -73,13 +73,32 @@ impl Whitted {
         if is_visible {
             seen.add(None, branch.weight * scene.emitted(&surface, wo));
         }
-        let Some(vertex) = Vertex::new(scene, &surface, wo, &Self::POLICY) else { return };
         if branch.edges >= self.max_depth {
             return;
         }
+        for (surface, share) in scene.components(&surface, wo.dot(surface.normal) > 0.0) {
+            if let Some(vertex) = Vertex::new(scene, &surface, wo, &Self::POLICY) {
+                let branch = Branch { weight: branch.weight * share, ..branch };
+                self.meet(scene, &branch, &vertex, numbers, seen, branches, rays);
+            }
+        }
+    }
+
+    /// Lights a surface, and goes on by its delta lobes.
+    #[allow(clippy::too_many_arguments, reason = "all of a step; a struct of them is a copy of them")]
+    fn meet(
+        &self,
+        scene: &Scene,
+        branch: &Branch,
+        vertex: &Vertex<'_>,
+        numbers: &mut Numbers,
+        seen: &mut Seen,
+        branches: &mut Vec<Branch>,
+        rays: &mut u32,
+    ) {
         if vertex.scattering.bsdf.flags().spreads() {
             seen.scatters = true;
-            let lit = self.lit(scene, &branch, &vertex, numbers, seen);
+            let lit = self.lit(scene, branch, vertex, numbers, seen);
             seen.add(Some(PathClass::Direct), branch.weight * lit);
         }
         let lobes: Vec<_> = vertex.delta_lobes().collect();

@@ -147,6 +147,14 @@ fn is_share(c: Rgb) -> bool {
     c.to_array().iter().all(|c| (0.0..=1.0).contains(c))
 }
 
+/// Whether a shape's radiance, where it comes from a texture, is such as a surface can emit; whether it does.
+pub(super) fn check_radiance(shape: &ShapeDescription, textures: &Textures<'_>) -> Result<bool, BuildError> {
+    let Some(Colour::Texture(index)) = shape.radiance else { return Ok(false) };
+    textures.is_there(index, &shape.name)?;
+    textures.is_within(index, f32::INFINITY)?;
+    Ok(true)
+}
+
 /// Whether a material's numbers are such as a surface can have, and its textures are there.
 pub(super) fn check_material(material: &Material, textures: &Textures<'_>) -> Result<(), BuildError> {
     for colour in material.colours() {

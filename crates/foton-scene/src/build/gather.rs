@@ -7,15 +7,20 @@ use foton_math::{Aabb, Cancelled};
 
 use super::error::BuildError;
 use super::gauge::{BuildOptions, Gauge};
+use super::orientation::orientation;
 use crate::accel::Accel;
 use crate::attributes::Attributes;
 use crate::census::Census;
-use crate::description::{Attribute, Geometry, Mesh, ShapeDescription, Texture, TextureKind};
+use crate::description::{
+    Attribute, Colour, Geometry, Mesh, SceneDescription, ShapeDescription, Texture, TextureKind,
+};
 use crate::discrete::Discrete;
+use crate::emitter::{Emitter, Kind, Pattern};
 use crate::normalise::Normalisation;
 use crate::plane::triangle_normal;
 use crate::primitive::Primitive;
-use crate::scene::{Part, Scene};
+use crate::scene::{Mixtures, Part, Scene};
+use crate::texture::Sampler;
 
 /// How far a transform's axes may be from equal length and right angles and still keep a sphere round.
 const ROUNDNESS: f64 = 1e-4;
@@ -176,6 +181,31 @@ impl Gathered {
         self.vertex_uvs.extend((self.census.textures || self.census.anisotropy).then_some([Vec2::ZERO; 3]));
     }
 
+    /// Gives emitters the radiance of their texture; whether any has one.
+    pub(super) fn add_patterns(
+        &self,
+        emitters: &mut [Emitter],
+        description: &SceneDescription,
+        samplers: &[Arc<Sampler>],
+    ) -> bool {
+        let mut any = false;
+        for emitter in emitters {
+            let Kind::Area(area) = &mut emitter.kind else { continue };
+            let shape = &description.shapes[area.shape as usize];
+            let Some(Colour::Texture(texture)) = shape.radiance else { continue };
+            let first = self.shape_of.partition_point(|&of| of < area.shape);
+            let all = first..first + area.primitives.len();
+            let uvs = self.vertex_uvs.get(all).unwrap_or_default();
+            let sampler = Arc::clone(&samplers[texture]);
+            let to_object = orientation(&shape.to_world);
+            let place = (area.shape, first as u32);
+            let pattern = Pattern::new(sampler, &area.primitives, uvs, place, to_object);
+            area.set_pattern(pattern);
+            any = true;
+        }
+        any
+    }
+
     pub(super) fn into_scene(
         self,
         normalisation: Normalisation,
@@ -199,6 +229,7 @@ impl Gathered {
             accel: Arc::new(accel),
             shapes: Vec::new(),
             materials: Vec::new(),
+            mixtures: Mixtures::default(),
             coats: Vec::new(),
             lambertian: Vec::new(),
             emitters: Arc::default(),

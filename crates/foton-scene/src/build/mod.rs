@@ -13,18 +13,19 @@ mod textures;
 
 use std::sync::Arc;
 
-use foton_math::Aabb;
 use foton_math::glam::{DVec3, Vec3};
+use foton_math::{Aabb, Rgb};
 
 use crate::coincident::Coincidences;
-use crate::description::{SceneDescription, SensorDescription, ShapeDescription};
+use crate::description::{Colour, Material, SceneDescription, SensorDescription, ShapeDescription};
 use crate::emitter::{Aim, Area, Emitter, Kind};
 use crate::normalise::Normalisation;
-use crate::scene::{Moving, Part, Scene, Shape};
+use crate::scene::{Mixtures, Moving, Part, Scene, Shape};
 use crate::sensor::Sensor;
 use crate::texture::{Sampler, samplers};
 use checks::{
-    check_described_emitters, check_emitters, check_material, check_sensors, shape_bounds, world_bounds,
+    check_described_emitters, check_emitters, check_material, check_radiance, check_sensors, shape_bounds,
+    world_bounds,
 };
 use emitters::{ball, emitter_choice, unattached_emitter};
 pub use error::BuildError;
@@ -78,6 +79,7 @@ impl Scene {
         let textures = Textures::check(&description.textures)?;
         let normalisation = Normalisation::for_bounds(min, max);
         check_sensors(&description.sensors, &normalisation)?;
+        let mixtures = Mixtures::new(&description.materials)?;
         let gauge = options.step(BuildStep::Shapes, description.primitives());
         let mut gathered = Gathered::new(options.forced.clone(), &description.textures);
         for material in &description.materials {
@@ -85,17 +87,23 @@ impl Scene {
             gathered.census.textures |= material.textures().next().is_some();
             gathered.census.anisotropy |= material.is_anisotropic();
         }
+        for shape in &description.shapes {
+            gathered.census.textures |= check_radiance(shape, &textures)?;
+        }
         let (shapes, emitters) = (Vec::new(), Vec::new());
         // Attributes of meshes come later: nothing here asks for their values.
         let samplers_so_far = samplers(&description.textures, &vec![None; description.textures.len()]);
-        let mut parts =
-            Parts { gathered, textures: &samplers_so_far, shapes, emitters, casters: Aabb::EMPTY };
+        let of = (&mixtures, &*samplers_so_far);
+        let mut parts = Parts { gathered, of, shapes, emitters, casters: Aabb::EMPTY };
         for (i, shape) in description.shapes.iter().enumerate() {
             parts.add(i as u32, shape, description, &normalisation, &gauge)?;
         }
         let Parts { mut gathered, shapes, mut emitters, casters, .. } = parts;
         let bounds = gathered.primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
         let bounds = if bounds.is_empty() { Aabb::around(Vec3::ZERO, 1.0) } else { bounds };
+        let attributes = gathered.attributes();
+        let samplers = samplers(&description.textures, &attributes);
+        let patterned = gathered.add_patterns(&mut emitters, description, &samplers);
         let scene_ball = ball(&bounds);
         let casters =
             (!casters.is_empty()).then(|| ball(&casters)).filter(|c| c.radius < 0.5 * scene_ball.radius);
@@ -106,14 +114,14 @@ impl Scene {
         let mut index = 0..;
         let is_hidden = |i: usize| i >= surfaces && description.hidden.emitters.contains(&(i - surfaces));
         emitters.retain(|_| !index.next().is_some_and(is_hidden));
-        let attributes = gathered.attributes();
         let mut scene = gathered.into_scene(normalisation, bounds, options)?;
         scene.shapes = shapes;
-        if attributes.iter().all(Option::is_none) {
+        if attributes.iter().all(Option::is_none) && !patterned {
             scene.order = Arc::default();
         }
-        scene.textures = samplers(&description.textures, &attributes);
+        scene.textures = samplers;
         scene.materials.clone_from(&description.materials);
+        scene.mixtures = mixtures;
         scene.max_depth = description.max_depth;
         let attribute_bytes: usize = attributes.iter().flatten().map(|a| a.bytes()).sum();
         scene.picture_bytes = description.picture_bytes() + attribute_bytes;
@@ -135,7 +143,8 @@ impl Scene {
         }
         self.lambertian =
             self.shapes.iter().map(|s| self.materials[s.material as usize].lambertian()).collect();
-        let spreads: Vec<bool> = self.shapes.iter().map(|s| self.material_of(s).spreads()).collect();
+        let spreads: Vec<bool> =
+            self.shapes.iter().map(|s| self.materials_of(s).any(Material::spreads)).collect();
         let patches = patches::find(&self.accel, |i| spreads[self.shape_of(i) as usize], options)?;
         let coincidences = Coincidences::find(self, options)?;
         for (i, (part, patch)) in Arc::make_mut(&mut self.parts).iter_mut().zip(patches).enumerate() {
@@ -145,6 +154,7 @@ impl Scene {
         for emitter in emitters {
             if let Kind::Area(area) = &mut emitter.kind {
                 area.gap = self.coincidences.gap(area.shape as usize);
+                area.pattern.iter_mut().for_each(|pattern| pattern.set_order(&self.order));
             }
         }
         Ok(())
@@ -201,7 +211,8 @@ fn steps_across(extent: &Aabb) -> f32 {
 /// What shapes bring to a scene.
 struct Parts<'a> {
     gathered: Gathered,
-    textures: &'a [Arc<Sampler>],
+    /// What materials are blended of, and textures.
+    of: (&'a Mixtures, &'a [Arc<Sampler>]),
     shapes: Vec<Shape>,
     emitters: Vec<Emitter>,
     /// A box around what throws caustics.
@@ -217,14 +228,19 @@ impl Parts<'_> {
         normalisation: &Normalisation,
         gauge: &Gauge<'_>,
     ) -> Result<(), BuildError> {
-        let Self { gathered, textures, shapes, emitters, casters } = self;
+        let Self { gathered, of: (mixtures, textures), shapes, emitters, casters } = self;
         let first = gathered.primitives.len();
         let is_hidden = description.hidden.shapes.contains(&(index as usize));
-        let material = description.materials.get(shape.material);
-        let material = material.ok_or_else(|| BuildError::NoMaterial(shape.name.clone()))?;
+        if shape.material >= description.materials.len() {
+            return Err(BuildError::NoMaterial(shape.name.clone()));
+        }
+        let mut materials = mixtures.materials(shape.material).map(|i| &description.materials[i]);
         if !is_hidden {
             gathered.add(index, shape, normalisation, gauge)?;
-            material.textures().try_for_each(|texture| check_attributes(texture, shape, description))?;
+            let radiance =
+                if let Some(Colour::Texture(texture)) = shape.radiance { Some(texture) } else { None };
+            let mut textures = materials.clone().flat_map(Material::textures).chain(radiance);
+            textures.try_for_each(|texture| check_attributes(texture, shape, description))?;
         }
         gauge.add(gathered.primitives.len() - first)?;
         if gathered.primitives.len() > i32::MAX as usize {
@@ -232,13 +248,15 @@ impl Parts<'_> {
         }
         let smooth = gathered.vertex_normals[first..].iter().any(|n| n[0] != Vec3::ZERO);
         if !is_hidden {
-            gathered.census.count(material, textures, smooth);
+            materials.clone().for_each(|material| gathered.census.count(material, textures, smooth));
         }
         let primitives = &gathered.primitives[first..];
-        if material.casts(textures) {
+        if materials.any(|material| material.casts(textures)) {
             *casters = primitives.iter().fold(*casters, |b, p| b.union(p.bounds()));
         }
-        let emitter = shape.radiance.filter(|r| !r.is_black() && !is_hidden).map(|radiance| {
+        let shines = |radiance: &Colour| *radiance != Colour::Constant(Rgb::BLACK) && !is_hidden;
+        let emitter = shape.radiance.filter(shines).map(|radiance| {
+            let radiance = if let Colour::Constant(c) = radiance { c } else { Rgb::BLACK };
             let kind = Kind::Area(Area::new(index, radiance, primitives));
             emitters.push(Emitter { name: shape.name.clone(), kind, aim: Aim::default() });
             emitters.len() as u32 - 1

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec2, DVec3};
+
+use super::texture::Colour;
 
 /// A surface with its material.
 #[derive(Clone, Debug)]
@@ -19,7 +20,7 @@ pub struct ShapeDescription {
     /// Index into [`SceneDescription::materials`](super::SceneDescription::materials).
     pub material: usize,
     /// Emitted radiance on the side that the normal points to (W·m⁻²·sr⁻¹), where the surface is an area emitter.
-    pub radiance: Option<Rgb>,
+    pub radiance: Option<Colour>,
 }
 
 /// A surface in object space.

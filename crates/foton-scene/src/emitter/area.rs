@@ -8,6 +8,8 @@ use foton_math::{Aabb, Frame, Rgb, warp};
 use super::aim::{Aim, one_minus_cos_of_cone};
 use super::emission::{Emission, Illumination};
 use super::extent::Extent;
+use super::pattern::Pattern;
+use super::place::Place;
 use super::rectangle::Rectangle;
 use crate::discrete::Discrete;
 use crate::plane::Plane;
@@ -17,7 +19,10 @@ use crate::surface::{Surface, locate};
 /// A surface that emits on the side its normal points to.
 #[derive(Clone, Debug)]
 pub(crate) struct Area {
+    /// Its mean over the surface, where it is not the same everywhere.
     pub(crate) radiance: Rgb,
+    /// The texture that it comes from, if it does.
+    pub(crate) pattern: Option<Box<Pattern>>,
     pub(crate) primitives: Vec<Primitive>,
     /// Those of triangles; whatever for other primitives.
     planes: Vec<Plane>,
@@ -29,12 +34,21 @@ pub(crate) struct Area {
     pub(crate) gap: f32,
 }
 
+/// A point that was chosen on an emitter.
+struct Sample {
+    surface: Surface,
+    radiance: Rgb,
+    /// One over its density by area: all of the area where that is the same everywhere.
+    area: f32,
+}
+
 impl Area {
     /// A shape's surface that emits.
     pub(crate) fn new(shape: u32, radiance: Rgb, primitives: &[Primitive]) -> Self {
         let areas = || primitives.iter().map(Primitive::area);
         Self {
             radiance,
+            pattern: None,
             primitives: primitives.to_vec(),
             planes: primitives.iter().map(Primitive::plane).collect(),
             rectangle: Rectangle::of(primitives),
@@ -45,31 +59,30 @@ impl Area {
         }
     }
 
-    /// A point uniform by area.
-    pub(super) fn sample(&self, u_part: f32, u: Vec2) -> Surface {
-        let part = self.by_area.choose(f64::from(u_part));
-        let primitive = &self.primitives[part];
-        self.surface(match *primitive {
-            Primitive::Triangle(corners) => self.planes[part].locate(corners, warp::square_to_triangle(u)),
-            Primitive::Sphere { centre, radius, .. } => {
-                locate(primitive, Vec2::ZERO, centre + warp::square_to_sphere(u) * radius)
-            }
-            Primitive::Disc { centre, normal, radius } => {
-                let frame = Frame::from_normal(normal);
-                let d = warp::square_to_disc(u) * radius;
-                locate(primitive, Vec2::ZERO, centre + frame.tangent * d.x + frame.bitangent * d.y)
-            }
-            Primitive::Cylinder { from, axis, radius } => {
-                let frame = Frame::from_normal(axis.normalize());
-                let (sin, cos) = (2.0 * PI * u.y).sin_cos();
-                let across = (frame.tangent * cos + frame.bitangent * sin) * radius.abs();
-                locate(primitive, Vec2::ZERO, from + axis * u.x + across)
-            }
-        })
+    /// Makes its radiance that of a texture.
+    pub(crate) fn set_pattern(&mut self, pattern: Pattern) {
+        self.radiance = pattern.mean();
+        // Points go by the texture, not by the solid angle.
+        self.rectangle = None;
+        self.pattern = Some(Box::new(pattern));
+    }
+
+    /// A point, uniform by area or in proportion to the radiance there.
+    fn sample(&self, u_part: f32, u: Vec2) -> Sample {
+        let place = |part: usize, u| Place::on(&self.primitives[part], &self.planes[part], u);
+        let sampled = self.pattern.as_ref().and_then(|p| Some((p, p.sample(u_part, u)?)));
+        let Some((pattern, (part, u, density))) = sampled else {
+            let part = self.by_area.choose(f64::from(u_part));
+            let surface = self.surface(&place(part, u));
+            return Sample { surface, radiance: self.radiance, area: self.area };
+        };
+        let place = place(part, u);
+        let radiance = pattern.radiance(part, &self.primitives[part], &place);
+        Sample { surface: self.surface(&place), radiance, area: 1.0 / density }
     }
 
     /// With its error bound and normal.
-    fn surface(&self, (position, error, normal): (Vec3, Vec3, Vec3)) -> Surface {
+    fn surface(&self, &Place { position, error, normal, barycentric }: &Place) -> Surface {
         Surface {
             position,
             error: error + normal.abs() * self.gap,
@@ -79,8 +92,10 @@ impl Area {
             shape: self.shape,
             patch: 0,
             primitive: 0,
-            barycentric: Vec2::ZERO,
+            barycentric,
             interface: None,
+            is_relieved: false,
+            component: 0,
         }
     }
 
@@ -98,25 +113,24 @@ impl Area {
     }
 
     pub(super) fn emit(&self, aim: &Aim, u_part: f32, u_position: Vec2, u_direction: Vec2) -> Emission {
-        let surface = self.sample(u_part, u_position);
+        let Sample { surface, radiance, area } = self.sample(u_part, u_position);
         let frame = Frame::from_normal(surface.normal);
         let own = |u| frame.to_outer(warp::square_to_cosine_hemisphere(u));
         let origin = surface.ray_origin(surface.normal);
         if aim.is_empty() {
-            return Emission {
-                origin,
-                direction: own(u_direction),
-                power: self.radiance * self.power_factor(),
-            };
+            return Emission { origin, direction: own(u_direction), power: radiance * (PI * area) };
         }
         let cosine = |direction: Vec3| direction.dot(surface.normal).max(0.0);
         let (direction, pdf) = aim.divergent(origin, u_direction, own, |direction| cosine(direction) / PI);
-        Emission { origin, direction, power: self.radiance * (self.area * cosine(direction) / pdf) }
+        Emission { origin, direction, power: radiance * (area * cosine(direction) / pdf) }
     }
 
     /// As [`Area::emit`] for a sphere, but such that `u_direction` alone decides the direction: light of a sphere is the same in all
-    /// directions, and in each it fills a disc. `None` for other shapes.
+    /// directions, and in each it fills a disc. `None` for other shapes, and where a point's radiance is not that of all.
     pub(super) fn emit_by_direction(&self, u_position: Vec2, u_direction: Vec2) -> Option<Emission> {
+        if self.pattern.is_some() {
+            return None;
+        }
         let [primitive @ Primitive::Sphere { centre, radius, inward: false }] = &self.primitives[..] else {
             return None;
         };
@@ -124,13 +138,15 @@ impl Area {
         let disc = warp::square_to_disc(u_position);
         let towards = disc.extend((1.0 - disc.length_squared()).max(0.0).sqrt());
         let outward = Frame::from_normal(direction).to_outer(towards);
-        let surface = self.surface(locate(primitive, Vec2::ZERO, *centre + outward * *radius));
+        let (position, error, normal) = locate(primitive, Vec2::ZERO, *centre + outward * *radius);
+        let surface = self.surface(&Place { position, error, normal, barycentric: Vec2::ZERO });
         let origin = surface.ray_origin(surface.normal);
         Some(Emission { origin, direction, power: self.radiance * self.power_factor() })
     }
 
     pub(super) fn illuminate(&self, position: Vec3, u_part: f32, u: Vec2) -> Option<Illumination> {
         if let [Primitive::Sphere { centre, radius, inward: false }] = self.primitives[..]
+            && self.pattern.is_none()
             && let Some(seen) = self.illuminate_from_sphere(centre, radius, position, u)
         {
             return Some(seen);
@@ -145,7 +161,7 @@ impl Area {
                 pdf: 1.0 / seen.solid_angle(),
             });
         }
-        let surface = self.sample(u_part, u);
+        let Sample { surface, radiance, area } = self.sample(u_part, u);
         let d = surface.position - position;
         let distance2 = d.length_squared();
         let direction = d / distance2.sqrt();
@@ -153,8 +169,8 @@ impl Area {
         (cosine > 0.0 && distance2 > 0.0).then(|| Illumination {
             direction,
             distance: distance2.sqrt(),
-            radiance_over_pdf: self.radiance * (cosine * self.area / distance2),
-            pdf: distance2 / (cosine * self.area),
+            radiance_over_pdf: radiance * (cosine * area / distance2),
+            pdf: distance2 / (cosine * area),
         })
     }
 
@@ -184,6 +200,7 @@ impl Area {
     /// 0 where that is seen from behind.
     pub(crate) fn pdf(&self, point: &Surface, position: Vec3) -> f32 {
         if let [Primitive::Sphere { centre, radius, inward: false }] = self.primitives[..]
+            && self.pattern.is_none()
             && let Some(one_minus_cos) = one_minus_cos_of_cone(radius, centre.distance(position))
         {
             return warp::square_to_cone_pdf(one_minus_cos);
@@ -194,6 +211,16 @@ impl Area {
         let d = point.position - position;
         let distance2 = d.length_squared();
         let cosine = -d.dot(point.normal) / distance2.sqrt();
-        if cosine > 0.0 && distance2 > 0.0 { distance2 / (cosine * self.area) } else { 0.0 }
+        if !(cosine > 0.0 && distance2 > 0.0) {
+            return 0.0;
+        }
+        match &self.pattern {
+            Some(pattern) => {
+                let Surface { position, error, normal, barycentric, primitive, .. } = *point;
+                let place = Place { position, error, normal, barycentric };
+                distance2 / cosine * pattern.density_at(&self.primitives, primitive, &place)
+            }
+            None => distance2 / (cosine * self.area),
+        }
     }
 }

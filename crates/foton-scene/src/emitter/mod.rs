@@ -9,6 +9,8 @@ mod emission;
 mod environment;
 mod environment_map;
 mod extent;
+mod pattern;
+mod place;
 mod point;
 mod rectangle;
 mod spot;
@@ -28,6 +30,7 @@ pub use emission::{Emission, Illumination};
 pub(crate) use environment::{Constant, Environment};
 pub(crate) use environment_map::EnvironmentMap;
 pub use extent::Extent;
+pub(crate) use pattern::Pattern;
 pub(crate) use point::Point;
 pub(crate) use spot::Spot;
 

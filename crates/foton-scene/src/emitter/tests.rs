@@ -1,9 +1,10 @@
 //! Every emitter: photons and shadow rays, two independent codes, must bring the same light.
 
 use super::*;
-use crate::description::Bitmap;
+use crate::description::{Bitmap, Texture, TextureKind, Wrap};
 use crate::primitive::Primitive;
-use foton_math::glam::Mat3;
+use crate::texture::{Sampler, samplers};
+use foton_math::glam::{DAffine2, Mat3};
 use foton_math::{Frame, Purpose, Stream, warp};
 use std::f32::consts::PI;
 
@@ -13,6 +14,29 @@ fn emitter(kind: Kind) -> Emitter {
 
 fn area(primitives: Vec<Primitive>) -> Emitter {
     emitter(Kind::Area(Area::new(0, Rgb::splat(2.0), &primitives)))
+}
+
+/// A picture with one bright pixel, and a black one.
+pub(super) fn picture() -> std::sync::Arc<Sampler> {
+    let mut pixels: Vec<Rgb> = (0..20).map(|i| Rgb::splat(0.1 + (i % 7) as f32 * 0.2)).collect();
+    pixels[7] = Rgb::splat(12.0);
+    pixels[12] = Rgb::BLACK;
+    let bitmap = Bitmap::new(5, 4, pixels).into();
+    let kind = TextureKind::Bitmap { bitmap, wrap: Wrap::Repeat, bilinear: true };
+    let texture = Texture { name: "picture".into(), to_uv: DAffine2::IDENTITY, kind };
+    samplers(&[texture], &[None])[0].clone()
+}
+
+pub(super) fn patterned(primitives: Vec<Primitive>) -> Area {
+    let uvs: Vec<_> = (0..primitives.len())
+        .map(|i| [(0.1, 0.2), (0.9, 0.1), (0.4, 0.3 + 0.5 * i as f32)].map(Vec2::from))
+        .collect();
+    let pattern = Pattern::new(picture(), &primitives, &uvs, (0, 0), Mat3::from_rotation_x(0.3));
+    let mut area = Area::new(0, Rgb::BLACK, &primitives);
+    area.set_pattern(pattern);
+    let order: std::sync::Arc<[u32]> = (0..primitives.len() as u32).collect();
+    area.pattern.iter_mut().for_each(|p| p.set_order(&order));
+    area
 }
 
 /// Each kind as it shines, aimed at one ball, and at three of which some are near and some far.
@@ -58,6 +82,23 @@ fn as_they_shine() -> Vec<Emitter> {
         })),
         emitter(Kind::Environment(Environment { map: Box::new(map), scene })),
         area(vec![Primitive::Cylinder { from: Vec3::new(-1.0, 0.0, 3.0), axis: Vec3::X * 2.0, radius: 0.4 }]),
+    ]
+    .into_iter()
+    .chain(shapes_with_patterns().into_iter().map(|primitives| emitter(Kind::Area(patterned(primitives)))))
+    .collect()
+}
+
+/// One of each kind of surface, two triangles among them.
+pub(super) fn shapes_with_patterns() -> Vec<Vec<Primitive>> {
+    let square = |x: f32| Vec3::new(x, 0.0, 3.0);
+    vec![
+        vec![
+            Primitive::Triangle([square(0.0), square(1.0) + Vec3::Y, square(1.0)]),
+            Primitive::Triangle([square(0.0), square(-3.0), square(0.0) - Vec3::Y]),
+        ],
+        vec![Primitive::Sphere { centre: Vec3::new(0.0, 0.0, 5.0), radius: 1.5, inward: false }],
+        vec![Primitive::Disc { centre: Vec3::new(0.5, 0.0, 4.0), normal: -Vec3::Z, radius: 1.0 }],
+        vec![Primitive::Cylinder { from: Vec3::new(-1.0, 0.0, 3.0), axis: Vec3::X * 2.0, radius: 0.4 }],
     ]
 }
 

@@ -16,6 +16,9 @@ const fn emission(name: &'static str, label: &'static str, unit: &'static str) -
 /// Emitted radiance.
 pub const RADIANCE: Parameter = emission("radiance", "Radiance", "W/(m²·sr)");
 
+/// The same of a surface, which a texture may give.
+pub const RADIANCE_OF_SURFACE: Parameter = Parameter { textured: true, ..RADIANCE };
+
 /// Emitted radiant intensity.
 pub const INTENSITY: Parameter = emission("intensity", "Intensity", "W/sr");
 
@@ -66,8 +69,8 @@ pub const SCALE: Parameter =
 pub const AREA: Plugin = Plugin {
     name: "area",
     label: "",
-    help: "Inside a shape: its surface emits the same radiance at every point, in all directions of its outer side.",
-    parameters: &[RADIANCE],
+    help: "Inside a shape: its surface emits this radiance, the same in all directions of its outer side. Photons and shadow rays start in proportion to it.",
+    parameters: &[RADIANCE_OF_SURFACE],
 };
 
 /// A point.

@@ -3,7 +3,7 @@
 use foton_math::Rgb;
 use foton_math::glam::Vec3;
 
-use super::Scene;
+use super::{Footprint, Scene};
 use crate::emitter::Kind;
 use crate::surface::Surface;
 
@@ -11,9 +11,18 @@ impl Scene {
     /// Radiance that a surface emits towards `direction`.
     #[must_use]
     pub fn emitted(&self, surface: &Surface, direction: Vec3) -> Rgb {
+        self.emitted_seen(surface, direction, None)
+    }
+
+    /// The same, the mean over what an eye sample sees around the point. Without a footprint that of the point.
+    #[must_use]
+    pub fn emitted_seen(&self, surface: &Surface, direction: Vec3, footprint: Option<&Footprint>) -> Rgb {
         let Some(emitter) = self.shapes[surface.shape as usize].emitter else { return Rgb::BLACK };
         match &self.emitters[emitter as usize].kind {
-            Kind::Area(area) if direction.dot(surface.normal) > 0.0 => area.radiance,
+            Kind::Area(area) if direction.dot(surface.normal) > 0.0 => match &area.pattern {
+                Some(pattern) => self.lookup(surface, footprint).colour(&pattern.sampler),
+                None => area.radiance,
+            },
             _ => Rgb::BLACK,
         }
     }

@@ -42,6 +42,14 @@ impl Lookup {
         let filtered = |sides: &[Vec2; 2]| sampler.filtered_scalar(&self.at, sides);
         self.sides.as_ref().map_or_else(|| sampler.scalar(&self.at), filtered)
     }
+
+    /// How the number changes with the texture coordinates of the surface.
+    pub(super) fn slope(&self, sampler: &Sampler) -> Vec2 {
+        let step = sampler.step();
+        let beside = |by: Vec2| Self { at: At { uv: self.at.uv + by, ..self.at }, ..*self }.scalar(sampler);
+        let along = |by: Vec2| beside(by) - beside(-by);
+        Vec2::new(along(Vec2::new(step.x, 0.0)), along(Vec2::new(0.0, step.y))) / (2.0 * step)
+    }
 }
 
 impl Scene {

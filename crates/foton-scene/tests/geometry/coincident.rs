@@ -38,7 +38,13 @@ fn scene(shapes: Vec<ShapeDescription>) -> Scene {
     let mut description = describe(shapes);
     let grey = description.materials[0].front;
     let half = Some(Colour::Constant(Rgb::splat(0.5)));
-    let material = |front, back, opacity| Material { name: "material".into(), front, back, opacity };
+    let material = |front, back, opacity| Material {
+        name: "material".into(),
+        front,
+        back,
+        opacity,
+        ..Material::default()
+    };
     description.materials.extend([
         material(grey, None, None),
         material(dielectric(1.5), None, None),
@@ -169,7 +175,7 @@ fn of_two_opaque_surfaces_the_first_counts_where_it_is_described() {
         for lamp in [0, 1] {
             let mut shapes = vec![of(BOTH, floor(place)), of(BOTH, floor(place))];
             shapes[lamp] = of(BOTH, decal(place, true));
-            shapes[lamp].radiance = Some(Rgb::WHITE);
+            shapes[lamp].radiance = Some(Rgb::WHITE.into());
             let scene = scene(shapes);
             met(&scene, place, true, |_, hit| assert_eq!(hit.shape as usize, lamp));
             met(&scene, place, false, |_, hit| assert_eq!(hit.shape, 0));
@@ -227,7 +233,7 @@ fn a_face_that_two_dielectrics_state_is_one_boundary_between_them() {
             }
         }
         let mut description = describe(vec![of(1, outer), of(2, block(place))]);
-        let material = |front| Material { name: "clear".into(), front, back: None, opacity: None };
+        let material = |front| Material { name: "clear".into(), front, back: None, ..Material::default() };
         let inner = Bsdf::Dielectric(Dielectric {
             int_ior: 1.25,
             ext_ior: 1.5,

@@ -82,7 +82,7 @@ fn the_cone_of_a_spot_stays_round() {
 #[test]
 fn a_shining_shape_without_area_is_no_emitter() {
     let mut flat = mesh(Mesh { triangles: torn().triangles[2..].to_vec(), ..torn() }, DAffine3::IDENTITY);
-    flat.radiance = Some(Rgb::WHITE);
+    flat.radiance = Some(Rgb::WHITE.into());
     let scene = build(vec![flat]);
     let census = scene.census();
     assert_eq!((census.triangles, census.degenerate_triangles, census.emitters), (0, 7, 0));
@@ -213,7 +213,7 @@ fn textures_are_there_and_their_coordinates_fit() {
 fn what_emitters_emit_is_finite() {
     for bad in [f32::NAN, f32::INFINITY] {
         let mut shining = describe(vec![mesh(Mesh::rectangle(), DAffine3::IDENTITY)]);
-        shining.shapes[0].radiance = Some(Rgb::new(1.0, bad, 1.0));
+        shining.shapes[0].radiance = Some(Rgb::new(1.0, bad, 1.0).into());
         assert_eq!(Scene::build(&shining).err(), Some(BuildError::NotFinite("shape".into())));
         let kind = EmitterKind::Point { position: DVec3::splat(f64::from(bad)), intensity: Rgb::WHITE };
         let mut lit = describe(vec![mesh(Mesh::rectangle(), DAffine3::IDENTITY)]);

@@ -28,7 +28,7 @@ fn still_life(others: Vec<ShapeDescription>) -> SceneDescription {
 
 fn square(name: &str, size: f64, radiance: Option<Rgb>) -> ShapeDescription {
     let to_world = DAffine3::from_scale(DVec3::splat(size));
-    ShapeDescription { radiance, ..named(name, mesh(Mesh::rectangle(), to_world)) }
+    ShapeDescription { radiance: radiance.map(Into::into), ..named(name, mesh(Mesh::rectangle(), to_world)) }
 }
 
 fn light(name: &str, kind: EmitterKind) -> SceneDescription {
@@ -55,14 +55,15 @@ fn what_leaves_the_rest_without_coordinates_is_named() {
         // The floor's farthest side is seven metres from the camera, along y. Of numbers beyond all others nothing is left.
         assert!(name == "ground" && (size > 1e20 || (times / (size / 7.0) - 1.0).abs() < 0.2), "{times}");
     }
-    let dome = ShapeDescription { radiance: Some(Rgb::WHITE), ..named("dome", ball(DVec3::ZERO, 1e20)) };
+    let dome =
+        ShapeDescription { radiance: Some(Rgb::WHITE.into()), ..named("dome", ball(DVec3::ZERO, 1e20)) };
     let wall = square("wall", 2e20, None);
     let [(name, FarKind::Surfaces(1), _)] = &far(&still_life(vec![wall, dome]))[..] else { panic!("both") };
     assert_eq!(name, "dome");
     // A ground of ten thousand times the view, or a dome alone, is nothing to warn of.
     assert_eq!(far(&still_life(vec![square("ground", 1e5, None)])), []);
     let mut alone = describe(vec![ball(DVec3::ZERO, 1e20)]);
-    alone.shapes[0].radiance = Some(Rgb::WHITE);
+    alone.shapes[0].radiance = Some(Rgb::WHITE.into());
     assert_eq!(far(&alone), []);
 }
 
@@ -142,7 +143,7 @@ fn what_no_number_holds_is_refused_by_name_and_with_what_would_do() {
             let fit = (most * factor / emission) as f32;
             let mut fitted = description.clone();
             if let Some(shape) = fitted.shapes.get_mut(2) {
-                shape.radiance = Some(bright * fit);
+                shape.radiance = Some((bright * fit).into());
             }
             for emitter in &mut fitted.emitters {
                 match &mut emitter.kind {

@@ -18,7 +18,7 @@ fn placements() -> Vec<DAffine3> {
 
 /// Both ways around, shining.
 fn both(mut description: ShapeDescription) -> [ShapeDescription; 2] {
-    description.radiance = Some(Rgb::WHITE);
+    description.radiance = Some(Rgb::WHITE.into());
     let mut flipped = description.clone();
     flipped.flip_normals = true;
     [description, flipped]

@@ -1,14 +1,13 @@
 //! `<emitter>` elements: area (inside shapes), point, spot, directional, constant and envmap.
 
-use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DVec3};
-use foton_scene::description::{EmitterDescription, EmitterKind};
+use foton_scene::description::{Colour, EmitterDescription, EmitterKind};
 use foton_scene::plugins::emitters::{
     BEAM_WIDTH, CONSTANT, CUTOFF_ANGLE, DIRECTION, ENVMAP, FILENAME, INTENSITY, IRRADIANCE, POSITION,
     RADIANCE, SCALE, SPOT, TO_WORLD,
 };
 
-use crate::image::Reading;
+use crate::image::{Purpose, Reading};
 use crate::mitsuba::document::NodeId;
 use crate::mitsuba::names::EMITTERS;
 use crate::mitsuba::read::properties::{Object, Properties};
@@ -46,7 +45,7 @@ impl Reader<'_> {
     }
 
     /// The radiance of an emitter inside a shape.
-    pub(crate) fn area_emitter(&mut self, emitter: Object<'_>) -> Option<Rgb> {
+    pub(crate) fn area_emitter(&mut self, emitter: Object<'_>) -> Option<Colour> {
         let plugin = self.plugin(emitter.element, &EMITTERS)?;
         if plugin != "area" {
             let message = format!("only an area emitter can stand inside a shape, not a {plugin} emitter");
@@ -60,11 +59,14 @@ impl Reader<'_> {
         if let Some(to_world) = p.transform(TO_WORLD.name, &mut self.report) {
             self.report.error(to_world.place, "an area emitter takes its transform from its shape");
         }
-        let radiance = self.emission(&mut p, &RADIANCE);
+        let radiance = match p.texture(RADIANCE.name) {
+            Some(texture) => self.texture_for(texture, Purpose::Light).map(Colour::Texture),
+            None => Some(self.emission(&mut p, &RADIANCE).into()),
+        };
         // It steers another renderer's sampling.
         p.ignore(&["sampling_weight"]);
         p.finish(&mut self.report);
-        Some(radiance)
+        radiance
     }
 
     fn point(&mut self, p: &mut Properties<'_>) -> Option<EmitterKind> {

@@ -357,12 +357,6 @@ impl<'a> Properties<'a> {
                         format!("<{tag}> inside \"{subject}\" is left out: there are no media yet"),
                     );
                 }
-                "texture" | "spectrum" if !object.name.is_empty() => {
-                    let hint = report.did_you_mean(object.name, self.asked.iter().copied());
-                    let name = quoted(object.name);
-                    report.warning(place, format!("unknown property {name} of \"{subject}\"{hint}"));
-                    report.help(self.takes());
-                }
                 "sampler" | "film" | "rfilter" | "integrator" => {
                     report.warning(place, format!("<{tag}> inside \"{subject}\" has no effect"));
                 }

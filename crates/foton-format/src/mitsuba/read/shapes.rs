@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DMat3, DVec3};
-use foton_scene::description::{Geometry, Keyframes, Mesh, ShapeDescription};
+use foton_scene::description::{Colour, Geometry, Keyframes, Mesh, ShapeDescription};
 use foton_scene::plugins::shapes::{
     self, CENTER, FACE_NORMALS, FILENAME, FLIP_NORMALS, FLIP_TEX_COORDS, P0, P1, RADIUS, SHAPE_INDEX,
     TO_WORLD,
@@ -82,7 +81,7 @@ impl Reader<'_> {
     }
 
     /// The material's index and the emitted radiance.
-    fn surface(&mut self, p: &mut Properties<'_>) -> (Option<usize>, Option<Rgb>) {
+    fn surface(&mut self, p: &mut Properties<'_>) -> (Option<usize>, Option<Colour>) {
         let emitters = p.nested("emitter");
         if let Some(second) = emitters.get(1) {
             self.report.error(second.place, "a shape has only one emitter");

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use foton_math::Rgb;
 use foton_math::glam::DAffine3;
 use foton_scene::description::{
-    EmitterKind, FovAxis, Geometry, Lens, SceneDescription, SensorDescription, ShapeDescription,
+    Colour, EmitterKind, FovAxis, Geometry, Lens, SceneDescription, SensorDescription, ShapeDescription,
 };
 use foton_scene::plugins::{emitters, sensors, shapes};
 
@@ -46,7 +46,7 @@ impl<'a> Changes<'a> {
         // New materials are made of the old ones: those come after.
         self.shapes(&Pairs::of_shapes(old, new))?;
         for (i, (old, new)) in old.materials.iter().zip(&new.materials).enumerate() {
-            if (old.front, old.back, old.opacity) != (new.front, new.back, new.opacity) {
+            if old.scatters_differently(new) {
                 let node = self.scene.nodes.materials.get(i).copied().flatten();
                 let node = self.own(node, "bsdf", &old.name)?;
                 materials::change(&mut self.document, node, old, new)?;
@@ -247,7 +247,12 @@ impl<'a> Changes<'a> {
         if old.material != new.material { self.other_material(node, old, new) } else { Ok(()) }
     }
 
-    pub(super) fn radiance(&mut self, node: NodeId, radiance: Option<Rgb>) -> Result<(), Obstacle> {
+    pub(super) fn radiance(&mut self, node: NodeId, radiance: Option<Colour>) -> Result<(), Obstacle> {
+        let radiance = match radiance {
+            Some(Colour::Texture(_)) => return Err("a light got another texture".to_owned()),
+            Some(Colour::Constant(c)) => Some(c),
+            None => None,
+        };
         let inside = self.document.elements_in(node).find(|(_, e)| e.name == "emitter").map(|(n, _)| n);
         if let (Some(emitter), Some(radiance)) = (inside, radiance) {
             return self.value(emitter, "rgb", emitters::RADIANCE.name, &colour(radiance));

@@ -132,8 +132,10 @@ impl<'a> Writer<'a> {
             let id = self.texture(texture)?;
             self.texture_ids.push(id);
         }
-        for material in &self.description.materials {
-            let id = self.material(material);
+        for (i, material) in self.description.materials.iter().enumerate() {
+            // What is only blended with others stands inside of those.
+            let is_inside = self.description.is_component(i);
+            let id = if is_inside { String::new() } else { self.material(material) };
             self.material_ids.push(id);
         }
         for (i, emitter) in self.description.emitters.iter().enumerate() {
@@ -337,13 +339,11 @@ impl<'a> Writer<'a> {
             xml.leaf("ref", &[("id", material)]);
         }
         if let Some(radiance) = shape.radiance {
-            xml.plugin(
-                "emitter",
-                emitters::AREA.name,
-                &[("rgb", emitters::RADIANCE.name, &colour(radiance))],
-            );
+            xml.open("emitter", &[("type", emitters::AREA.name)]);
+            self.colour(emitters::RADIANCE.name, radiance);
+            self.xml.close("emitter");
         }
-        xml.close("shape");
+        self.xml.close("shape");
         Ok(())
     }
 
