@@ -2,8 +2,9 @@
 
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Frame, Ray, Rgb};
-use foton_scene::{LobeFlags, LobeSample, LobeSamples, Scattering, Scene, Surface, Transport};
+use foton_scene::{Footprint, LobeFlags, LobeSample, LobeSamples, Scattering, Scene, Surface, Transport};
 
+use crate::differential::{Bend, Differential};
 use crate::direct_light::Receiver;
 use crate::lobes::{Bounce, LobePolicy, LobeSplit};
 use crate::shading::{leaves_wrongly, on_the_right_side, shading_normal_towards};
@@ -41,10 +42,38 @@ impl<'a> Vertex<'a> {
     /// Where a path from `wo` meets a surface; `None` where that side of it is black.
     #[must_use]
     pub fn new(scene: &Scene, surface: &'a Surface, wo: Vec3, policy: &LobePolicy) -> Option<Self> {
-        let scattering = scene.scattering(surface, wo.dot(surface.normal) > 0.0)?;
+        Self::seen(scene, surface, wo, policy, None)
+    }
+
+    /// The same, its colours the means over what an eye sample covers there.
+    #[must_use]
+    pub fn seen(
+        scene: &Scene,
+        surface: &'a Surface,
+        wo: Vec3,
+        policy: &LobePolicy,
+        footprint: Option<&Footprint>,
+    ) -> Option<Self> {
+        let scattering = scene.scattering_seen(surface, wo.dot(surface.normal) > 0.0, footprint)?;
         let frame = scene.shading_frame(surface, shading_normal_towards(surface, wo));
         let split = policy.split(&scattering.bsdf);
         Some(Self { surface, scattering, split, frame, wo, local: frame.to_local(wo) })
+    }
+
+    /// How far neighbouring samples are apart that leave in a unit direction, if that is known of those that arrive.
+    #[must_use]
+    pub fn bent(
+        &self,
+        scene: &Scene,
+        arriving: Option<(Differential, Footprint)>,
+        leaving: Vec3,
+    ) -> Option<Differential> {
+        let (differential, footprint) = arriving?;
+        let (surface, scattering, normal) = (self.surface, &self.scattering, self.frame.normal);
+        Some(
+            differential
+                .bent(&Bend { scene, surface, scattering, normal, arriving: -self.wo, footprint }, leaving),
+        )
     }
 
     /// Its point as one that light arrives at: on the side of the path, or `behind`. `edges` are those to an emitter at most.

@@ -6,7 +6,7 @@ use foton_math::{Ray, Rgb};
 use foton_scene::Scene;
 use foton_transport::direct_light::{Arrival, Lights};
 use foton_transport::photon_map::PathClass;
-use foton_transport::{LobePolicy, Vertex};
+use foton_transport::{Differential, LobePolicy, Vertex};
 
 use crate::sampled::sample::{EyeSample, Numbers, Seen};
 use crate::settings::RenderSettings;
@@ -29,6 +29,8 @@ struct Branch {
     ray: Ray,
     weight: Rgb,
     edges: u32,
+    /// How far neighbouring samples are apart; `None` where nothing asks for it.
+    differential: Option<Differential>,
 }
 
 impl Whitted {
@@ -41,8 +43,8 @@ impl Whitted {
 
     /// Follows an eye sample through mirrors and glass.
     pub(crate) fn follow(&self, scene: &Scene, sample: EyeSample, seen: &mut Seen) {
-        let EyeSample { ray, mut numbers } = sample;
-        let mut branches = vec![Branch { ray, weight: Rgb::WHITE, edges: 1 }];
+        let EyeSample { ray, differential, mut numbers } = sample;
+        let mut branches = vec![Branch { ray, weight: Rgb::WHITE, edges: 1, differential }];
         let mut rays = 1;
         while let Some(branch) = branches.pop() {
             self.step(scene, branch, &mut numbers, seen, &mut branches, &mut rays);
@@ -70,10 +72,12 @@ impl Whitted {
             seen.shape = Some(surface.shape);
         }
         let wo = -branch.ray.direction;
+        let footprint = branch.differential.map(|d| d.footprint(&branch.ray, &surface));
         if is_visible {
-            seen.add(None, branch.weight * scene.emitted(&surface, wo));
+            seen.add(None, branch.weight * scene.emitted_seen(&surface, wo, footprint.as_ref()));
         }
-        let Some(vertex) = Vertex::new(scene, &surface, wo, &Self::POLICY) else { return };
+        let vertex = Vertex::seen(scene, &surface, wo, &Self::POLICY, footprint.as_ref());
+        let Some(vertex) = vertex else { return };
         if branch.edges >= self.max_depth {
             return;
         }
@@ -95,7 +99,9 @@ impl Whitted {
             let weight = branch.weight * departure.weight / chance;
             if !weight.is_black() && weight.is_finite() {
                 *rays += 1;
-                branches.push(Branch { ray: departure.ray, weight, edges: branch.edges + 1 });
+                let (ray, arriving) = (departure.ray, branch.differential.zip(footprint));
+                let differential = vertex.bent(scene, arriving, ray.direction);
+                branches.push(Branch { ray, weight, edges: branch.edges + 1, differential });
             }
         }
     }

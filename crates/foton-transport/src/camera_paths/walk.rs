@@ -4,13 +4,14 @@ use std::f32::consts::FRAC_1_PI;
 
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Ray, Rgb, Stream};
-use foton_scene::{LobeFlags, LobeSample, Scattering, Surface, Transport};
+use foton_scene::{Footprint, LobeFlags, LobeSample, Scattering, Surface, Transport};
 
 use super::eye_pass::{EyePass, EyePaths};
 use super::highlights::{EmitterDraw, Glossy};
 use super::hit_point::{Gloss, HitPoint};
 use super::pixel_samples::SamplePoints;
 use super::radius::{footprint, on_surface, slab2};
+use crate::differential::{Bend, Differential};
 use crate::lobes::LobeSplit;
 use crate::not_finite::{self, LeftOut, Quantity};
 use crate::shading::{on_the_right_side, shading_normal_towards};
@@ -44,6 +45,10 @@ pub(super) struct Branch {
     distance: f32,
     /// The pdf (sr⁻¹) of its direction, where emitters are sampled as well; 0 where they are not.
     pdf: f32,
+    /// How far neighbouring samples are apart; `None` where nothing asks for it.
+    differential: Option<Differential>,
+    /// What the sample covers of the surface at the end of `ray`, once that is known.
+    footprint: Option<Footprint>,
 }
 
 /// One eye sample on its way.
@@ -103,7 +108,19 @@ impl<'a, 'b> Walk<'a, 'b> {
     pub(super) fn follow_ray(&mut self, ray: Ray) -> Rgb {
         self.view = ray.direction;
         self.solid_angle = self.pass.sensor().pixel_solid_angle(ray.direction);
-        self.branches.push(Branch { ray, weight: Rgb::WHITE, edges: 1, distance: 0.0, pdf: 0.0 });
+        let Self { pass, .. } = self;
+        let (samples, renewed) = (pass.samples_per_pixel.get(), pass.pass.is_some());
+        let differential = Differential::of_eye(pass.scene, pass.sensor(), &ray, samples, renewed);
+        let weight = Rgb::WHITE;
+        self.branches.push(Branch {
+            ray,
+            weight,
+            edges: 1,
+            distance: 0.0,
+            pdf: 0.0,
+            differential,
+            footprint: None,
+        });
         while let Some(branch) = self.branches.pop() {
             self.step(branch);
         }
@@ -128,15 +145,17 @@ impl<'a, 'b> Walk<'a, 'b> {
             *shape = surface.shape;
         }
         let wo = -branch.ray.direction;
+        let footprint = branch.differential.map(|d| d.footprint(&branch.ray, &surface));
+        let branch = Branch { footprint, ..branch };
         if visible {
-            let mut emitted = branch.weight * scene.emitted(&surface, wo);
+            let mut emitted = branch.weight * scene.emitted_seen(&surface, wo, footprint.as_ref());
             if branch.pdf > 0.0 && !emitted.is_black() {
                 emitted *= Glossy::bsdf_sampling_weight(scene, &surface, branch.ray.origin, branch.pdf);
             }
             self.see(emitted, surface.position, Some(surface.shape));
         }
         let outward = wo.dot(surface.normal) > 0.0;
-        let Some(scattering) = scene.scattering(&surface, outward) else { return };
+        let Some(scattering) = scene.scattering_seen(&surface, outward, footprint.as_ref()) else { return };
         if branch.edges >= self.pass.max_depth {
             return;
         }
@@ -282,6 +301,14 @@ impl<'a, 'b> Walk<'a, 'b> {
             let at = Glossy { scene, surface, scattering, split, frame: &frame, wo: local, edges };
             self.sample_emitters(weight, &at);
         }
+        let bend = branch.footprint.map(|footprint| Bend {
+            scene: self.pass.scene,
+            surface,
+            scattering,
+            normal: frame.normal,
+            arriving: branch.ray.direction,
+            footprint,
+        });
         let facet = facet.unwrap_or_default();
         let lobes = scattering.lobes(local, Transport::Radiance, facet, split.specular);
         let count = lobes.iter().flatten().count() as u32;
@@ -313,6 +340,8 @@ impl<'a, 'b> Walk<'a, 'b> {
                 edges: branch.edges + 1,
                 distance,
                 pdf: if is_unmirrored { Glossy::pdf(scattering, split, local, lobe.wi) } else { 0.0 },
+                differential: branch.differential.zip(bend).map(|(d, bend)| d.bent(&bend, direction)),
+                footprint: None,
             });
         }
     }
