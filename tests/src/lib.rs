@@ -54,7 +54,7 @@ impl Sketch {
         radiance: Option<Rgb>,
     ) -> Self {
         let name = format!("shape-{}", self.0.shapes.len() + 1);
-        self.0.materials.push(Material { name: name.clone(), front, back: None, opacity: None });
+        self.0.materials.push(Material { name: name.clone(), front, back: None, ..Material::default() });
         let material = self.0.materials.len() - 1;
         let flip_normals = false;
         let radiance = radiance.map(Into::into);

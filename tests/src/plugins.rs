@@ -125,6 +125,8 @@ fn kind(parameter: &Parameter) -> String {
         Kind::Vector => "point or vector".to_owned(),
         Kind::Transform => "transform".to_owned(),
         Kind::File => "path".to_owned(),
+        Kind::Numbers => "numbers".to_owned(),
+        Kind::Texture => "texture".to_owned(),
         Kind::Name => "name".to_owned(),
         Kind::Ignored => "without effect".to_owned(),
         Kind::Unsupported => "an error".to_owned(),

@@ -28,6 +28,8 @@ fn value(parameter: &Parameter) -> String {
         Kind::Metal => format!(r#"<string name="{name}" value="Au"/>"#),
         Kind::Vector => format!(r#"<point name="{name}" value="0, 0, 2"/>"#),
         Kind::Transform => format!(r#"<transform name="{name}"><translate x="1"/></transform>"#),
+        Kind::Numbers => format!(r#"<string name="{name}" value="1"/>"#),
+        Kind::Texture => format!(r#"<texture name="{name}" type="checkerboard"/>"#),
         Kind::File => format!(r#"<string name="{name}" value="absent"/>"#),
         Kind::Name => format!(r#"<string name="{name}" value="vertex_color"/>"#),
         Kind::Ignored | Kind::Unsupported => format!(r#"<string name="{name}" value="anything"/>"#),
@@ -37,7 +39,13 @@ fn value(parameter: &Parameter) -> String {
 /// What is said of a scene in which a plugin has some contents.
 fn said(plugin: &Declared, contents: &str) -> String {
     let inside = match plugin.name {
-        "mask" | "twosided" => r#"<bsdf type="diffuse"/>"#,
+        "mask" | "twosided" | "mixturebsdf" => r#"<bsdf type="diffuse"/>"#,
+        "blendbsdf" => r#"<bsdf type="diffuse"/><bsdf type="diffuse"/>"#,
+        "bumpmap" => r#"<texture type="checkerboard"/><bsdf type="diffuse"/>"#,
+        "normalmap" if contents.contains("checkerboard") || contents.contains("filename") => {
+            r#"<bsdf type="diffuse"/>"#
+        }
+        "normalmap" => r#"<texture type="checkerboard"/><bsdf type="diffuse"/>"#,
         "thinlens" if !contents.contains("aperture_radius") => {
             r#"<float name="aperture_radius" value="0.1"/>"#
         }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DMat3, DQuat, DVec3};
 use foton_scene::description::{
-    Bsdf, Colour, Diffuse, EmitterDescription, EmitterKind, Geometry, Material, Mesh, Number,
+    Blend, Bsdf, Colour, Diffuse, EmitterDescription, EmitterKind, Geometry, Material, Mesh, Number, Relief,
     SceneDescription, ShapeDescription, Texture, TextureKind,
 };
 
@@ -204,7 +204,7 @@ fn own_material(description: &mut SceneDescription, thing: NewThing, is_light: b
     let reflectance = Colour::Constant(if is_light { Rgb::BLACK } else { Rgb::splat(GREY) });
     let front = Bsdf::Diffuse(Diffuse { reflectance });
     let name = names::free(description, &format!("{}-material", thing.stem()));
-    description.materials.push(Material { name, front, back: Some(front), opacity: None });
+    description.materials.push(Material { name, front, back: Some(front), ..Material::default() });
     description.materials.len() - 1
 }
 
@@ -234,10 +234,17 @@ pub(crate) fn import(
     };
     for material in &from.materials {
         let name = names::free(description, &material.name);
-        let Material { front, back, opacity, .. } = material;
+        let Material { front, back, opacity, relief, mixture, .. } = material;
         let moved_side = |b: &Bsdf| b.map(moved, moved_number);
         let (front, back) = (moved_side(front), back.as_ref().map(moved_side));
-        description.materials.push(Material { name, front, back, opacity: opacity.map(moved) });
+        let relief = relief.map(|relief| Relief { texture: relief.texture + textures, ..relief });
+        let moved_blend = |blend: &Blend| Blend {
+            material: blend.material + materials,
+            weight: moved_number(blend.weight, [0.0, 1.0]),
+        };
+        let mixture = mixture.iter().map(moved_blend).collect();
+        let opacity = opacity.map(moved);
+        description.materials.push(Material { name, front, back, opacity, relief, mixture });
     }
     for shape in &from.shapes {
         let name = names::free(description, &shape.name);

@@ -24,7 +24,7 @@ impl Preset {
     #[must_use]
     pub fn material(&self, name: impl Into<String>) -> Material {
         let back = (!self.front.has_two_sides()).then_some(self.front);
-        Material { name: name.into(), front: self.front, back, opacity: None }
+        Material { name: name.into(), front: self.front, back, ..Material::default() }
     }
 }
 

@@ -25,7 +25,8 @@ pub(crate) fn description() -> SceneDescription {
         specular_transmittance: Rgb::WHITE.into(),
         roughness: None,
     });
-    let material = |name: &str, front, back| Material { name: name.into(), front, back, opacity: None };
+    let material =
+        |name: &str, front, back| Material { name: name.into(), front, back, ..Material::default() };
     let shape = |geometry, material| ShapeDescription {
         name: "shape".into(),
         geometry,

@@ -25,6 +25,10 @@ pub struct Census {
     pub rough_coats: bool,
     /// Whether any colour or number comes from a texture.
     pub textures: bool,
+    /// Whether any surface is blended of several materials.
+    pub mixtures: bool,
+    /// Whether any surface has a bump map or a normal map.
+    pub reliefs: bool,
     /// Whether any roughness differs along u and v: frames follow texture coordinates.
     pub anisotropy: bool,
     /// Emitters of any kind that emit at all.

@@ -8,6 +8,10 @@ use crate::primitive::Primitive;
 /// The same for a point projected onto a sphere or a disc in single precision: γ₅ of `[PBR16]` section 3.9, doubled.
 const QUADRIC_ERROR: f32 = 2.0 * 5.0 * 0.5 * f32::EPSILON;
 
+/// Rays start at least this far off a surface. In a plane through the origin coordinates have no rounding error at all, and a ray
+/// that started in the plane would not meet it, where a shading normal sends it to the other side.
+const LEAST_OFFSET: f32 = 1e-7;
+
 /// A point on a surface in scene units.
 #[derive(Clone, Copy, Debug)]
 pub struct Surface {
@@ -31,6 +35,10 @@ pub struct Surface {
     pub(crate) barycentric: Vec2,
     /// Indices of refraction inside and outside where the faces of two dielectrics are one; `None`: the material's own.
     pub(crate) interface: Option<[f32; 2]>,
+    /// Whether a relief perturbs the shading normal.
+    pub is_relieved: bool,
+    /// Which of the materials counts that the surface is blended of, after one has been taken.
+    pub(crate) component: u16,
 }
 
 impl Surface {
@@ -49,7 +57,7 @@ impl Surface {
     #[must_use]
     #[inline]
     pub fn ray_origin(&self, direction: Vec3) -> Vec3 {
-        let distance = self.normal.abs().dot(self.error);
+        let distance = self.normal.abs().dot(self.error).max(LEAST_OFFSET);
         self.position + self.normal * distance.copysign(direction.dot(self.normal))
     }
 }

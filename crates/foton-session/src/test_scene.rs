@@ -33,7 +33,7 @@ pub(crate) fn discs(radiance: Option<Rgb>) -> Scene {
             far_clip: None,
             lens: None,
         }],
-        materials: vec![Material { name: "white".into(), front: white, back: None, opacity: None }],
+        materials: vec![Material { name: "white".into(), front: white, back: None, ..Material::default() }],
         shapes: vec![
             disc("sign", 1.0, 1.0, None),
             disc("letter", 1.0, 0.5, None),

@@ -50,6 +50,15 @@ impl LobeSplit {
         self.gathered != LobeFlags::NONE
     }
 
+    /// The sides on which light that arrives is gathered, by the flags of the BSDF: that of the path (false), and behind the surface
+    /// (true) where diffuse light passes through.
+    pub fn sides(&self, flags: LobeFlags) -> impl Iterator<Item = bool> + use<> {
+        let passes =
+            self.gathered.intersects(LobeFlags::DIFFUSE) && flags.intersects(LobeFlags::TRANSMISSION);
+        let reflects = self.gathers() && flags.intersects(LobeFlags::REFLECTION);
+        [reflects.then_some(false), passes.then_some(true)].into_iter().flatten()
+    }
+
     /// Whether eye paths follow any lobe.
     #[must_use]
     pub fn follows(&self) -> bool {

@@ -1,9 +1,10 @@
 //! Light on a straight line between two points: how much of it the surfaces in between transmit.
 
+use foton_math::glam::Vec3;
 use foton_math::{Ray, Rgb};
-use foton_scene::Scene;
+use foton_scene::{Scene, Surface};
 
-use crate::shading::shading_normal_towards;
+use crate::shading::shading_view;
 
 /// The transmittance of a ray, each surface that it passes being one more edge; black where one blocks or deflects it, and where
 /// that takes more than `edges`. Adds to the number of rays.
@@ -16,12 +17,7 @@ pub fn transmittance(scene: &Scene, mut ray: Ray, edges: u32, rays: &mut u64) ->
     for _ in 0..edges {
         *rays += 1;
         let Some(surface) = scene.nearest(ray) else { return transmittance };
-        let wo = -ray.direction;
-        let Some(scattering) = scene.scattering(&surface, wo.dot(surface.normal) > 0.0) else {
-            return Rgb::BLACK;
-        };
-        let frame = scene.shading_frame(&surface, shading_normal_towards(&surface, wo));
-        transmittance *= scattering.straight(frame.to_local(wo));
+        transmittance *= through(scene, &surface, -ray.direction);
         if transmittance.is_black() {
             return Rgb::BLACK;
         }
@@ -33,4 +29,16 @@ pub fn transmittance(scene: &Scene, mut ray: Ray, edges: u32, rays: &mut u64) ->
         ray = Ray { origin, t_max, ..ray };
     }
     Rgb::BLACK
+}
+
+/// The share of light towards the unit direction `wo` that passes a surface straight on.
+pub fn through(scene: &Scene, surface: &Surface, wo: Vec3) -> Rgb {
+    let outward = wo.dot(surface.normal) > 0.0;
+    let mut sum = Rgb::BLACK;
+    for (surface, weight) in scene.components(surface, outward) {
+        let Some(scattering) = scene.scattering(&surface, outward) else { continue };
+        let (_, local) = shading_view(scene, &surface, wo);
+        sum += scattering.straight(local) * weight;
+    }
+    sum
 }

@@ -7,7 +7,7 @@ use foton_scene::{Footprint, LobeFlags, LobeSample, LobeSamples, Scattering, Sce
 use crate::differential::{Bend, Differential};
 use crate::direct_light::Receiver;
 use crate::lobes::{Bounce, LobePolicy, LobeSplit};
-use crate::shading::{leaves_wrongly, on_the_right_side, shading_normal_towards};
+use crate::shading::{leaves_wrongly, on_the_right_side, shading_view};
 
 /// A point of a surface that a path from the camera has met.
 pub struct Vertex<'a> {
@@ -39,15 +39,10 @@ pub struct Departure {
 }
 
 impl<'a> Vertex<'a> {
-    /// Where a path from `wo` meets a surface; `None` where that side of it is black.
+    /// Where a path from `wo` meets a surface, its colours the means over what an eye sample covers there, where that is known; `None`
+    /// where that side of it is black.
     #[must_use]
-    pub fn new(scene: &Scene, surface: &'a Surface, wo: Vec3, policy: &LobePolicy) -> Option<Self> {
-        Self::seen(scene, surface, wo, policy, None)
-    }
-
-    /// The same, its colours the means over what an eye sample covers there.
-    #[must_use]
-    pub fn seen(
+    pub fn new(
         scene: &Scene,
         surface: &'a Surface,
         wo: Vec3,
@@ -55,9 +50,9 @@ impl<'a> Vertex<'a> {
         footprint: Option<&Footprint>,
     ) -> Option<Self> {
         let scattering = scene.scattering_seen(surface, wo.dot(surface.normal) > 0.0, footprint)?;
-        let frame = scene.shading_frame(surface, shading_normal_towards(surface, wo));
+        let (frame, local) = shading_view(scene, surface, wo);
         let split = policy.split(&scattering.bsdf);
-        Some(Self { surface, scattering, split, frame, wo, local: frame.to_local(wo) })
+        Some(Self { surface, scattering, split, frame, wo, local })
     }
 
     /// How far neighbouring samples are apart that leave in a unit direction, if that is known of those that arrive.

@@ -43,7 +43,7 @@ impl Sketch {
     fn shape(mut self, geometry: Geometry, to_world: DAffine3, front: Bsdf) -> Self {
         let material = self.0.materials.len();
         let name = format!("shape {material}");
-        self.0.materials.push(Material { name: name.clone(), front, back: None, opacity: None });
+        self.0.materials.push(Material { name: name.clone(), front, ..Material::default() });
         let (flip_normals, radiance) = (false, None);
         self.0.shapes.push(ShapeDescription { name, geometry, to_world, flip_normals, material, radiance });
         self

@@ -181,7 +181,9 @@ fn environments_with_a_pixel_that_is_not_a_number_are_refused_by_name() {
 #[test]
 fn materials_that_no_surface_has_are_refused_by_name() {
     let with = |front: Bsdf| {
-        refusal(|s| s.0.materials[0] = Material { name: "odd".into(), front, back: None, opacity: None })
+        refusal(|s| {
+            s.0.materials[0] = Material { name: "odd".into(), front, back: None, ..Material::default() }
+        })
     };
     let bad = Some(BuildError::BadMaterial("odd".into()));
     for reflectance in [f32::NAN, f32::INFINITY, -0.01, 1.01] {

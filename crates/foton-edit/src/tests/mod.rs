@@ -58,7 +58,8 @@ fn scene() -> SceneDescription {
         specular_transmittance: white,
         roughness: None,
     });
-    let material = |name: &str, front| Material { name: name.into(), front, back: None, opacity: None };
+    let material =
+        |name: &str, front| Material { name: name.into(), front, back: None, ..Material::default() };
     let flat = DMat3::from_cols(DVec3::X * 20.0, DVec3::NEG_Z * 20.0, DVec3::Y);
     let floor = DAffine3::from_mat3(flat);
     let ball = Geometry::Sphere { centre: DVec3::new(0.0, 1.0, 0.0), radius: 1.0 };

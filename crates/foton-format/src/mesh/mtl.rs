@@ -240,7 +240,7 @@ impl Statements {
         let is_clear = matches!(front, Bsdf::Dielectric(Dielectric { .. }));
         let opacity = (!is_clear && opacity < 1.0).then(|| Colour::Constant(Rgb::splat(opacity)));
         let back = (!is_clear).then_some(front);
-        let material = Material { name: self.name.clone(), front, back, opacity };
+        let material = Material { name: self.name.clone(), front, back, opacity, ..Material::default() };
         Entry { material, radiance: Some(self.ke).filter(|ke| ke.max_component() > 0.0) }
     }
 

@@ -32,18 +32,7 @@ pub(crate) const SHAPES: Plugins = Plugins {
 pub(crate) const BSDFS: Plugins = Plugins {
     kind: "bsdf",
     supported: || bsdfs().collect(),
-    elsewhere: &[
-        "blendbsdf",
-        "bumpmap",
-        "normalmap",
-        "roughdiffuse",
-        "coating",
-        "roughcoating",
-        "mixturebsdf",
-        "phong",
-        "ward",
-        "difftrans",
-    ],
+    elsewhere: &["roughdiffuse", "coating", "roughcoating", "phong", "ward", "difftrans"],
 };
 
 pub(crate) const TEXTURES: Plugins = Plugins {

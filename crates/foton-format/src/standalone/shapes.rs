@@ -16,7 +16,7 @@ pub(super) type Library<'a> = dyn FnMut(&str) -> Option<(String, Result<Vec<u8>,
 /// Grey, from both sides.
 pub(super) fn grey(name: &str) -> Material {
     let front = Bsdf::Diffuse(Diffuse { reflectance: Rgb::splat(0.5).into() });
-    Material { name: name.to_owned(), front, back: Some(front), opacity: None }
+    Material { name: name.to_owned(), front, back: Some(front), ..Material::default() }
 }
 
 pub(super) fn add_shape(name: &str, mesh: Mesh, known: Option<&mtl::Entry>, scene: &mut SceneDescription) {

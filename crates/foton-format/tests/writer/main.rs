@@ -10,10 +10,10 @@ use foton_format::{Options, open, write_scene};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
-    Attribute, Bitmap, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, EmitterDescription, EmitterKind,
-    Filter, FovAxis, Geometry, Hidden, Keyframes, Lens, Material, Mesh, MicrofacetDistribution, Microfacets,
-    Mirror, Motion, Null, Number, Plastic, SceneDescription, SensorDescription, ShapeDescription, Texture,
-    TextureKind, ThinDielectric, Wrap,
+    Attribute, Bitmap, Blend, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, EmitterDescription,
+    EmitterKind, Filter, FovAxis, Geometry, Hidden, Keyframes, Lens, Material, Mesh, MicrofacetDistribution,
+    Microfacets, Mirror, Motion, Null, Number, Plastic, Relief, ReliefKind, SceneDescription,
+    SensorDescription, ShapeDescription, Texture, TextureKind, ThinDielectric, Wrap,
 };
 
 use same::assert_same;
@@ -131,9 +131,25 @@ fn materials() -> Vec<Material> {
         front,
         back,
         opacity,
+        ..Material::default()
     };
-    sides.into_iter().map(material).collect()
+    let mut materials: Vec<Material> = sides.into_iter().map(material).collect();
+    let count = materials.len();
+    let blend = |material, weight| Blend { material, weight };
+    let relief = |kind, same_behind| Some(Relief { texture: 0, kind, same_behind });
+    materials[0].mixture = vec![blend(count, Number::Constant(0.1)), blend(count + 1, Number::Texture(1))];
+    materials[0].relief = relief(ReliefKind::Bump { scale: -1.0 / 3.0 }, false);
+    materials[1].relief = relief(ReliefKind::Normal, true);
+    materials[2].relief = relief(ReliefKind::Normal, false);
+    materials
+        .push(Material { mixture: vec![blend(count + 1, Number::Constant(0.7))], ..materials[3].clone() });
+    materials
+        .push(Material { relief: relief(ReliefKind::Bump { scale: 2.0 }, true), ..materials[1].clone() });
+    materials
 }
+
+/// Materials that are only blended with others, the last ones of [`materials`].
+const COMPONENTS: usize = 2;
 
 fn odd_attributes() -> Vec<Attribute> {
     let of = |name: &str, channels, numbers: usize| Attribute {
@@ -237,7 +253,7 @@ fn everything() -> SceneDescription {
         EmitterKind::Environment { to_world: DAffine3::from_rotation_y(odd(1)), bitmap, scale: 0.7 },
     ];
     let materials = materials();
-    let mut shapes = shapes(materials.len());
+    let mut shapes = shapes(materials.len() - COMPONENTS);
     shapes[2].to_world = flight().all()[0].1;
     SceneDescription {
         sensors: sensors(),

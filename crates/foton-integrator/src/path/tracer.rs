@@ -69,7 +69,9 @@ impl PathTracer {
         let footprint = path.differential.map(|d| d.footprint(&path.ray, &surface));
         self.see_emitter(scene, &path, (&surface, footprint.as_ref()), seen);
         let wo = -path.ray.direction;
-        let vertex = Vertex::seen(scene, &surface, wo, &self.policy, footprint.as_ref())?;
+        let u = if scene.is_mixture(&surface) { numbers.choice() } else { 0.0 };
+        let (surface, _) = scene.choose_component(surface, wo.dot(surface.normal) > 0.0, u);
+        let vertex = Vertex::new(scene, &surface, wo, &self.policy, footprint.as_ref())?;
         seen.scatters |= path.class.is_none() && vertex.split.gathers();
         if path.edges >= self.max_depth {
             return None;

@@ -12,7 +12,7 @@ use foton_math::{Frame, Ray, Rgb, Stream};
 use foton_scene::{LobeFlags, Scattering, Surface, Transport};
 use foton_transport::direct_light::{Lights, Receiver, SCRAMBLES, Scramble};
 use foton_transport::kd_tree::{KernelFilter, Nearest};
-use foton_transport::shading::{leaves_wrongly, on_the_right_side, shading_normal_towards};
+use foton_transport::shading::{MIN_COSINE, leaves_wrongly, on_the_right_side, shading_view};
 
 use super::maps::LookUp;
 use super::place::Place;
@@ -81,9 +81,12 @@ impl Gather<'_> {
         }
         let surface = scene.nearest(way.ray)?;
         let wo = -way.ray.direction;
-        let scattering = scene.scattering(&surface, wo.dot(surface.normal) > 0.0)?;
-        let frame = scene.shading_frame(&surface, shading_normal_towards(&surface, wo));
-        let met = Met { surface: &surface, scattering, frame, wo, local: frame.to_local(wo) };
+        let outward = wo.dot(surface.normal) > 0.0;
+        let u = if scene.is_mixture(&surface) { scratch.stream.next_1d() } else { 0.0 };
+        let (surface, _) = scene.choose_component(surface, outward, u);
+        let scattering = scene.scattering(&surface, outward)?;
+        let (frame, local) = shading_view(scene, &surface, wo);
+        let met = Met { surface: &surface, scattering, frame, wo, local };
         let split = LOBE_POLICY.split(&scattering.bsdf);
         if split.gathers() {
             let distance = surface.position.distance(way.ray.origin);
@@ -103,37 +106,46 @@ impl Gather<'_> {
 
     /// Radiance that a surface reflects by `lobes`, as the global map knows it.
     fn known(&self, met: &Met<'_>, lobes: LobeFlags, edges: u32, scratch: &mut Scratch<'_>) -> Rgb {
-        let place = Place::on(met.surface, met.wo, self.max_depth - edges);
-        if let Some(albedo) = met.scattering.lambertian() {
+        // What is kept is irradiance by the geometric normal.
+        if let Some(albedo) = met.scattering.lambertian().filter(|_| !met.surface.is_relieved) {
+            let place = Place::on(met.surface, met.wo, self.max_depth - edges);
             let kept = self.look_up.maps.kept(&place).map(|(irradiance, _)| irradiance);
             let irradiance = kept.unwrap_or_else(|| {
                 self.look_up.global(&place, scratch.nearest, |_| true, |_| Rgb::WHITE).per_area
             });
             return albedo * FRAC_1_PI * irradiance;
         }
-        let value = |wi: Vec3| met.value(wi, lobes);
-        self.look_up.global(&place, scratch.nearest, |_| true, value).per_area
+        let mut sum = Rgb::BLACK;
+        for to in met.sides() {
+            let place = Place::on(met.surface, to, self.max_depth - edges);
+            let value = |wi: Vec3| met.value_of_photon(wi, lobes);
+            sum += self.look_up.global(&place, scratch.nearest, |_| true, value).per_area;
+        }
+        sum
     }
 
     /// Direct light and caustics that a surface reflects by `lobes`: without the global map.
     fn looked_for(&self, met: &Met<'_>, lobes: LobeFlags, edges: u32, scratch: &mut Scratch<'_>) -> Rgb {
-        let place = Place::on(met.surface, met.wo, self.max_depth - edges);
-        let side = 1f32.copysign(met.local.z);
-        let at = Receiver {
-            origin: met.surface.ray_origin(place.normal),
-            normal: met.frame.normal * side,
-            edges: self.max_depth - edges,
-        };
         let scrambles: [Scramble; SCRAMBLES] =
             std::array::from_fn(|_| std::array::from_fn(|_| scratch.stream.next_bits()));
         let (scene, mut sum) = (self.look_up.scene, Rgb::BLACK);
-        let mut add = |arrival: foton_transport::direct_light::Arrival| {
-            sum += arrival.irradiance * met.value(arrival.from, lobes);
-        };
-        self.lights.fixed(scene, &at, scratch.rays, &mut add);
-        self.lights.sample(scene, &at, (0, &scrambles), scratch.rays, &mut add);
-        let value = |wi: Vec3| met.value(wi, lobes);
-        sum + self.look_up.caustic(&place, scratch.nearest, self.filter, value).per_area
+        for to in met.sides() {
+            let place = Place::on(met.surface, to, self.max_depth - edges);
+            let side = 1f32.copysign(met.surface.normal.dot(to));
+            let at = Receiver {
+                origin: met.surface.ray_origin(place.normal),
+                normal: met.frame.normal * side,
+                edges: self.max_depth - edges,
+            };
+            let mut add = |arrival: foton_transport::direct_light::Arrival| {
+                sum += arrival.irradiance * met.value(arrival.from, lobes);
+            };
+            self.lights.fixed(scene, &at, scratch.rays, &mut add);
+            self.lights.sample(scene, &at, (0, &scrambles), scratch.rays, &mut add);
+            let value = |wi: Vec3| met.value_of_photon(wi, lobes);
+            sum += self.look_up.caustic(&place, scratch.nearest, self.filter, value).per_area;
+        }
+        sum
     }
 
     /// Goes on from a surface by any of its lobes.
@@ -175,8 +187,23 @@ impl Gather<'_> {
 }
 
 impl Met<'_> {
+    /// Directions to the sides on which light that arrives is gathered.
+    fn sides(&self) -> impl Iterator<Item = Vec3> + use<> {
+        let wo = self.wo;
+        let split = LOBE_POLICY.split(&self.scattering.bsdf);
+        split.sides(self.scattering.bsdf.flags()).map(move |behind| if behind { -wo } else { wo })
+    }
+
     /// The value of `lobes` for light from the unit direction `wi` (sr⁻¹).
     fn value(&self, wi: Vec3, lobes: LobeFlags) -> Rgb {
         self.scattering.eval(self.local, self.frame.to_local(wi), lobes)
+    }
+
+    /// The same for a photon, which measures irradiance about the geometric normal.
+    fn value_of_photon(&self, wi: Vec3, lobes: LobeFlags) -> Rgb {
+        let (normal, shading) = (self.surface.normal, self.frame.normal);
+        let ratio =
+            if normal == shading { 1.0 } else { wi.dot(shading) / wi.dot(normal).abs().max(MIN_COSINE) };
+        self.value(wi, lobes) * ratio.abs().min(1.0 / MIN_COSINE)
     }
 }

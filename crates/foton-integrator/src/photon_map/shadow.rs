@@ -79,13 +79,19 @@ fn trace(
 
 /// One where light is gathered; `None` elsewhere.
 fn photon(scene: &Scene, surface: &Surface, wo: Vec3, class: MapClass, emitter: u32) -> Option<PackedPhoton> {
-    let scattering = scene.scattering(surface, wo.dot(surface.normal) > 0.0)?;
-    // Light that comes from behind the shading normal is none.
-    let is_seen = wo.dot(shading_normal_towards(surface, wo)).abs() > 0.0;
-    let gathers = LOBE_POLICY.split(&scattering.bsdf).gathers() && is_seen;
-    let patch = surface.patch_towards(wo.dot(surface.normal) > 0.0);
+    let outward = wo.dot(surface.normal) > 0.0;
+    let gathers = |(surface, _): (Surface, f32)| {
+        // Light that comes from behind the shading normal is none.
+        let is_seen = wo.dot(shading_normal_towards(&surface, wo)).abs() > 0.0;
+        let scattering = scene.scattering(&surface, outward);
+        is_seen && scattering.is_some_and(|s| LOBE_POLICY.split(&s.bsdf).gathers())
+    };
+    let patch = surface.patch_towards(outward);
     let number = Rgbe(emitter.to_le_bytes());
-    gathers.then(|| PackedPhoton::new(surface.position, number, wo, patch, class, 1))
+    scene
+        .components(surface, outward)
+        .any(gathers)
+        .then(|| PackedPhoton::new(surface.position, number, wo, patch, class, 1))
 }
 
 /// Whether a place sees all of an emitter (`Some(true)`) or nothing of it; `None` where that is not known.

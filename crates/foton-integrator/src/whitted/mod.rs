@@ -3,7 +3,7 @@
 //! What mirrors and glass throw on other surfaces, and what these throw on each other, is missing: that is what photons are for.
 
 use foton_math::{Ray, Rgb};
-use foton_scene::Scene;
+use foton_scene::{Footprint, Scene};
 use foton_transport::direct_light::{Arrival, Lights};
 use foton_transport::photon_map::PathClass;
 use foton_transport::{Differential, LobePolicy, Vertex};
@@ -31,6 +31,8 @@ struct Branch {
     edges: u32,
     /// How far neighbouring samples are apart; `None` where nothing asks for it.
     differential: Option<Differential>,
+    /// What the sample covers of the surface at the end of `ray`, once that is known.
+    footprint: Option<Footprint>,
 }
 
 impl Whitted {
@@ -44,7 +46,7 @@ impl Whitted {
     /// Follows an eye sample through mirrors and glass.
     pub(crate) fn follow(&self, scene: &Scene, sample: EyeSample, seen: &mut Seen) {
         let EyeSample { ray, differential, mut numbers } = sample;
-        let mut branches = vec![Branch { ray, weight: Rgb::WHITE, edges: 1, differential }];
+        let mut branches = vec![Branch { ray, weight: Rgb::WHITE, edges: 1, differential, footprint: None }];
         let mut rays = 1;
         while let Some(branch) = branches.pop() {
             self.step(scene, branch, &mut numbers, seen, &mut branches, &mut rays);
@@ -73,17 +75,38 @@ impl Whitted {
         }
         let wo = -branch.ray.direction;
         let footprint = branch.differential.map(|d| d.footprint(&branch.ray, &surface));
+        let branch = Branch { footprint, ..branch };
         if is_visible {
             seen.add(None, branch.weight * scene.emitted_seen(&surface, wo, footprint.as_ref()));
         }
-        let vertex = Vertex::seen(scene, &surface, wo, &Self::POLICY, footprint.as_ref());
-        let Some(vertex) = vertex else { return };
         if branch.edges >= self.max_depth {
             return;
         }
+        for (surface, share) in
+            scene.components_seen(&surface, wo.dot(surface.normal) > 0.0, footprint.as_ref())
+        {
+            if let Some(vertex) = Vertex::new(scene, &surface, wo, &Self::POLICY, footprint.as_ref()) {
+                let branch = Branch { weight: branch.weight * share, ..branch };
+                self.meet(scene, &branch, &vertex, numbers, seen, branches, rays);
+            }
+        }
+    }
+
+    /// Lights a surface, and goes on by its delta lobes.
+    #[allow(clippy::too_many_arguments, reason = "all of a step; a struct of them is a copy of them")]
+    fn meet(
+        &self,
+        scene: &Scene,
+        branch: &Branch,
+        vertex: &Vertex<'_>,
+        numbers: &mut Numbers,
+        seen: &mut Seen,
+        branches: &mut Vec<Branch>,
+        rays: &mut u32,
+    ) {
         if vertex.scattering.bsdf.flags().spreads() {
             seen.scatters = true;
-            let lit = self.lit(scene, &branch, &vertex, numbers, seen);
+            let lit = self.lit(scene, branch, vertex, numbers, seen);
             seen.add(Some(PathClass::Direct), branch.weight * lit);
         }
         let lobes: Vec<_> = vertex.delta_lobes().collect();
@@ -99,9 +122,9 @@ impl Whitted {
             let weight = branch.weight * departure.weight / chance;
             if !weight.is_black() && weight.is_finite() {
                 *rays += 1;
-                let (ray, arriving) = (departure.ray, branch.differential.zip(footprint));
+                let (ray, arriving) = (departure.ray, branch.differential.zip(branch.footprint));
                 let differential = vertex.bent(scene, arriving, ray.direction);
-                branches.push(Branch { ray, weight, edges: branch.edges + 1, differential });
+                branches.push(Branch { ray, weight, edges: branch.edges + 1, differential, footprint: None });
             }
         }
     }

@@ -56,6 +56,9 @@ pub enum BuildError {
         /// Its distance in half-sizes of the scene.
         times: f64,
     },
+    /// A material is blended of itself, of one that is not there, or of too many.
+    #[error("material {}: it is blended of itself, or of too many others", quoted(.0))]
+    BadMixture(String),
     /// A transform flattens the shape.
     #[error("shape {}: its transform cannot be inverted", quoted(.0))]
     Singular(String),
@@ -112,6 +115,7 @@ impl BuildError {
             | Self::Singular(name)
             | Self::NotRound(name)
             | Self::BadMesh(name)
+            | Self::BadMixture(name)
             | Self::NoMaterial(name)
             | Self::NoTexture(name)
             | Self::BadTexture(name)

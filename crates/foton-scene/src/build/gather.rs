@@ -19,7 +19,7 @@ use crate::emitter::{Emitter, Kind, Pattern};
 use crate::normalise::Normalisation;
 use crate::plane::triangle_normal;
 use crate::primitive::Primitive;
-use crate::scene::{Part, Scene};
+use crate::scene::{Mixtures, Part, Scene};
 use crate::texture::Sampler;
 
 /// How far a transform's axes may be from equal length and right angles and still keep a sphere round.
@@ -229,6 +229,7 @@ impl Gathered {
             accel: Arc::new(accel),
             shapes: Vec::new(),
             materials: Vec::new(),
+            mixtures: Mixtures::default(),
             coats: Vec::new(),
             lambertian: Vec::new(),
             emitters: Arc::default(),

@@ -24,6 +24,9 @@ impl Material {
 
     /// The colours of its sides where they are Lambertian and nothing else.
     pub(super) fn lambertian(&self) -> [Option<Colour>; 2] {
+        if self.relief.is_some() || !self.mixture.is_empty() {
+            return [None; 2];
+        }
         let colour = |bsdf: Option<&Bsdf>| bsdf.filter(|_| self.opacity.is_none()).and_then(Bsdf::lambertian);
         let back = if self.front.has_two_sides() { Some(&self.front) } else { self.back.as_ref() };
         [colour(Some(&self.front)), colour(back)]
@@ -47,9 +50,9 @@ impl Material {
         colours.into_iter()
     }
 
-    /// All textures that it looks up, for colours or numbers.
+    /// All textures that it looks up, for colours, numbers or normals.
     pub(super) fn textures(&self) -> impl Iterator<Item = usize> {
-        let mut numbers = Vec::new();
+        let mut numbers: Vec<Number> = self.mixture.iter().map(|blend| blend.weight).collect();
         for bsdf in self.bsdfs() {
             let _ = bsdf.map(|_| (), |n, _| numbers.push(n));
         }
@@ -61,7 +64,7 @@ impl Material {
             Colour::Texture(i) => Some(i),
             Colour::Constant(_) => None,
         });
-        of_colours.chain(of_numbers)
+        of_colours.chain(of_numbers).chain(self.relief.map(|relief| relief.texture))
     }
 
     /// Whether it throws caustics.
@@ -106,6 +109,7 @@ impl Census {
         for bsdf in material.bsdfs() {
             let (flags, masked) = (bsdf.flags(), material.opacity.is_some());
             let lambertian = bsdf.lambertian().is_some();
+            let interpolated_normals = interpolated_normals || material.relief.is_some();
             let ends = gloss(bsdf, textures);
             for roughness in [ends.map(|e| e[0]), ends.map(|e| e[1])] {
                 let kind = BsdfKind { flags, roughness, interpolated_normals, lambertian, masked };
@@ -113,6 +117,8 @@ impl Census {
                     self.bsdfs.push(kind);
                 }
             }
+            self.reliefs |= material.relief.is_some();
+            self.mixtures |= !material.mixture.is_empty();
             self.refraction |= bsdf.transmits();
             self.straight |= masked || flags.intersects(LobeFlags::STRAIGHT);
             self.rough_coats |= matches!(bsdf, Bsdf::Plastic(plastic) if plastic.roughness.is_some());

@@ -17,10 +17,10 @@ use foton_math::glam::{DVec3, Vec3};
 use foton_math::{Aabb, Rgb};
 
 use crate::coincident::Coincidences;
-use crate::description::{Colour, SceneDescription, SensorDescription, ShapeDescription};
+use crate::description::{Colour, Material, SceneDescription, SensorDescription, ShapeDescription};
 use crate::emitter::{Aim, Area, Emitter, Kind};
 use crate::normalise::Normalisation;
-use crate::scene::{Moving, Part, Scene, Shape};
+use crate::scene::{Mixtures, Moving, Part, Scene, Shape};
 use crate::sensor::Sensor;
 use crate::texture::{Sampler, samplers};
 use checks::{
@@ -79,6 +79,7 @@ impl Scene {
         let textures = Textures::check(&description.textures)?;
         let normalisation = Normalisation::for_bounds(min, max);
         check_sensors(&description.sensors, &normalisation)?;
+        let mixtures = Mixtures::new(&description.materials)?;
         let gauge = options.step(BuildStep::Shapes, description.primitives());
         let mut gathered = Gathered::new(options.forced.clone(), &description.textures);
         for material in &description.materials {
@@ -92,8 +93,8 @@ impl Scene {
         let (shapes, emitters) = (Vec::new(), Vec::new());
         // Attributes of meshes come later: nothing here asks for their values.
         let samplers_so_far = samplers(&description.textures, &vec![None; description.textures.len()]);
-        let mut parts =
-            Parts { gathered, textures: &samplers_so_far, shapes, emitters, casters: Aabb::EMPTY };
+        let of = (&mixtures, &*samplers_so_far);
+        let mut parts = Parts { gathered, of, shapes, emitters, casters: Aabb::EMPTY };
         for (i, shape) in description.shapes.iter().enumerate() {
             parts.add(i as u32, shape, description, &normalisation, &gauge)?;
         }
@@ -120,6 +121,7 @@ impl Scene {
         }
         scene.textures = samplers;
         scene.materials.clone_from(&description.materials);
+        scene.mixtures = mixtures;
         scene.max_depth = description.max_depth;
         let attribute_bytes: usize = attributes.iter().flatten().map(|a| a.bytes()).sum();
         scene.picture_bytes = description.picture_bytes() + attribute_bytes;
@@ -141,7 +143,8 @@ impl Scene {
         }
         self.lambertian =
             self.shapes.iter().map(|s| self.materials[s.material as usize].lambertian()).collect();
-        let spreads: Vec<bool> = self.shapes.iter().map(|s| self.material_of(s).spreads()).collect();
+        let spreads: Vec<bool> =
+            self.shapes.iter().map(|s| self.materials_of(s).any(Material::spreads)).collect();
         let patches = patches::find(&self.accel, |i| spreads[self.shape_of(i) as usize], options)?;
         let coincidences = Coincidences::find(self, options)?;
         for (i, (part, patch)) in Arc::make_mut(&mut self.parts).iter_mut().zip(patches).enumerate() {
@@ -208,7 +211,8 @@ fn steps_across(extent: &Aabb) -> f32 {
 /// What shapes bring to a scene.
 struct Parts<'a> {
     gathered: Gathered,
-    textures: &'a [Arc<Sampler>],
+    /// What materials are blended of, and textures.
+    of: (&'a Mixtures, &'a [Arc<Sampler>]),
     shapes: Vec<Shape>,
     emitters: Vec<Emitter>,
     /// A box around what throws caustics.
@@ -224,16 +228,18 @@ impl Parts<'_> {
         normalisation: &Normalisation,
         gauge: &Gauge<'_>,
     ) -> Result<(), BuildError> {
-        let Self { gathered, textures, shapes, emitters, casters } = self;
+        let Self { gathered, of: (mixtures, textures), shapes, emitters, casters } = self;
         let first = gathered.primitives.len();
         let is_hidden = description.hidden.shapes.contains(&(index as usize));
-        let material = description.materials.get(shape.material);
-        let material = material.ok_or_else(|| BuildError::NoMaterial(shape.name.clone()))?;
+        if shape.material >= description.materials.len() {
+            return Err(BuildError::NoMaterial(shape.name.clone()));
+        }
+        let mut materials = mixtures.materials(shape.material).map(|i| &description.materials[i]);
         if !is_hidden {
             gathered.add(index, shape, normalisation, gauge)?;
             let radiance =
                 if let Some(Colour::Texture(texture)) = shape.radiance { Some(texture) } else { None };
-            let mut textures = material.textures().chain(radiance);
+            let mut textures = materials.clone().flat_map(Material::textures).chain(radiance);
             textures.try_for_each(|texture| check_attributes(texture, shape, description))?;
         }
         gauge.add(gathered.primitives.len() - first)?;
@@ -242,10 +248,10 @@ impl Parts<'_> {
         }
         let smooth = gathered.vertex_normals[first..].iter().any(|n| n[0] != Vec3::ZERO);
         if !is_hidden {
-            gathered.census.count(material, textures, smooth);
+            materials.clone().for_each(|material| gathered.census.count(material, textures, smooth));
         }
         let primitives = &gathered.primitives[first..];
-        if material.casts(textures) {
+        if materials.any(|material| material.casts(textures)) {
             *casters = primitives.iter().fold(*casters, |b, p| b.union(p.bounds()));
         }
         let shines = |radiance: &Colour| *radiance != Colour::Constant(Rgb::BLACK) && !is_hidden;

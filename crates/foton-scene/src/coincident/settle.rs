@@ -66,12 +66,13 @@ impl Scene {
 
     /// Which surface counts: the highest on the side that a ray comes to.
     fn rank(&self, shape: u32, outward: bool) -> u8 {
-        let material = self.material(shape);
-        match self.shapes[shape as usize].emitter {
+        let shape = &self.shapes[shape as usize];
+        let all = |is_so: &dyn Fn(&Material) -> bool| self.materials_of(shape).all(is_so);
+        match shape.emitter {
             Some(_) if outward => 4,
-            _ if material.shows(outward) => 3,
-            _ if material.is_opaque() => 2,
-            _ => u8::from(material.front != Bsdf::Null(Null)),
+            _ if all(&|m| m.shows(outward)) => 3,
+            _ if all(&Material::is_opaque) => 2,
+            _ => u8::from(!all(&|m| m.front == Bsdf::Null(Null))),
         }
     }
 
@@ -117,8 +118,11 @@ impl Scene {
     pub fn hidden_shapes(&self) -> impl Iterator<Item = [u32; 2]> {
         self.coincidences.shapes.iter().filter(|(_, agree)| *agree).filter_map(|&([a, b], _)| {
             let hides = |a: u32, b: u32| {
-                let (over, under) = (self.material(a), self.material(b));
-                over.is_opaque() && (under.is_opaque() || under.opacity.is_some())
+                let all = |shape: u32, is_so: fn(&Material) -> bool| {
+                    self.materials_of(&self.shapes[shape as usize]).all(is_so)
+                };
+                all(a, Material::is_opaque)
+                    && (all(b, Material::is_opaque) || self.material(b).opacity.is_some())
             };
             let emits = |s: u32| self.shapes[s as usize].emitter.is_some();
             match (emits(a) || emits(b), hides(a, b), hides(b, a)) {

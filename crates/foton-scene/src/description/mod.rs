@@ -18,7 +18,7 @@ pub use crate::bsdf::{
 };
 pub use emitter::{EmitterDescription, EmitterKind};
 pub use hidden::Hidden;
-pub use material::Material;
+pub use material::{Blend, Material, Relief, ReliefKind};
 pub use motion::{Keyframes, Motion};
 pub use sensor::{Crop, Filter, FovAxis, Lens, SensorDescription};
 pub use shape::{Attribute, Geometry, Mesh, ShapeDescription};
@@ -43,4 +43,13 @@ pub struct SceneDescription {
     pub hidden: Hidden,
     /// What moves.
     pub motion: Motion,
+}
+
+impl SceneDescription {
+    /// Whether a material, by its index, is blended with others and is no shape's own.
+    #[must_use]
+    pub fn is_component(&self, material: usize) -> bool {
+        let mut blends = self.materials.iter().flat_map(|m| &m.mixture);
+        blends.any(|blend| blend.material == material) && self.shapes.iter().all(|s| s.material != material)
+    }
 }

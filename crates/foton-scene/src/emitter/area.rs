@@ -94,6 +94,8 @@ impl Area {
             primitive: 0,
             barycentric,
             interface: None,
+            is_relieved: false,
+            component: 0,
         }
     }
 

@@ -64,6 +64,10 @@ pub enum Kind {
     Transform,
     /// The path of a file.
     File,
+    /// Numbers, separated by commas or spaces.
+    Numbers,
+    /// A texture.
+    Texture,
     /// The name of something.
     Name,
     /// Read and without effect: it steers another renderer's sampling.

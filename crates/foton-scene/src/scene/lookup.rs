@@ -42,6 +42,14 @@ impl Lookup {
         let filtered = |sides: &[Vec2; 2]| sampler.filtered_scalar(&self.at, sides);
         self.sides.as_ref().map_or_else(|| sampler.scalar(&self.at), filtered)
     }
+
+    /// How the number changes with the texture coordinates of the surface.
+    pub(super) fn slope(&self, sampler: &Sampler) -> Vec2 {
+        let step = sampler.step();
+        let beside = |by: Vec2| Self { at: At { uv: self.at.uv + by, ..self.at }, ..*self }.scalar(sampler);
+        let along = |by: Vec2| beside(by) - beside(-by);
+        Vec2::new(along(Vec2::new(step.x, 0.0)), along(Vec2::new(0.0, step.y))) / (2.0 * step)
+    }
 }
 
 impl Scene {
@@ -154,7 +162,7 @@ mod tests {
 
     fn scene(geometry: Geometry, flip_normals: bool) -> Scene {
         let front = Bsdf::Diffuse(Diffuse { reflectance: Colour::Texture(0) });
-        let material = Material { name: "squares".into(), front, back: None, opacity: None };
+        let material = Material { name: "squares".into(), front, ..Material::default() };
         let turn = DAffine3::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 0.7);
         let to_world = turn * DAffine3::from_scale(DVec3::splat(1.5));
         let description = described(vec![material]);

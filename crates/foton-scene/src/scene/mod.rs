@@ -3,12 +3,15 @@
 mod fingerprint;
 mod light;
 mod lookup;
+mod mixture;
 mod motion;
 mod parametrisation;
+mod relief;
 mod scattering;
 mod surface;
 
 pub use lookup::Footprint;
+pub(crate) use mixture::Mixtures;
 pub(crate) use motion::Moving;
 use std::sync::Arc;
 
@@ -72,6 +75,7 @@ pub struct Scene {
     pub(crate) order: Arc<[u32]>,
     pub(crate) shapes: Vec<Shape>,
     pub(crate) materials: Vec<Material>,
+    pub(crate) mixtures: Mixtures,
     /// Front and back of each material; empty when no coat is rough.
     pub(crate) coats: Vec<[Option<Coats>; 2]>,
     /// Colours of each shape's front and back where that is Lambertian and nothing else.
@@ -130,6 +134,11 @@ impl Scene {
 
     pub(crate) fn material_of(&self, shape: &Shape) -> &Material {
         &self.materials[shape.material as usize]
+    }
+
+    /// The materials that a shape's is blended of, itself first.
+    pub(crate) fn materials_of(&self, shape: &Shape) -> impl Iterator<Item = &Material> {
+        self.mixtures.materials(shape.material as usize).map(|i| &self.materials[i])
     }
 
     /// All materials, in the order of the description.

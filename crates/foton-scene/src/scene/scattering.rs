@@ -31,7 +31,8 @@ impl Scene {
         outward: bool,
         footprint: Option<&Footprint>,
     ) -> Option<Scattering> {
-        let material = self.material(surface.shape);
+        let index = self.material_index(surface);
+        let material = &self.materials[index];
         let front = outward || material.front.has_two_sides();
         let bsdf = match &material.back {
             _ if front => &material.front,
@@ -39,7 +40,7 @@ impl Scene {
             None if material.opacity.is_some() => &BLACK,
             None => return None,
         };
-        let coats = self.coats.get(self.shapes[surface.shape as usize].material as usize);
+        let coats = self.coats.get(index);
         let coats = coats.and_then(|c| c[usize::from(!front)].as_ref());
         let complete = |bsdf: Bsdf<Rgb, f32>, opacity: f32| {
             let coat = coats.map(|coats| coats.at(bsdf.gloss().unwrap_or(0.0)));

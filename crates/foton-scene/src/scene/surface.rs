@@ -54,6 +54,8 @@ impl Scene {
             primitive: i as u32,
             barycentric,
             interface: None,
+            is_relieved: false,
+            component: 0,
         };
         if let Some([a, b, c]) = self.vertex_normals.get(i)
             && *a != Vec3::ZERO

@@ -63,7 +63,13 @@ fn a_lambertian_side_is_what_its_scattering_says_and_no_other_is_one() {
         specular_reflectance: Rgb::WHITE.into(),
         specular_transmittance: Rgb::WHITE.into(),
     });
-    let of = |front, back, opacity| Material { name: "material".into(), front, back, opacity };
+    let of = |front, back, opacity| Material {
+        name: "material".into(),
+        front,
+        back,
+        opacity,
+        ..Material::default()
+    };
     let scene = squares(vec![
         of(diffuse(red), Some(diffuse(blue)), None),
         of(diffuse(red), None, None),
@@ -111,7 +117,7 @@ fn rough_by_texture() -> [Material; 2] {
         nonlinear: false,
         roughness: Some(Microfacets { distribution, alpha_u: board, alpha_v: board }),
     });
-    [metal, plastic].map(|front| Material { name: "rough".into(), front, back: None, opacity: None })
+    [metal, plastic].map(|front| Material { name: "rough".into(), front, back: None, ..Material::default() })
 }
 
 /// The scattering of a square at a place on it.

@@ -9,7 +9,7 @@ mod filter;
 use std::sync::Arc;
 
 use foton_math::Rgb;
-use foton_math::glam::{DAffine2, Vec2};
+use foton_math::glam::{DAffine2, DVec2, Vec2};
 
 use crate::attributes::{Attributes, Corner};
 use crate::bitmap::{Bitmap, Wrap};
@@ -125,6 +125,19 @@ impl Sampler {
             }
             Kind::Attribute { .. } => self.colour(at),
         }
+    }
+
+    /// How far along u and v a slope is taken: half a pixel of a bitmap, so that slopes are continuous.
+    pub(crate) fn step(&self) -> Vec2 {
+        /// Slopes of coordinates that are hardly scaled at all are taken over no more than this.
+        const LARGEST: f32 = 0.5;
+        let size = match &self.kind {
+            Kind::Bitmap { bitmap, .. } => bitmap.size(),
+            Kind::Checkerboard { .. } | Kind::Attribute { .. } => Vec2::splat(512.0),
+        };
+        let m = self.to_uv.matrix2;
+        let step = |axis: DVec2| (0.5 / (axis.as_vec2().abs() * size).max_element()).min(LARGEST);
+        Vec2::new(step(m.x_axis), step(m.y_axis))
     }
 
     /// One number at a point: luminance of a bitmap, the mean channel of other colours, as in Mitsuba 3.

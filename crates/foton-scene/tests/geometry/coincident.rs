@@ -38,7 +38,13 @@ fn scene(shapes: Vec<ShapeDescription>) -> Scene {
     let mut description = describe(shapes);
     let grey = description.materials[0].front;
     let half = Some(Colour::Constant(Rgb::splat(0.5)));
-    let material = |front, back, opacity| Material { name: "material".into(), front, back, opacity };
+    let material = |front, back, opacity| Material {
+        name: "material".into(),
+        front,
+        back,
+        opacity,
+        ..Material::default()
+    };
     description.materials.extend([
         material(grey, None, None),
         material(dielectric(1.5), None, None),
@@ -227,7 +233,7 @@ fn a_face_that_two_dielectrics_state_is_one_boundary_between_them() {
             }
         }
         let mut description = describe(vec![of(1, outer), of(2, block(place))]);
-        let material = |front| Material { name: "clear".into(), front, back: None, opacity: None };
+        let material = |front| Material { name: "clear".into(), front, back: None, ..Material::default() };
         let inner = Bsdf::Dielectric(Dielectric {
             int_ior: 1.25,
             ext_ior: 1.5,

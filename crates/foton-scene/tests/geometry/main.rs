@@ -86,7 +86,7 @@ fn describe(shapes: Vec<ShapeDescription>) -> SceneDescription {
         lens: None,
     };
     let white = Bsdf::Diffuse(Diffuse { reflectance: Rgb::splat(0.5).into() });
-    let material = Material { name: "white".into(), front: white, back: Some(white), opacity: None };
+    let material = Material { name: "white".into(), front: white, back: Some(white), ..Material::default() };
     SceneDescription {
         sensors: vec![sensor],
         materials: vec![material],

@@ -45,7 +45,8 @@ pub(crate) fn room() -> SceneDescription {
         specular_transmittance: white,
         roughness: None,
     });
-    let material = |name: &str, front| Material { name: name.into(), front, back: None, opacity: None };
+    let material =
+        |name: &str, front| Material { name: name.into(), front, back: None, ..Material::default() };
     let shape = |name: &str, geometry, to_world, material| ShapeDescription {
         name: name.into(),
         geometry,

@@ -14,7 +14,7 @@ use super::radius::{footprint, on_surface, slab2};
 use crate::differential::{Bend, Differential};
 use crate::lobes::LobeSplit;
 use crate::not_finite::{self, LeftOut, Quantity};
-use crate::shading::{on_the_right_side, shading_normal_towards};
+use crate::shading::{on_the_right_side, shading_view};
 
 /// Paths lighter than this are not split any more.
 const SPLIT_WEIGHT: f32 = 1e-3;
@@ -30,7 +30,7 @@ struct Part {
     lobes: LobeFlags,
     /// Whether they are specular: for light that the path cannot find by sampling them.
     specular: bool,
-    /// Whether light arrives at the other side, through rough glass.
+    /// Whether light arrives at the other side, and passes through.
     behind: bool,
 }
 
@@ -155,18 +155,26 @@ impl<'a, 'b> Walk<'a, 'b> {
             self.see(emitted, surface.position, Some(surface.shape));
         }
         let outward = wo.dot(surface.normal) > 0.0;
-        let Some(scattering) = scene.scattering_seen(&surface, outward, footprint.as_ref()) else { return };
         if branch.edges >= self.pass.max_depth {
             return;
         }
+        for (surface, weight) in scene.components_seen(&surface, outward, footprint.as_ref()) {
+            self.meet(&Branch { weight: branch.weight * weight, ..branch }, &surface, outward);
+        }
+    }
+
+    /// Stores a hit point on a surface, and follows its lobes.
+    fn meet(&mut self, branch: &Branch, surface: &Surface, outward: bool) {
+        let footprint = branch.footprint.as_ref();
+        let Some(scattering) = self.pass.scene.scattering_seen(surface, outward, footprint) else { return };
         let distance = branch.distance + (surface.position - branch.ray.origin).length();
         let split = self.pass.policy.split(&scattering.bsdf);
-        if split.gathers() {
-            let part = Part { lobes: split.gathered, specular: false, behind: false };
-            self.store(&branch, &surface, &scattering, distance, part);
+        for behind in split.sides(scattering.bsdf.flags()) {
+            let part = Part { lobes: split.gathered, specular: false, behind };
+            self.store(branch, surface, &scattering, distance, part);
         }
         if split.follows() || scattering.opacity < 1.0 {
-            self.follow_lobes(&branch, &surface, &scattering, split, distance);
+            self.follow_lobes(branch, surface, &scattering, split, distance);
         }
     }
 
@@ -182,10 +190,9 @@ impl<'a, 'b> Walk<'a, 'b> {
         let (weight, gloss) = match scattering.lambertian() {
             Some(albedo) => (branch.weight * albedo * FRAC_1_PI, None),
             None => {
-                let normal = shading_normal_towards(surface, wo);
-                let frame = self.pass.scene.shading_frame(surface, normal);
+                let (frame, wo) = shading_view(self.pass.scene, surface, wo);
                 let Part { lobes, specular, .. } = part;
-                let gloss = Gloss { scattering: *scattering, frame, wo: frame.to_local(wo), lobes, specular };
+                let gloss = Gloss { scattering: *scattering, frame, wo, lobes, specular };
                 self.paths.gloss.push(gloss);
                 (branch.weight, Some(self.paths.gloss.len() as u32 - 1))
             }
@@ -285,8 +292,7 @@ impl<'a, 'b> Walk<'a, 'b> {
     ) {
         let Some(weight) = self.roulette(branch) else { return };
         let wo = -branch.ray.direction;
-        let frame = self.pass.scene.shading_frame(surface, shading_normal_towards(surface, wo));
-        let local = frame.to_local(wo);
+        let (frame, local) = shading_view(self.pass.scene, surface, wo);
         let facet = match scattering.bsdf.gloss() {
             Some(_) => Some(self.facet.take().unwrap_or_else(|| self.stream.next_2d())),
             None => None,

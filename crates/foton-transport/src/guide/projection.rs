@@ -7,11 +7,12 @@
 //! missing.
 
 use foton_math::{Purpose, Ray, Rgb, Stream};
-use foton_scene::{PRIMARY_NUMBERS, Scene, Sources};
+use foton_scene::{PRIMARY_NUMBERS, Scene, Sources, Surface};
 use rayon::prelude::*;
 
 use super::cells::{Cell, Cells, MAX_CUTS};
 use crate::lobes::LobePolicy;
+use crate::straight;
 
 /// Cells along each of the two axes that are cut most.
 const SIDE: usize = 64;
@@ -101,10 +102,12 @@ fn meets_caster(scene: &Scene, sources: &Sources, policy: &LobePolicy, cell: &Ce
     for _ in 0..MAX_STRAIGHT {
         let Some(surface) = scene.nearest(ray) else { return false };
         let wo = -ray.direction;
-        let Some(scattering) = scene.scattering(&surface, wo.dot(surface.normal) > 0.0) else { return false };
-        let local = scene.shading_frame(&surface, surface.shading_normal).to_local(wo);
-        let straight = scattering.straight(local);
-        if policy.split(&scattering.bsdf).follows() && straight != Rgb::WHITE {
+        let outward = wo.dot(surface.normal) > 0.0;
+        let straight = straight::through(scene, &surface, wo);
+        let casts = |(surface, _): (Surface, f32)| {
+            scene.scattering(&surface, outward).is_some_and(|s| policy.split(&s.bsdf).follows())
+        };
+        if straight != Rgb::WHITE && scene.components(&surface, outward).any(casts) {
             return true;
         }
         if straight.is_black() {
@@ -156,7 +159,7 @@ mod tests {
             far_clip: None,
             lens: None,
         };
-        let material = |front| Material { name: "material".into(), front, back: None, opacity: None };
+        let material = |front| Material { name: "material".into(), front, back: None, ..Material::default() };
         let lamp = EmitterKind::Point { position: DVec3::ZERO, intensity: Rgb::WHITE };
         let mut shapes = vec![ball(0, 0.0, 1.0), ball(1, 0.5, 0.1)];
         shapes.truncate(1 + usize::from(has_glass));

@@ -10,7 +10,9 @@ use crate::ledger::{Ledger, energy, left_out};
 use crate::lobes::Bounce;
 use crate::not_finite::{self, LeftOut, Quantity};
 use crate::photon_map::{Chunk, PathClass, Photon};
-use crate::shading::{MIN_COSINE, leaves_wrongly, on_the_right_side, shading_normal_towards};
+use crate::shading::{
+    MIN_COSINE, leaves_wrongly, normals_agree, on_the_right_side, shading_normal_towards, shading_view,
+};
 
 /// A direction that a photon leaves in, before it is known whether it does.
 struct Leaving {
@@ -65,29 +67,41 @@ impl PhotonPass<'_> {
         next: &mut Vec<Path>,
     ) -> bool {
         let wo = -path.ray.direction;
-        let Some(scattering) = self.scene.scattering(surface, wo.dot(surface.normal) > 0.0) else {
+        let outward = wo.dot(surface.normal) > 0.0;
+        // Whichever component this photon takes, hit points of all of them may gather it.
+        let gathers = |(surface, _): (Surface, f32)| {
+            let scattering = self.scene.scattering(&surface, outward);
+            let split = scattering.map(|s| self.policy.split(&s.bsdf));
+            split.is_some_and(|split| split.gathers() || path.lone && split.follows_gloss())
+        };
+        let counts = self.scene.is_mixture(surface) && self.scene.components(surface, outward).any(gathers);
+        let mut stored = if counts { self.store(path, surface, wo, chunk) } else { path.stored };
+        let (surface, u_lobe) = self.scene.choose_component(*surface, outward, draw.lobe);
+        let surface = &surface;
+        let Some(scattering) = self.scene.scattering(surface, outward) else {
             chunk.ledger.absorbed += energy(path.power);
-            return path.stored;
+            return stored;
         };
         let split = self.policy.split(&scattering.bsdf);
-        let counts = split.gathers() || path.lone && split.follows_gloss();
-        let stored = if counts { self.store(path, surface, wo, chunk) } else { path.stored };
-        let normal = shading_normal_towards(surface, wo);
-        let frame = self.scene.shading_frame(surface, normal);
-        let local = frame.to_local(wo);
-        let sample =
-            scattering.sample(local, Transport::Importance, draw.lobe, draw.direction, split.specular);
+        if !counts && (split.gathers() || path.lone && split.follows_gloss()) {
+            stored = self.store(path, surface, wo, chunk);
+        }
+        let (frame, local) = shading_view(self.scene, surface, wo);
+        let sample = scattering.sample(local, Transport::Importance, u_lobe, draw.direction, split.specular);
         let Some(sample) = sample else {
             chunk.ledger.absorbed += energy(path.power);
             return stored;
         };
-        let leaving = Leaving {
+        let mut leaving = Leaving {
             direction: frame.to_outer(sample.wi).normalize(),
             weight: sample.weight,
-            normal,
+            normal: frame.normal,
             bounce: split.bounce(sample.lobe),
             reflects: sample.wi.z * local.z > 0.0,
         };
+        if surface.is_relieved && leaving.bounce == Bounce::Gathered {
+            leave_relief(&mut leaving, surface, wo, draw, scattering.lambertian().is_some());
+        }
         self.send_on(path, stored, surface, &leaving, draw.survival, chunk, next);
         stored
     }
@@ -211,6 +225,37 @@ impl PhotonPass<'_> {
         );
         chunk.cells.push(cell);
         true
+    }
+}
+
+/// Turns a photon that leaves a relief, by a lobe for which hit points gather, to where eyes see it: also to those above the surface from
+/// which the relief turns away. They see it as their mirror images at the relief's horizon do (`shading_view`), and light of a
+/// relief that turns away from where the photon came from they do not see at all.
+fn leave_relief(leaving: &mut Leaving, surface: &Surface, wo: Vec3, draw: Draw, is_lambertian: bool) {
+    if !normals_agree(surface, wo) {
+        leaving.weight = Rgb::BLACK;
+        return;
+    }
+    let normal = leaving.normal;
+    if is_lambertian {
+        // As bright from all of these directions.
+        let side = 1f32.copysign(wo.dot(surface.normal));
+        leaving.direction = Frame::from_normal(surface.normal * side).to_outer(draw.diffuse).normalize();
+        leaving.weight *= wo.dot(normal).abs() / wo.dot(surface.normal).abs().max(MIN_COSINE);
+        leaving.normal = surface.normal;
+        return;
+    }
+    let seen = |direction: Vec3| !leaves_wrongly(surface, wo, direction, leaving.reflects);
+    let mirrored = leaving.direction.reflect(normal);
+    match (seen(leaving.direction), seen(mirrored)) {
+        (true, true) => {
+            // Digits of the number that roulette hardly looks at.
+            let takes_mirrored = (draw.survival * 4096.0).fract() < 0.5;
+            leaving.weight *= 2.0;
+            leaving.direction = if takes_mirrored { mirrored } else { leaving.direction };
+        }
+        (false, true) => leaving.direction = mirrored,
+        _ => {}
     }
 }
 

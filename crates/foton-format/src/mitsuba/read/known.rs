@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use foton_scene::description::{Bsdf, Colour};
+use foton_scene::description::{Bsdf, Colour, Number, Relief};
 
 use crate::image::Purpose;
 use crate::mitsuba::document::NodeId;
@@ -20,12 +20,33 @@ pub(crate) struct Materials {
     pub(crate) open: Vec<NodeId>,
 }
 
-/// What a BSDF says of both sides of a surface.
-#[derive(Clone, Copy)]
+/// What a BSDF says of both sides of a surface: a material before it stands in the description.
+#[derive(Clone)]
 pub(crate) struct Sides {
     pub(crate) front: Bsdf,
     pub(crate) back: Option<Bsdf>,
     pub(crate) opacity: Option<Colour>,
+    pub(crate) relief: Option<Relief>,
+    /// What is blended with it in turn, each with its share.
+    pub(crate) mixture: Vec<(Sides, Number)>,
+    /// The element that says it, if no other material refers to that.
+    pub(crate) node: Option<NodeId>,
+}
+
+impl Sides {
+    /// One side that is described by a BSDF alone.
+    pub(crate) const fn of(front: Bsdf) -> Self {
+        Self { front, back: None, opacity: None, relief: None, mixture: Vec::new(), node: None }
+    }
+
+    /// Changes this material and all that are blended with it.
+    pub(crate) fn for_each<E>(
+        &mut self,
+        change: &mut impl FnMut(&mut Self) -> Result<(), E>,
+    ) -> Result<(), E> {
+        change(self)?;
+        self.mixture.iter_mut().try_for_each(|(other, _)| other.for_each(change))
+    }
 }
 
 /// Textures read so far.

@@ -24,3 +24,4 @@ pub(crate) mod transform;
 pub(crate) mod upgrade;
 pub(crate) mod usage;
 pub(crate) mod values;
+pub(crate) mod wrappers;

@@ -46,7 +46,7 @@ impl<'a> Changes<'a> {
         // New materials are made of the old ones: those come after.
         self.shapes(&Pairs::of_shapes(old, new))?;
         for (i, (old, new)) in old.materials.iter().zip(&new.materials).enumerate() {
-            if (old.front, old.back, old.opacity) != (new.front, new.back, new.opacity) {
+            if old.scatters_differently(new) {
                 let node = self.scene.nodes.materials.get(i).copied().flatten();
                 let node = self.own(node, "bsdf", &old.name)?;
                 materials::change(&mut self.document, node, old, new)?;

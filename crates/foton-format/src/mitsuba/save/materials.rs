@@ -2,7 +2,7 @@
 
 use foton_scene::description::{Bsdf, Colour, Material, Number};
 use foton_scene::parameter::{Binding, Kind, Parameter, Slot};
-use foton_scene::plugins::wrappers::OPACITY;
+use foton_scene::plugins::wrappers::{self, OPACITY};
 
 use super::tree::Obstacle;
 use crate::mitsuba::document::{Document, NodeId};
@@ -42,12 +42,15 @@ pub(super) fn change(
 
 /// A new `<bsdf>`, with an id that is like the material's name.
 pub(super) fn build(document: &mut Document, new: &Material, indentation: &str) -> Result<NodeId, Obstacle> {
-    let mut textured = matches!(new.opacity, Some(Colour::Texture(_)));
+    let mut textured = matches!(new.opacity, Some(Colour::Texture(_))) || new.relief.is_some();
     for bsdf in [Some(new.front), new.back].into_iter().flatten() {
         let mut of_numbers = false;
         let is_texture = |n, _| of_numbers |= matches!(n, Number::Texture(_));
         let _ = bsdf.map(|c| textured |= matches!(c, Colour::Texture(_)), is_texture);
         textured |= of_numbers;
+    }
+    if !new.mixture.is_empty() {
+        return Err(format!("the material \"{}\" is a blend and changed its kind", new.name));
     }
     if textured {
         return Err(format!("the material \"{}\" has textures and changed its kind", new.name));
@@ -57,7 +60,8 @@ pub(super) fn build(document: &mut Document, new: &Material, indentation: &str) 
 
 /// Changes values alone; `None` where that is not enough.
 fn change_values(document: &mut Document, node: NodeId, old: &Material, new: &Material) -> Option<()> {
-    let mut node = node;
+    (old.relief == new.relief && old.mixture == new.mixture).then_some(())?;
+    let mut node = first_inside(document, node)?;
     if kind(document, node)? == "mask" {
         match (new.opacity, old.opacity) {
             (new, old) if new == old => {}
@@ -67,7 +71,9 @@ fn change_values(document: &mut Document, node: NodeId, old: &Material, new: &Ma
                 document.set_value(node, "float", OPACITY.name, Some(&single(share))).ok()?;
             }
         }
-        node = *inside(document, node)?.first()?;
+        // Holes of a blend are those of all its components.
+        (old.opacity == new.opacity || old.mixture.is_empty()).then_some(())?;
+        node = first_inside(document, *inside(document, node)?.first()?)?;
     } else if old.opacity != new.opacity {
         return None;
     }
@@ -86,6 +92,16 @@ fn change_values(document: &mut Document, node: NodeId, old: &Material, new: &Ma
     change_side(document, node, &old.front, &new.front)
 }
 
+/// The element of the first BSDF inside of blends and reliefs.
+fn first_inside(document: &Document, mut node: NodeId) -> Option<NodeId> {
+    let around =
+        [wrappers::BLENDBSDF, wrappers::MIXTUREBSDF, wrappers::BUMPMAP, wrappers::NORMALMAP].map(|p| p.name);
+    while around.contains(&kind(document, node)?.as_str()) {
+        node = *inside(document, node)?.first()?;
+    }
+    Some(node)
+}
+
 fn kind(document: &Document, node: NodeId) -> Option<String> {
     let element = document.element(node).filter(|e| e.name == "bsdf")?;
     Some(element.attribute("type")?.value.clone())
@@ -99,6 +115,7 @@ fn inside(document: &Document, node: NodeId) -> Option<Vec<NodeId>> {
 }
 
 fn change_side(document: &mut Document, node: NodeId, old: &Bsdf, new: &Bsdf) -> Option<()> {
+    let node = first_inside(document, node)?;
     (std::mem::discriminant(old) == std::mem::discriminant(new)).then_some(())?;
     // The file's own name of the plugin may be another one that means the same.
     if old.plugin() != new.plugin() {

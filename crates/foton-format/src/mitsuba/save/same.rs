@@ -5,8 +5,8 @@ use std::sync::Arc;
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
 use foton_scene::description::{
-    Bitmap, Bsdf, Colour, EmitterKind, Geometry, Mesh, Number, SceneDescription, SensorDescription, Texture,
-    TextureKind,
+    Bitmap, Bsdf, Colour, EmitterKind, Geometry, Mesh, Number, Relief, SceneDescription, SensorDescription,
+    Texture, TextureKind,
 };
 
 /// How far normals that were made again under another scale may lie from the first ones.
@@ -113,10 +113,24 @@ fn same_material((a, i): MaterialOf<'_>, (b, j): MaterialOf<'_>) -> bool {
     let opacities = [x.opacity.unwrap_or(white), y.opacity.unwrap_or(white)];
     let sides = [(Some(x.front), Some(y.front)), (x.back, y.back)];
     same_colour((a, opacities[0]), (b, opacities[1]))
+        && same_relief((a, x.relief), (b, y.relief))
+        && x.mixture.len() == y.mixture.len()
+        && x.mixture.iter().zip(&y.mixture).all(|(x, y)| {
+            same_number((a, x.weight), (b, y.weight)) && same_material((a, x.material), (b, y.material))
+        })
         && sides.iter().all(|(x, y)| match (x, y) {
             (Some(x), Some(y)) => same_bsdf((a, x), (b, y)),
             (x, y) => x.is_none() && y.is_none(),
         })
+}
+
+fn same_relief(
+    (a, x): (&SceneDescription, Option<Relief>),
+    (b, y): (&SceneDescription, Option<Relief>),
+) -> bool {
+    let (Some(x), Some(y)) = (x, y) else { return x == y };
+    (x.kind, x.same_behind) == (y.kind, y.same_behind)
+        && same_colour((a, Colour::Texture(x.texture)), (b, Colour::Texture(y.texture)))
 }
 
 fn same_bsdf((a, x): (&SceneDescription, &Bsdf), (b, y): (&SceneDescription, &Bsdf)) -> bool {

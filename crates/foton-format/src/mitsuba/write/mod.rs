@@ -132,8 +132,10 @@ impl<'a> Writer<'a> {
             let id = self.texture(texture)?;
             self.texture_ids.push(id);
         }
-        for material in &self.description.materials {
-            let id = self.material(material);
+        for (i, material) in self.description.materials.iter().enumerate() {
+            // What is only blended with others stands inside of those.
+            let is_inside = self.description.is_component(i);
+            let id = if is_inside { String::new() } else { self.material(material) };
             self.material_ids.push(id);
         }
         for (i, emitter) in self.description.emitters.iter().enumerate() {

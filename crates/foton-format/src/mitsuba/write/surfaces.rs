@@ -4,7 +4,9 @@ use foton_film::WriteError;
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DMat3};
 use foton_scene::bsdf::Microfacets;
-use foton_scene::description::{Bsdf, Colour, Material, Number, Texture, TextureKind, Wrap};
+use foton_scene::description::{
+    Blend, Bsdf, Colour, Material, Number, Relief, ReliefKind, Texture, TextureKind, Wrap,
+};
 use foton_scene::parameter::{Binding, Slot};
 use foton_scene::plugins::{textures, wrappers};
 
@@ -57,9 +59,51 @@ impl Writer<'_> {
     /// Writes a material and returns its id.
     pub(super) fn material(&mut self, material: &Material) -> String {
         let id = self.id(&material.name);
-        let mut attributes = vec![("id", id.as_str())];
+        self.blended(material, material.mixture.len(), &[("id", &id)]);
+        id
+    }
+
+    /// Writes a material with the first of those that are blended with it.
+    fn blended(&mut self, material: &Material, count: usize, attributes: &[(&str, &str)]) {
+        let Some(last) = count.checked_sub(1) else { return self.component(material, attributes) };
+        let Blend { material: other, weight } = material.mixture[last];
+        let mut outer = vec![("type", wrappers::BLENDBSDF.name)];
+        outer.extend(attributes);
+        self.xml.open("bsdf", &outer);
+        match weight {
+            Number::Constant(weight) => self.xml.value("float", wrappers::WEIGHT.name, &single(weight)),
+            Number::Texture(i) => self.colour(wrappers::WEIGHT.name, Colour::Texture(i)),
+        }
+        self.blended(material, last, &[]);
+        let other = &self.description.materials[other];
+        self.blended(other, other.mixture.len(), &[]);
+        self.xml.close("bsdf");
+    }
+
+    /// Opens the element of a relief, if there is one. Whether it is to be closed.
+    fn relief(&mut self, relief: Option<&Relief>, attributes: &mut Vec<(&str, &str)>) -> bool {
+        let Some(Relief { texture, kind, .. }) = relief else { return false };
+        let (plugin, name) = match kind {
+            ReliefKind::Bump { .. } => (wrappers::BUMPMAP.name, "heights"),
+            ReliefKind::Normal => (wrappers::NORMALMAP.name, wrappers::NORMALS.name),
+        };
+        let mut outer = vec![("type", plugin)];
+        outer.append(attributes);
+        self.xml.open("bsdf", &outer);
+        self.colour(name, Colour::Texture(*texture));
+        if let ReliefKind::Bump { scale } = kind {
+            self.xml.value("float", wrappers::SCALE.name, &single(*scale));
+        }
+        true
+    }
+
+    /// Writes a material without those that are blended with it.
+    fn component(&mut self, material: &Material, attributes: &[(&str, &str)]) {
+        let mut attributes = attributes.to_vec();
         if let Some(opacity) = &material.opacity {
-            self.xml.open("bsdf", &[("type", wrappers::MASK.name), attributes.remove(0)]);
+            let mut outer = vec![("type", wrappers::MASK.name)];
+            outer.append(&mut attributes);
+            self.xml.open("bsdf", &outer);
             match *opacity {
                 Colour::Constant(share) => {
                     self.xml.value("float", wrappers::OPACITY.name, &single(mean(share)));
@@ -67,23 +111,34 @@ impl Writer<'_> {
                 texture @ Colour::Texture(_) => self.colour(wrappers::OPACITY.name, texture),
             }
         }
+        // A relief that is the same behind stands inside of both sides.
+        let inner = material.relief.filter(|relief| relief.same_behind);
+        let outer = self.relief(material.relief.filter(|r| !r.same_behind).as_ref(), &mut attributes);
         match material.back {
             Some(back) if !material.front.has_two_sides() => {
-                let mut outer = vec![("type", wrappers::TWOSIDED.name)];
-                outer.append(&mut attributes);
-                self.xml.open("bsdf", &outer);
-                self.bsdf(&material.front, &[]);
+                let mut around = vec![("type", wrappers::TWOSIDED.name)];
+                around.append(&mut attributes);
+                self.xml.open("bsdf", &around);
+                self.side(&material.front, inner.as_ref(), Vec::new());
                 if back != material.front {
-                    self.bsdf(&back, &[]);
+                    self.side(&back, inner.as_ref(), Vec::new());
                 }
                 self.xml.close("bsdf");
             }
-            _ => self.bsdf(&material.front, &attributes),
+            _ => self.side(&material.front, inner.as_ref(), attributes),
         }
-        if material.opacity.is_some() {
+        for _ in 0..usize::from(outer) + usize::from(material.opacity.is_some()) {
             self.xml.close("bsdf");
         }
-        id
+    }
+
+    /// Writes the BSDF of one side with its relief.
+    fn side(&mut self, bsdf: &Bsdf, relief: Option<&Relief>, mut attributes: Vec<(&str, &str)>) {
+        let is_open = self.relief(relief, &mut attributes);
+        self.bsdf(bsdf, &attributes);
+        if is_open {
+            self.xml.close("bsdf");
+        }
     }
 
     fn bsdf(&mut self, bsdf: &Bsdf, more: &[(&str, &str)]) {

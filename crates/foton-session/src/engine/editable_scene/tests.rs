@@ -48,7 +48,12 @@ fn wall() -> SceneDescription {
             far_clip: None,
             lens: None,
         }],
-        materials: vec![Material { name: "grey".into(), front: grey, back: Some(grey), opacity: None }],
+        materials: vec![Material {
+            name: "grey".into(),
+            front: grey,
+            back: Some(grey),
+            ..Material::default()
+        }],
         shapes: vec![ShapeDescription {
             name: "wall".into(),
             geometry: Geometry::Mesh(Arc::new(mesh)),

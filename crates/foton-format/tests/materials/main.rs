@@ -1,5 +1,7 @@
 //! What materials and textures of a scene file mean, against values worked out by hand or printed by Mitsuba 3.9.1.
 
+mod blends;
+
 use std::io::{self, Cursor};
 use std::path::Path;
 use std::sync::Arc;
