@@ -60,6 +60,8 @@ fn main() {
         ("nothing", none.clone(), &plain),
         ("shading normals' correction", Census { bsdfs: smooth, ..none.clone() }, &plain),
         ("textures", Census { textures: true, ..none.clone() }, &plain),
+        ("blends", Census { mixtures: true, ..none.clone() }, &plain),
+        ("bump and normal maps", Census { reliefs: true, ..none.clone() }, &plain),
         ("anisotropic frames", Census { anisotropy: true, ..none.clone() }, &plain),
         ("environment", Census { environment: true, ..none.clone() }, &plain),
         ("rough coats", Census { rough_coats: true, ..none.clone() }, &plain),

@@ -60,6 +60,8 @@ fn modelling_what_a_scene_does_not_need_gives_the_same_bits() {
     let narrow = vec![kind(LobeFlags::GLOSSY | LobeFlags::REFLECTION, Some(0.05), false)];
     for (name, forced) in [
         ("textures", Census { textures: true, ..none.clone() }),
+        ("blends", Census { mixtures: true, ..none.clone() }),
+        ("bump and normal maps", Census { reliefs: true, ..none.clone() }),
         ("anisotropic frames", Census { anisotropy: true, ..none.clone() }),
         ("environment", Census { environment: true, ..none.clone() }),
         ("shading normals' correction", Census { bsdfs: smooth, ..none.clone() }),

@@ -170,6 +170,18 @@ fn shape(description: &SceneDescription, index: usize, mut fields: Fields) -> Op
     if textured || matches!(shape.radiance, Some(Colour::Texture(_))) {
         notes.push("Values that come from textures cannot be edited here.".to_owned());
     }
+    if !used.mixture.is_empty() {
+        let others: Vec<_> =
+            used.mixture.iter().filter_map(|b| description.materials.get(b.material)).collect();
+        let kinds: Vec<_> = others.into_iter().map(material::kind_name).collect();
+        notes.push(format!(
+            "The material is a blend: this is its first component; the others are {}.",
+            kinds.join(", ")
+        ));
+    }
+    if used.relief.is_some() {
+        notes.push("A bump or normal map perturbs its normals.".to_owned());
+    }
     let kind = shape_kind(description, shape);
     let material = Some(MaterialUse { name: used.name.clone(), shapes });
     Some(Inspection {

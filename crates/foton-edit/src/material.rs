@@ -31,7 +31,7 @@ fn kind_of(bsdf: &Bsdf) -> usize {
     Bsdf::defaults(false).iter().position(is_same).unwrap_or(0)
 }
 
-/// The kind of a material in words: `smooth conductor`.
+/// The kind of a material in words: `smooth conductor`, and of a blend that of its first component.
 pub(crate) fn kind_name(material: &Material) -> String {
     let info = material.front.info();
     let label = info.label.to_lowercase();

@@ -30,6 +30,11 @@ fn principled_reads_numbers_textures_and_either_way_of_stating_its_index() {
     assert_eq!(found.base_color, Rgb::new(0.8, 0.4, 0.1).into());
     assert_eq!((found.roughness, found.metallic), (Number::Texture(0), 0.7.into()));
     assert_eq!((found.eta, found.clearcoat), (index_of_specular(0.25), 2.0.into()));
+    let (Bsdf::Principled(mean), _) = bsdf("principled", "<rgb name='roughness' value='0.2, 0.3, 0.7'/>")
+    else {
+        panic!()
+    };
+    assert!((mean.roughness.constant().unwrap() - 0.4).abs() < 1e-6, "{mean:?}");
     // What Mitsuba says of specular 0.5 is its default of 1.5 for eta.
     assert!((index_of_specular(0.5) - 1.5).abs() < 1e-6);
     let (Bsdf::Principled(plain), _) = bsdf("principled", "<float name='eta' value='1.7'/>") else {

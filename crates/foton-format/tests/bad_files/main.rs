@@ -88,7 +88,7 @@ fn unknown_names_come_with_the_nearest_known_one() {
             &["s.xml:2:13: unknown bsdf \"dielectrc\", did you mean \"dielectric\"?"],
         ),
         ("<bsdf type='velvet'/>", &["s.xml:2:13: unknown bsdf \"velvet\""]),
-        ("<bsdf type='principled'/>", &["s.xml:2:13: bsdf \"principled\" is not supported yet"]),
+        ("<texture type='wireframe'/>", &["s.xml:2:16: texture \"wireframe\" is not supported yet"]),
         ("<shape type='spere'/>", &["s.xml:2:14: unknown shape \"spere\", did you mean \"sphere\"?"]),
         ("<shape type='instance'/>", &["s.xml:2:14: shape \"instance\" is not supported yet"]),
         ("<emitter type='sunsky'/>", &["s.xml:2:16: emitter \"sunsky\" is not supported yet"]),

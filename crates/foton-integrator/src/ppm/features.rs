@@ -91,7 +91,7 @@ fn eye_paths(census: &Census, lobes: LobeUse, settings: &RenderSettings) -> [Fea
     ]
 }
 
-fn surfaces(census: &Census, lobes: LobeUse) -> [Feature; 5] {
+fn surfaces(census: &Census, lobes: LobeUse) -> [Feature; 7] {
     [
         Feature::new(
             "glossy hit points",
@@ -109,7 +109,10 @@ fn surfaces(census: &Census, lobes: LobeUse) -> [Feature; 5] {
         Feature::new(
             "shading normals' correction",
             lobes.shading_normals,
-            ["interpolated normals on surfaces that spread light", "such surfaces are flat or round"],
+            [
+                "interpolated or perturbed normals on surfaces that spread light",
+                "such surfaces are flat or round",
+            ],
             "a direction decoded for each photon that counts",
         )
         .with_bytes(3 * size_of::<f32>(), 0),
@@ -118,6 +121,18 @@ fn surfaces(census: &Census, lobes: LobeUse) -> [Feature; 5] {
             census.textures,
             ["colours or numbers come from textures", "all colours and numbers are constant"],
             "a lookup at each surface, 24 bytes per triangle",
+        ),
+        Feature::new(
+            "blends",
+            census.mixtures,
+            ["materials are blended of several", "no material is a blend"],
+            "a hit point for each component, a choice for each photon",
+        ),
+        Feature::new(
+            "bump and normal maps",
+            census.reliefs,
+            ["textures perturb normals", "no texture perturbs a normal"],
+            "up to four lookups and a frame at each surface",
         ),
         Feature::new(
             "anisotropic frames",

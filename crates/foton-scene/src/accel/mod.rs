@@ -68,7 +68,9 @@ impl Accel {
         };
         let boxes: Vec<_> = primitives.iter().map(padded).collect();
         let tree = cluster::build(&boxes, &gauge)?;
+        drop(boxes);
         let collapsed = collapse::collapse(&tree, primitives, &gauge)?;
+        drop(tree);
         let ordered: Vec<Primitive> = collapsed.order.iter().map(|&i| primitives[i as usize]).collect();
         let planes = ordered.par_iter().map(Primitive::plane).collect();
         let accel = Self { nodes: collapsed.nodes, quads: collapsed.quads, primitives: ordered, planes };

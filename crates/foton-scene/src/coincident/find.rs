@@ -1,6 +1,7 @@
 //! Finds what lies in one another when a scene is built.
 
 use foton_math::Cancelled;
+use foton_math::glam::DVec3;
 use rayon::prelude::*;
 
 use super::sheet::{Face, Sheet, coincide, tolerance};
@@ -18,20 +19,25 @@ impl Coincidences {
         let accel = &scene.accel;
         let (primitives, shape_of) = (accel.primitives(), |i: usize| scene.shape_of(i));
         let gauge = options.step(BuildStep::Coincidences, primitives.len());
+        // Each is asked for by all that lies near it.
+        let normals: Vec<DVec3> = primitives.par_iter().map(Face::normal_of).collect();
+        let face = |i: usize| Face::of(&primitives[i], normals[i]);
+        gauge.check()?;
         let mut pairs: Vec<[u32; 2]> = (0..primitives.len())
             .into_par_iter()
             .filter(|&i| gauge.item(i).is_ok() && gauge.check().is_ok())
             .flat_map_iter(|i| {
-                let (mut partners, own) = (Vec::new(), Face::of(&primitives[i]));
+                let (mut partners, own) = (Vec::new(), face(i));
                 // A small face on a large floor is found from its own side, whatever else lies near the floor.
                 accel.for_each_near(&primitives[i].bounds(), MAX_NEAR, |j| {
-                    if j != i && partners.len() < MAX_PARTNERS && coincide(&own, &Face::of(&primitives[j])) {
+                    if j != i && partners.len() < MAX_PARTNERS && coincide(&own, &face(j)) {
                         partners.push([i.min(j) as u32, i.max(j) as u32]);
                     }
                 });
                 partners
             })
             .collect();
+        drop(normals);
         gauge.check()?;
         pairs.par_sort_unstable();
         pairs.dedup();

@@ -41,7 +41,7 @@ impl Sheet {
     }
 }
 
-/// A primitive, and its plane if it is flat: known once for all that lies near it.
+/// A primitive, and its plane if it is flat.
 #[derive(Clone, Copy)]
 pub(super) struct Face<'a> {
     primitive: &'a Primitive,
@@ -50,13 +50,18 @@ pub(super) struct Face<'a> {
 }
 
 impl<'a> Face<'a> {
-    pub(super) fn of(primitive: &'a Primitive) -> Self {
+    pub(super) fn of(primitive: &'a Primitive, normal: DVec3) -> Self {
         let point = match *primitive {
             Primitive::Triangle([point, ..]) | Primitive::Disc { centre: point, .. } => Some(point),
             Primitive::Sphere { .. } | Primitive::Cylinder { .. } => None,
         };
-        let plane = point.map(|p| [p.as_dvec3(), Sheet::of(primitive, DVec3::ZERO).normal]);
+        let plane = point.map(|p| [p.as_dvec3(), normal]);
         Self { primitive, plane }
+    }
+
+    /// What [`Self::of`] asks for: the unit normal of a flat primitive, and anything for others.
+    pub(super) fn normal_of(primitive: &Primitive) -> DVec3 {
+        Sheet::of(primitive, DVec3::ZERO).normal
     }
 
     /// What rounding of coordinates does along the normal, in the unit of [`TOLERANCE`].
@@ -83,7 +88,8 @@ impl<'a> Face<'a> {
 
 /// How far two surfaces may be apart and still be one: what rounding of their coordinates does along their normal.
 pub(super) fn tolerance(a: &Primitive, b: &Primitive) -> f64 {
-    tolerance_of(&Face::of(a), &Face::of(b))
+    let face = |of| Face::of(of, Face::normal_of(of));
+    tolerance_of(&face(a), &face(b))
 }
 
 fn tolerance_of(a: &Face<'_>, b: &Face<'_>) -> f64 {
@@ -146,9 +152,14 @@ pub(super) fn meet_at(own: &Primitive, other: &Primitive, p: DVec3) -> bool {
 /// How far within a primitive's edges a point of its surface is; negative outside.
 fn room(primitive: &Primitive, p: DVec3) -> f64 {
     match *primitive {
-        Primitive::Triangle(_) => inward_edges(&Face::of(primitive)).map_or(0.0, |edges| {
-            edges.into_iter().map(|(corner, inward)| (p - corner).dot(inward)).fold(f64::INFINITY, f64::min)
-        }),
+        Primitive::Triangle(_) => {
+            inward_edges(&Face::of(primitive, Face::normal_of(primitive))).map_or(0.0, |edges| {
+                edges
+                    .into_iter()
+                    .map(|(corner, inward)| (p - corner).dot(inward))
+                    .fold(f64::INFINITY, f64::min)
+            })
+        }
         Primitive::Disc { centre, radius, .. } => f64::from(radius) - p.distance(centre.as_dvec3()),
         Primitive::Sphere { .. } => f64::INFINITY,
         Primitive::Cylinder { from, axis, .. } => {

@@ -66,6 +66,8 @@ const FEATURES: [&str; 17] = [
     "rough coats",
     "shading normals' correction",
     "textures",
+    "blends",
+    "bump and normal maps",
     "anisotropic frames",
     "environment",
     "aiming at casters",

@@ -64,16 +64,17 @@ impl Reader<'_> {
         Some(())
     }
 
-    /// A number within its range, or the texture that gives it.
+    /// A number within its range, the mean channel of a colour, or the texture that gives it.
     #[allow(clippy::cast_possible_truncation, reason = "optics is single precision")]
     pub(super) fn number(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Option<Number> {
         let Parameter { name, range: (min, max), .. } = *parameter;
         if let Some(texture) = p.texture(name).filter(|_| parameter.textured) {
             return self.texture_for(texture, Purpose::Number).map(Number::Texture);
         }
-        let Some(found) = p.number(name, &mut self.report) else {
-            return Some(parameter.default_number().into());
-        };
+        // A colour where a texture might stand is one that is the same everywhere.
+        let is_colour = parameter.textured && p.is_written_as(name, &["rgb", "srgb", "spectrum"]);
+        let found = if is_colour { self.mean_channel(p, name) } else { p.number(name, &mut self.report) };
+        let Some(found) = found else { return Some(parameter.default_number().into()) };
         if parameter.holds(found.value) {
             return Some((found.value as f32).into());
         }
@@ -105,7 +106,7 @@ impl Reader<'_> {
     #[allow(clippy::cast_possible_truncation, reason = "optics is single precision")]
     pub(super) fn refraction(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Option<f32> {
         let name = parameter.name;
-        if p.is_string(name) {
+        if p.is_written_as(name, &["string"]) {
             let substance = p.string(name, &mut self.report)?;
             let lower = substance.value.to_lowercase();
             let found = REFRACTION.iter().find(|(known, _)| *known == lower);

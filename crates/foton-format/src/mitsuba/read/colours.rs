@@ -62,6 +62,16 @@ impl Reader<'_> {
     }
 
     /// Channels a little below zero are those of colours outside the gamut of sRGB, and are cut.
+    /// The mean channel of a colour, as Mitsuba 3 takes it for a number.
+    pub(crate) fn mean_channel(
+        &mut self,
+        p: &mut Properties<'_>,
+        name: &'static str,
+    ) -> Option<Located<f64>> {
+        let Located { value, place } = self.colour(p, name, Meaning::Factor)?;
+        Some(Located { value: f64::from(value.mean()), place })
+    }
+
     fn not_negative(&mut self, name: &str, colour: &Located<Rgb>) -> Rgb {
         let (least, most) = extremes(colour.value);
         if least < -OUT_OF_GAMUT * most {

@@ -31,6 +31,8 @@ impl Reader<'_> {
             "envmap" => self.envmap(&mut p),
             _ => self.constant(&mut p),
         };
+        // It steers another renderer's sampling.
+        p.ignore(&["sampling_weight"]);
         p.finish(&mut self.report);
         if let Some(kind) = kind {
             let name = self.name(element, plugin, self.description.emitters.len() + 1);
@@ -61,6 +63,8 @@ impl Reader<'_> {
             Some(texture) => self.texture_for(texture, Purpose::Light).map(Colour::Texture),
             None => Some(self.emission(&mut p, &RADIANCE).into()),
         };
+        // It steers another renderer's sampling.
+        p.ignore(&["sampling_weight"]);
         p.finish(&mut self.report);
         radiance
     }

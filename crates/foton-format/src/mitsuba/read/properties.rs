@@ -222,9 +222,9 @@ impl<'a> Properties<'a> {
         self.has(name) || self.objects.iter().any(|o| o.name == name && is_texture(&o.element.name))
     }
 
-    /// Whether the value is there and written as a `<string>`.
-    pub(crate) fn is_string(&self, name: &str) -> bool {
-        self.values.iter().any(|v| is_called(v.name, name) && v.element.name == "string")
+    /// Whether the value is there and written with one of these tags.
+    pub(crate) fn is_written_as(&self, name: &str, tags: &[&str]) -> bool {
+        self.values.iter().any(|v| is_called(v.name, name) && tags.contains(&v.element.name.as_str()))
     }
 
     /// Whether the value is there and written as a `<vector>` or `<point>`.

@@ -174,7 +174,7 @@ impl Reader<'_> {
     }
 
     fn refuse_shift(&mut self, p: &mut Properties<'_>, name: &'static str) {
-        if p.is_string(name) {
+        if p.is_written_as(name, &["string"]) {
             return;
         }
         if let Some(shift) = p.number(name, &mut self.report).filter(|s| s.value != 0.0) {

@@ -202,6 +202,7 @@ impl Principled<Rgb, f32> {
     }
 }
 
+// Never inlined, so that what decides between models stays small.
 impl Model for Principled<Rgb, f32> {
     fn flags(&self) -> LobeFlags {
         Self::flags(self)
@@ -218,6 +219,7 @@ impl Model for Principled<Rgb, f32> {
         })
     }
 
+    #[inline(never)]
     fn eval(&self, wo: Vec3, wi: Vec3, lobes: LobeFlags) -> Rgb {
         if same_side(wo, wi) {
             return self.reflection(upward(wo), upward(wi), self.is_outside(wo), lobes);
@@ -229,6 +231,7 @@ impl Model for Principled<Rgb, f32> {
         }
     }
 
+    #[inline(never)]
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
         if same_side(wo, wi) {
             let outside = self.is_outside(wo);
@@ -247,6 +250,7 @@ impl Model for Principled<Rgb, f32> {
         self.reflection_pdf(wo, wi, outside, &self.glossy_chances(wo.z, outside), true)
     }
 
+    #[inline(never)]
     fn lobes(&self, wo: Vec3, transport: Transport, u: Vec2, lobes: LobeFlags) -> LobeSamples {
         if !lobes.intersects(LobeFlags::GLOSSY) {
             return [None; 3];
@@ -265,6 +269,7 @@ impl Model for Principled<Rgb, f32> {
         [reflection.map(lobe), refraction.map(lobe), None]
     }
 
+    #[inline(never)]
     fn sample(
         &self,
         wo: Vec3,

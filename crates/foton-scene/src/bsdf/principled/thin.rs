@@ -285,6 +285,7 @@ impl PrincipledThin<Rgb, f32> {
     }
 }
 
+// Never inlined, so that what decides between models stays small.
 impl Model for PrincipledThin<Rgb, f32> {
     fn flags(&self) -> LobeFlags {
         Self::flags(self)
@@ -294,10 +295,12 @@ impl Model for PrincipledThin<Rgb, f32> {
         (self.spec_trans > 0.0).then(|| self.facets().widest())
     }
 
+    #[inline(never)]
     fn eval(&self, wo: Vec3, wi: Vec3, lobes: LobeFlags) -> Rgb {
         self.value(wo, wi, Transport::Radiance, lobes)
     }
 
+    #[inline(never)]
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
         self.pdf_of(wo, wi, &self.chances(wo.z.abs()))
     }
@@ -310,6 +313,7 @@ impl Model for PrincipledThin<Rgb, f32> {
         }
     }
 
+    #[inline(never)]
     fn lobes(&self, wo: Vec3, transport: Transport, u: Vec2, lobes: LobeFlags) -> LobeSamples {
         if self.spec_trans <= 0.0 || !lobes.intersects(LobeFlags::GLOSSY) {
             return [None; 3];
@@ -331,6 +335,7 @@ impl Model for PrincipledThin<Rgb, f32> {
         [reflection, passage, None]
     }
 
+    #[inline(never)]
     fn sample(
         &self,
         wo: Vec3,

@@ -99,28 +99,60 @@ pub(super) fn join_equal_edges(
         })
         .collect();
     let edges = sorted(edges, gauge)?;
+    let joints: Vec<Joint> = parts(&edges)
+        .into_par_iter()
+        .filter(|_| gauge.check().is_ok())
+        .flat_map_iter(|part| part.chunk_by(|a, b| a.hash == b.hash))
+        .flat_map_iter(|group| {
+            // Those behind the first have others before them.
+            let later = group.iter().enumerate().skip(1).filter(|(i, _)| gauge.check_at(*i).is_ok());
+            later.flat_map(|(i, edge)| joints(primitives, edge, &group[..i.min(MAX_AT_AN_EDGE)]))
+        })
+        .collect();
+    gauge.check()?;
+    drop(edges);
+    for (number, Joint { primitives: [a, b], sides, turned }) in joints.into_iter().enumerate() {
+        gauge.item(number)?;
+        sets.join(a, b, turned);
+        for (primitive, side) in [(a, sides[0]), (b, sides[1])] {
+            free[primitive as usize] &= !(1 << side);
+        }
+    }
+    Ok(())
+}
+
+/// Sorted edges in parts of about [`Gauge::EVERY`], equal ones in one.
+fn parts(edges: &[Edge]) -> Vec<&[Edge]> {
+    let (mut parts, mut rest) = (Vec::with_capacity(edges.len() / Gauge::EVERY + 1), edges);
+    while let Some(last) = rest.get(Gauge::EVERY - 1) {
+        let behind = rest[Gauge::EVERY..].iter().take_while(|edge| edge.hash == last.hash).count();
+        let (part, after) = rest.split_at(Gauge::EVERY + behind);
+        parts.push(part);
+        rest = after;
+    }
+    parts.push(rest);
+    parts
+}
+
+/// Two triangles that continue each other at an edge.
+struct Joint {
+    primitives: [u32; 2],
+    sides: [u8; 2],
+    /// Whether their normals point to different sides.
+    turned: bool,
+}
+
+/// What continues a triangle at an edge, of those that have an equal one.
+fn joints(primitives: &[Primitive], edge: &Edge, others: &[Edge]) -> impl Iterator<Item = Joint> {
     let side = |e: &Edge| match primitives[e.primitive as usize] {
         Primitive::Triangle(corners) => Side::new(corners, usize::from(e.side)),
         _ => None,
     };
-    let groups = edges.chunk_by(|a, b| a.hash == b.hash);
-    for (number, group) in groups.enumerate().filter(|(_, group)| group.len() > 1) {
-        gauge.item(number)?;
-        for (i, edge) in group.iter().enumerate().skip(1) {
-            gauge.check_at(i)?;
-            let Some(one) = side(edge) else { continue };
-            for other_edge in &group[..i.min(MAX_AT_AN_EDGE)] {
-                let Some(turned) = side(other_edge).and_then(|other| one.continued_by(&other)) else {
-                    continue;
-                };
-                sets.join(edge.primitive, other_edge.primitive, turned);
-                for e in [edge, other_edge] {
-                    free[e.primitive as usize] &= !(1 << e.side);
-                }
-            }
-        }
-    }
-    Ok(())
+    let one = side(edge);
+    others.iter().filter_map(move |other| {
+        let turned = one.as_ref()?.continued_by(&side(other)?)?;
+        Some(Joint { primitives: [edge.primitive, other.primitive], sides: [edge.side, other.side], turned })
+    })
 }
 
 #[cfg(test)]
