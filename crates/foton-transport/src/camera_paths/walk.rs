@@ -281,6 +281,19 @@ impl<'a, 'b> Walk<'a, 'b> {
         }
     }
 
+    /// How far neighbouring samples are apart that leave a surface in a unit direction; `normal` is that about which it scatters.
+    fn bent(
+        &self,
+        branch: &Branch,
+        (surface, scattering): (&Surface, &Scattering),
+        normal: Vec3,
+        leaving: Vec3,
+    ) -> Option<Differential> {
+        let (differential, footprint) = branch.differential.zip(branch.footprint)?;
+        let (scene, arriving) = (self.pass.scene, branch.ray.direction);
+        Some(differential.bent(&Bend { scene, surface, scattering, normal, arriving, footprint }, leaving))
+    }
+
     /// Goes on by the specular lobes of a surface: all of them where the path may split, else one chosen by chance.
     fn follow_lobes(
         &mut self,
@@ -293,10 +306,8 @@ impl<'a, 'b> Walk<'a, 'b> {
         let Some(weight) = self.roulette(branch) else { return };
         let wo = -branch.ray.direction;
         let (frame, local) = shading_view(self.pass.scene, surface, wo);
-        let facet = match scattering.bsdf.gloss() {
-            Some(_) => Some(self.facet.take().unwrap_or_else(|| self.stream.next_2d())),
-            None => None,
-        };
+        let is_rough = scattering.bsdf.gloss().is_some();
+        let facet = is_rough.then(|| self.facet.take().unwrap_or_else(|| self.stream.next_2d()));
         if self.pass.uses.highlights_by_photons && split.follows_gloss() {
             self.store_specular(&Branch { weight, ..*branch }, surface, scattering, split, distance);
         }
@@ -307,14 +318,6 @@ impl<'a, 'b> Walk<'a, 'b> {
             let at = Glossy { scene, surface, scattering, split, frame: &frame, wo: local, edges };
             self.sample_emitters(weight, &at);
         }
-        let bend = branch.footprint.map(|footprint| Bend {
-            scene: self.pass.scene,
-            surface,
-            scattering,
-            normal: frame.normal,
-            arriving: branch.ray.direction,
-            footprint,
-        });
         let facet = facet.unwrap_or_default();
         let lobes = scattering.lobes(local, Transport::Radiance, facet, split.specular);
         let count = lobes.iter().flatten().count() as u32;
@@ -340,13 +343,14 @@ impl<'a, 'b> Walk<'a, 'b> {
             let sampled = frame.to_outer(lobe.wi).normalize();
             let direction = on_the_right_side(surface, wo, sampled, lobe.wi.z * local.z > 0.0);
             let is_unmirrored = samples_emitters && direction == sampled;
+            let differential = self.bent(branch, (surface, scattering), frame.normal, direction);
             self.branches.push(Branch {
                 ray: Ray::new(surface.ray_origin(direction), direction),
                 weight,
                 edges: branch.edges + 1,
                 distance,
                 pdf: if is_unmirrored { Glossy::pdf(scattering, split, local, lobe.wi) } else { 0.0 },
-                differential: branch.differential.zip(bend).map(|(d, bend)| d.bent(&bend, direction)),
+                differential,
                 footprint: None,
             });
         }
