@@ -7,7 +7,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "rays start off their surface",
         file: "crates/foton-scene/src/surface.rs",
-        from: "let distance = self.normal.abs().dot(self.error);",
+        from: "let distance = self.normal.abs().dot(self.error).max(LEAST_OFFSET);",
         to: "let distance = 0.0 * self.normal.abs().dot(self.error);",
         target: GEOMETRY,
         test: "rays_off_triangles_do_not_meet_them",
