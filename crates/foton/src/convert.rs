@@ -13,7 +13,7 @@ use crate::opening::{open, refuse_to_build, refuse_two_roles};
 pub(crate) fn run(args: &Convert, console: &Console) -> Result<(), Failure> {
     check_writable(&args.output)?;
     // A signal ends the program at once: there is nothing to save.
-    let opened = open(&args.scene, &args.read, None, &Cancel::default())?;
+    let opened = open(&args.scene, &args.read, None, console, &Cancel::default())?;
     refuse_two_roles(args.roles(), &opened)?;
     for finding in &opened.warnings {
         console.diagnostic(finding);
