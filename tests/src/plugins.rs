@@ -1,7 +1,7 @@
 //! `docs/plugins.md`, made from what plugins declare of their parameters.
 
 use foton_scene::bsdf::Bsdf;
-use foton_scene::parameter::{Kind, Parameter};
+use foton_scene::parameter::{Binding, Kind, Parameter, Slot};
 use foton_scene::plugins::{Plugin, emitters, sensors, shapes, stand_ins, textures, wrappers};
 
 /// A plugin with the parameters that it declares.
@@ -41,16 +41,12 @@ fn bsdfs() -> Vec<Declared> {
         .map(|mut bsdf| {
             let (info, name, is_rough) = (bsdf.info(), bsdf.plugin(), bsdf.roughness().is_some());
             let bindings = bsdf.parameters();
-            let is_there = |p: &&Parameter| is_rough || !is_of_roughness(p);
-            let parameters = bindings.iter().flat_map(|b| b.parameters).filter(is_there).copied().collect();
+            // Only rough surfaces have those of microfacets.
+            let is_there = |b: &&Binding<'_>| is_rough || !matches!(b.slot, Slot::Roughness(_));
+            let parameters = bindings.iter().filter(is_there).flat_map(|b| b.parameters).copied().collect();
             Declared { tag: "bsdf", name, help: info.help, parameters }
         })
         .collect()
-}
-
-/// Whether only rough surfaces have it.
-fn is_of_roughness(parameter: &Parameter) -> bool {
-    foton_scene::bsdf::ROUGHNESS.iter().any(|p| p.name == parameter.name)
 }
 
 /// The text of `docs/plugins.md`.

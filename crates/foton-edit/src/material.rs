@@ -4,7 +4,7 @@ use foton_math::Rgb;
 use foton_scene::bsdf::{MicrofacetDistribution, Microfacets};
 use foton_scene::description::{Bsdf, Colour, Material, Number};
 use foton_scene::metals::METALS;
-use foton_scene::parameter::{Binding, Parameter, Role, Slot};
+use foton_scene::parameter::{Binding, Kind, Parameter, Role, Slot};
 use foton_scene::plugins::wrappers::OPACITY;
 
 use super::field::{FieldId, Fields, Property, Side, Value};
@@ -87,6 +87,13 @@ fn side_fields(bsdf: &Bsdf, side: Side, out: &mut Fields) -> bool {
                 out.toggle(own, parameter.label, *on, parameter.help);
                 out.advance();
             }
+            Slot::Choice(i) => {
+                if let Kind::Choice(words) = parameter.kind {
+                    let words = words.iter().map(|word| (*word).to_owned()).collect();
+                    out.choice(own, parameter.label, *i, words, parameter.help);
+                    out.advance();
+                }
+            }
             Slot::Metal { eta, k } => metal_fields(side, parameters, [*eta, *k], out),
             Slot::Roughness(roughness) => textured |= roughness_fields(side, parameters, *roughness, out),
         }
@@ -100,7 +107,7 @@ const fn rank(slot: &Slot<'_>) -> u8 {
         Slot::Refraction(_) | Slot::Reflectivity(_) | Slot::Number(_) | Slot::Metal { .. } => 0,
         Slot::Roughness(_) => 1,
         Slot::Share(_) => 2,
-        Slot::Boolean(_) => 3,
+        Slot::Boolean(_) | Slot::Choice(_) => 3,
     }
 }
 
@@ -214,6 +221,7 @@ fn set_side(bsdf: &mut Bsdf, property: Property, value: Value) {
                 *place = x as f32;
             }
             (Slot::Boolean(flag), Value::Toggle(on)) if is_it => *flag = on,
+            (Slot::Choice(place), Value::Choice(i)) if is_it => *place = i,
             (Slot::Metal { eta, k }, _) => set_metal([eta, k], property, value),
             (Slot::Roughness(roughness), _) => set_roughness(roughness, property, value),
             _ => {}

@@ -9,6 +9,26 @@ use crate::args::Convert;
 use crate::console::{Console, Failure};
 use crate::opening::{open, refuse_to_build, refuse_two_roles};
 
+/// What to say of materials that Mitsuba 3 does not have, once for each plugin.
+fn not_of_mitsuba_3(description: &SceneDescription) -> Vec<String> {
+    let mut said = Vec::new();
+    for material in &description.materials {
+        let sides = [Some(material.front), material.back];
+        for bsdf in sides.into_iter().flatten().filter(|b| !b.is_of_mitsuba_3()) {
+            let plugin = bsdf.plugin();
+            let what = if bsdf.info().is_of_mitsuba_3 { "microfacets of Phong" } else { "such a plugin" };
+            let (name, said_before) = (&material.name, said.iter().any(|(p, _)| *p == plugin));
+            if !said_before {
+                let message = format!(
+                    "the material \"{name}\" is written as \"{plugin}\" of Mitsuba 0.6: Mitsuba 3 does not have {what} and will refuse the file"
+                );
+                said.push((plugin, message));
+            }
+        }
+    }
+    said.into_iter().map(|(_, message)| message).collect()
+}
+
 /// Runs `foton convert`.
 pub(crate) fn run(args: &Convert, console: &Console) -> Result<(), Failure> {
     check_writable(&args.output)?;
@@ -20,6 +40,9 @@ pub(crate) fn run(args: &Convert, console: &Console) -> Result<(), Failure> {
     }
     if !opened.description.motion.is_still() {
         console.warning("what moves is written as it is at its first keyframe: Mitsuba 3 has no motion");
+    }
+    for message in not_of_mitsuba_3(&opened.description) {
+        console.warning(&message);
     }
     // What cannot be rendered is not worth writing; building also checks every index.
     refuse_to_build(&opened.description, None)?;

@@ -29,11 +29,8 @@ pub(crate) const SHAPES: Plugins = Plugins {
     ],
 };
 
-pub(crate) const BSDFS: Plugins = Plugins {
-    kind: "bsdf",
-    supported: || bsdfs().collect(),
-    elsewhere: &["roughdiffuse", "coating", "roughcoating", "phong", "ward", "difftrans"],
-};
+pub(crate) const BSDFS: Plugins =
+    Plugins { kind: "bsdf", supported: || bsdfs().collect(), elsewhere: &["coating", "roughcoating"] };
 
 pub(crate) const TEXTURES: Plugins = Plugins {
     kind: "texture",

@@ -22,8 +22,8 @@ fn materials_that_cannot_be_are_errors() {
         ),
         (&rough("<rgb name='eta' value='1 -1 1'/>"), &["s.xml:2:52: \"eta\" must not be negative"]),
         (
-            &rough("<string name='distribution' value='phong'/>"),
-            &["s.xml:2:64: no distribution \"phong\" is known, only \"beckmann\" and \"ggx\""],
+            &rough("<string name='distribution' value='blinn'/>"),
+            &["s.xml:2:64: no distribution \"blinn\" is known, only \"beckmann\", \"ggx\", \"phong\""],
         ),
         (
             &rough("<string name='distribution' value='gxg'/>"),

@@ -10,10 +10,11 @@ use foton_format::{Options, open, write_scene};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
-    Attribute, Bitmap, Blend, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, EmitterDescription,
-    EmitterKind, Filter, FovAxis, Geometry, Hidden, Keyframes, Lens, Material, Mesh, MicrofacetDistribution,
-    Microfacets, Mirror, Motion, Null, Number, Plastic, Relief, ReliefKind, SceneDescription,
-    SensorDescription, ShapeDescription, Texture, TextureKind, ThinDielectric, Wrap,
+    Attribute, Bitmap, Blend, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, DiffuseTransmitter,
+    EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Hidden, Keyframes, Lens, Material, Mesh,
+    MicrofacetDistribution, Microfacets, Mirror, Motion, Null, Number, Phong, Plastic, Relief, ReliefKind,
+    RoughDiffuse, SceneDescription, SensorDescription, ShapeDescription, Texture, TextureKind,
+    ThinDielectric, Ward, Wrap,
 };
 
 use same::assert_same;
@@ -109,7 +110,32 @@ fn bsdfs() -> Vec<Bsdf> {
         metal(textured(Number::Texture(0), Number::Texture(0))),
         glass(textured(Number::Constant(0.1), Number::Texture(1))),
         plastic(true, textured(Number::Texture(1), Number::Texture(1))),
+        glass(roughness(MicrofacetDistribution::Phong, 0.1, 0.2)),
         Bsdf::Null(Null),
+    ]
+}
+
+/// Those that Mitsuba 3 does not have.
+fn old_bsdfs() -> Vec<Bsdf> {
+    vec![
+        Bsdf::RoughDiffuse(RoughDiffuse {
+            reflectance: Colour::Texture(0),
+            alpha: Number::Texture(1),
+            use_fast_approx: true,
+        }),
+        Bsdf::Phong(Phong {
+            exponent: 12.5.into(),
+            specular_reflectance: colour(0.25, 0.5, 0.125),
+            diffuse_reflectance: Colour::Texture(0),
+        }),
+        Bsdf::Ward(Ward {
+            variant: 2,
+            alpha_u: 0.25.into(),
+            alpha_v: Number::Texture(1),
+            specular_reflectance: colour(1.0, 1.0, 1.0),
+            diffuse_reflectance: colour(0.5, 0.6, 0.7),
+        }),
+        Bsdf::DiffuseTransmitter(DiffuseTransmitter { transmittance: colour(0.5, 0.25, 0.75) }),
     ]
 }
 
@@ -121,7 +147,7 @@ fn materials() -> Vec<Material> {
         (diffuse, Some(diffuse), None),
         (diffuse, Some(textured), Some(colour(0.3, 0.3, 0.3))),
     ];
-    sides.extend(bsdfs().into_iter().enumerate().map(|(i, front)| {
+    sides.extend(bsdfs().into_iter().chain(old_bsdfs()).enumerate().map(|(i, front)| {
         let back = matches!(front, Bsdf::Conductor(Conductor { roughness: Some(_), .. })).then_some(diffuse);
         (front, back, (i == 0).then_some(Colour::Texture(2)))
     }));

@@ -116,15 +116,16 @@ fn passage(r: &Microfacets<f32>, cos: f64, beyond: f32, here: f32) -> Passage {
     let place = |i: usize| (i as f32 + 0.5) / FACETS as f32;
     for i in 0..FACETS * FACETS {
         let h = r.sample(wo, Vec2::new(place(i / FACETS), place(i % FACETS)));
+        let share = f64::from(r.sample_weight(wo, h));
         let frame = Frame::from_normal(h);
         let boundary = fresnel::dielectric(frame.to_local(wo), beyond, here);
         let f = f64::from(boundary.reflectance);
         let mirrored = h * (2.0 * wo.dot(h)) - wo;
         if mirrored.z > 0.0 {
-            sum.reflected += f * f64::from(r.visible(mirrored, h));
+            sum.reflected += share * f * f64::from(r.visible(mirrored, h));
         }
         let refracted = boundary.refracted.map(|w| frame.to_outer(w)).filter(|w| w.z < 0.0);
-        sum.transmitted += refracted.map_or(0.0, |w| (1.0 - f) * f64::from(r.visible(w, h)));
+        sum.transmitted += refracted.map_or(0.0, |w| share * (1.0 - f) * f64::from(r.visible(w, h)));
     }
     let count = (FACETS * FACETS) as f64;
     Passage { reflected: sum.reflected / count, transmitted: sum.transmitted / count }

@@ -59,6 +59,7 @@ impl Described for Conductor {
         plugin: "conductor",
         rough_plugin: Some("roughconductor"),
         stated: None,
+        is_of_mitsuba_3: true,
     };
 
     fn default(rough: bool) -> Self {

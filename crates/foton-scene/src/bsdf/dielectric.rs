@@ -58,6 +58,7 @@ impl Described for Dielectric {
         plugin: "dielectric",
         rough_plugin: Some("roughdielectric"),
         stated: None,
+        is_of_mitsuba_3: true,
     };
 
     fn default(rough: bool) -> Self {
@@ -154,7 +155,7 @@ impl Dielectric<Rgb, f32> {
         let visible = |wi: Vec3, same_side: bool| match roughness {
             None => 1.0,
             Some(_) if (wi.z * wo.z > 0.0) != same_side => 0.0,
-            Some(r) => r.visible(wi, h * side),
+            Some(r) => r.visible(wi, h * side) * r.sample_weight(wo * side, h * side),
         };
         let spread = match transport {
             Transport::Radiance => boundary.relative_ior * boundary.relative_ior,

@@ -33,6 +33,7 @@ impl Described for Diffuse {
         plugin: "diffuse",
         rough_plugin: None,
         stated: None,
+        is_of_mitsuba_3: true,
     };
 
     fn default(_: bool) -> Self {

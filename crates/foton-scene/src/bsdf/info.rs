@@ -9,12 +9,14 @@ pub struct BsdfInfo {
     pub label: &'static str,
     /// What it is, in a sentence.
     pub help: &'static str,
-    /// The plugin of Mitsuba 3 that means the same, where the surface is smooth.
+    /// The plugin of Mitsuba that means the same, where the surface is smooth.
     pub plugin: &'static str,
     /// The plugin that means the same with microfacets; `None`: there is none.
     pub rough_plugin: Option<&'static str>,
     /// A value that tells it from another model of the same plugin: tag, name and value in files.
     pub stated: Option<[&'static str; 3]>,
+    /// Whether Mitsuba 3 has the plugin; the others are of Mitsuba 0.6.
+    pub is_of_mitsuba_3: bool,
 }
 
 /// What the file of each BSDF declares of it.

@@ -30,11 +30,13 @@ pub enum MicrofacetDistribution {
     Beckmann,
     /// Longer tails; also known as Trowbridge–Reitz.
     Ggx,
+    /// A power of the cosine, 2/α² − 2, which may differ along u and v. `[AS00]`
+    Phong,
 }
 
 impl MicrofacetDistribution {
     /// All of them, in the order of [`DISTRIBUTIONS`].
-    pub const ALL: [Self; 2] = [Self::Beckmann, Self::Ggx];
+    pub const ALL: [Self; 3] = [Self::Beckmann, Self::Ggx, Self::Phong];
 
     /// Its name in files.
     #[must_use]
@@ -48,16 +50,17 @@ impl MicrofacetDistribution {
         match self {
             Self::Beckmann => "Beckmann",
             Self::Ggx => "GGX",
+            Self::Phong => "Phong",
         }
     }
 }
 
 /// The names of distributions in files.
-pub const DISTRIBUTIONS: &[&str] = &["beckmann", "ggx"];
+const DISTRIBUTIONS: &[&str] = &["beckmann", "ggx", "phong"];
 
 const DISTRIBUTION: Parameter = Parameter::choice("distribution", DISTRIBUTIONS)
     .label("Distribution")
-    .help("GGX has longer highlight tails.");
+    .help("GGX has longer highlight tails; Phong is for files of Mitsuba 0.6.");
 
 const ALPHA: Parameter = Parameter::number("alpha", 0.1, (0.0, 1e6))
     .label("Roughness")
@@ -138,12 +141,15 @@ impl Microfacets<f32> {
         if h.z <= 0.0 {
             return 0.0;
         }
+        if self.distribution == MicrofacetDistribution::Phong {
+            return self.phong_density(h);
+        }
         let cos2 = h.z * h.z;
         let (x, y) = (h.x / self.alpha_u, h.y / self.alpha_v);
         let slope2 = (x * x + y * y) / cos2;
         let area = PI * self.alpha_u * self.alpha_v * cos2 * cos2;
         match self.distribution {
-            MicrofacetDistribution::Beckmann => (-slope2).exp() / area,
+            MicrofacetDistribution::Beckmann | MicrofacetDistribution::Phong => (-slope2).exp() / area,
             MicrofacetDistribution::Ggx => 1.0 / (area * (1.0 + slope2) * (1.0 + slope2)),
         }
     }
@@ -157,7 +163,8 @@ impl Microfacets<f32> {
         }
         match self.distribution {
             MicrofacetDistribution::Ggx => 0.5 * ((1.0 + alpha_tan * alpha_tan).sqrt() - 1.0),
-            MicrofacetDistribution::Beckmann => {
+            // Phong's has no closed form and is nearly the same. `[WML07]`
+            MicrofacetDistribution::Beckmann | MicrofacetDistribution::Phong => {
                 let a = f64::from(1.0 / alpha_tan);
                 let tail = (-a * a).exp() / (a * std::f64::consts::PI.sqrt());
                 (0.5 * (tail - libm::erfc(a))) as f32
@@ -170,8 +177,46 @@ impl Microfacets<f32> {
         if v.dot(h) * v.z <= 0.0 { 0.0 } else { 1.0 / (1.0 + self.lambda(v)) }
     }
 
+    /// Phong's density: √((e_u + 2)(e_v + 2))/(2π) cosᵉ with the exponent e between e_u and e_v by the azimuth of `h`.
+    fn phong_density(&self, h: Vec3) -> f32 {
+        let [e_u, e_v] = [self.alpha_u, self.alpha_v].map(phong_exponent);
+        let sin2 = h.x * h.x + h.y * h.y;
+        let exponent = if sin2 > 0.0 { (e_u * h.x * h.x + e_v * h.y * h.y) / sin2 } else { e_u };
+        // cosᵉ by the sine: e may be so large that the rounding of the cosine would count.
+        let log_cos = if sin2 < 0.5 { 0.5 * (-sin2).ln_1p() } else { h.z.ln() };
+        ((e_u + 2.0) * (e_v + 2.0)).sqrt() / (2.0 * PI) * (exponent * log_cos).exp()
+    }
+
+    /// The distribution by which normals are sampled. Those that are visible of Phong's have no closed form: GGX is as high at its peak
+    /// and nowhere much lower.
+    fn sampled(&self) -> Self {
+        match self.distribution {
+            MicrofacetDistribution::Beckmann | MicrofacetDistribution::Ggx => *self,
+            MicrofacetDistribution::Phong => Self {
+                distribution: MicrofacetDistribution::Ggx,
+                alpha_u: self.alpha_u.min(1.0),
+                alpha_v: self.alpha_v.min(1.0),
+            },
+        }
+    }
+
+    /// What a normal counts that [`Microfacets::sample`] chose: how many more `wo` sees of it than are sampled.
+    pub(crate) fn sample_weight(&self, wo: Vec3, h: Vec3) -> f32 {
+        if self.distribution != MicrofacetDistribution::Phong {
+            return 1.0;
+        }
+        let sampled = self.sampled();
+        let there = sampled.visible(wo, h) * sampled.density(h);
+        if there > 0.0 { self.visible(wo, h) * self.density(h) / there } else { 0.0 }
+    }
+
     /// Density of [`Microfacets::sample`] per unit solid angle of h.
     pub(crate) fn pdf(&self, wo: Vec3, h: Vec3) -> f32 {
+        self.sampled().visible_pdf(wo, h)
+    }
+
+    /// Density of the normals that are visible from `wo`.
+    fn visible_pdf(&self, wo: Vec3, h: Vec3) -> f32 {
         self.visible(wo, h) * wo.dot(h).abs() * self.density(h) / wo.z.abs()
     }
 
@@ -181,6 +226,7 @@ impl Microfacets<f32> {
         let slope = match self.distribution {
             MicrofacetDistribution::Ggx => return self.sample_ggx(stretched, u),
             MicrofacetDistribution::Beckmann => visible_beckmann_slope(stretched, u),
+            MicrofacetDistribution::Phong => return self.sampled().sample(wo, u),
         };
         Vec3::new(-self.alpha_u * slope.x, -self.alpha_v * slope.y, 1.0).normalize()
     }
@@ -222,8 +268,16 @@ impl Microfacets<f32> {
         let h = (wo + wi).normalize();
         let (seen, density, along) = (self.visible(wo, h), self.density(h), wo.dot(h));
         let value = fresnel(along) * (density * (seen * self.visible(wi, h)) / (4.0 * wo.z * wi.z));
+        if self.distribution == MicrofacetDistribution::Phong {
+            return (value, self.reflect_pdf(wo, h));
+        }
         (value, seen * along.abs() * density / wo.z / (4.0 * along).max(f32::MIN_POSITIVE))
     }
+}
+
+/// The power of the cosine by which Phong's normals fall off, never below 0.
+fn phong_exponent(alpha: f32) -> f32 {
+    (2.0 / (alpha * alpha) - 2.0).max(0.0)
 }
 
 /// A slope of the facets of roughness 1 as the unit vector `v` sees them.
@@ -282,114 +336,4 @@ fn inverse_erf(y: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use foton_math::{Purpose, Stream};
-
-    fn all() -> Vec<Microfacets<f32>> {
-        use MicrofacetDistribution::{Beckmann, Ggx};
-        let isotropic =
-            [0.05, 0.3, 0.9].into_iter().flat_map(|a| [Beckmann, Ggx].map(|d| Microfacets::isotropic(d, a)));
-        let stretched =
-            [Beckmann, Ggx].map(|distribution| Microfacets { distribution, alpha_u: 0.15, alpha_v: 0.6 });
-        isotropic.chain(stretched).collect()
-    }
-
-    fn views() -> [Vec3; 4] {
-        [Vec3::Z, Vec3::new(0.5, 0.2, 0.8), Vec3::new(-0.9, 0.3, 0.25), Vec3::new(0.1, -1.0, 0.08)]
-            .map(Vec3::normalize)
-    }
-
-    /// ∫ f over normals, in slope space where the densities are smooth.
-    fn integrate(m: &Microfacets<f32>, mut f: impl FnMut(Vec3) -> f64) -> f64 {
-        // x = α tan: the plane mapped from polar coordinates, radius r/(1−r).
-        let (rings, sectors) = (1500, 128);
-        let mut sum = 0.0;
-        for i in 0..rings {
-            let t = (f64::from(i) + 0.5) / f64::from(rings);
-            let radius = 3.0 * t / (1.0 - t);
-            let measure = radius * 3.0 / ((1.0 - t) * (1.0 - t)) / f64::from(rings);
-            for j in 0..sectors {
-                let phi = 2.0 * std::f64::consts::PI * (f64::from(j) + 0.5) / f64::from(sectors);
-                let (x, y) =
-                    (radius * phi.cos() * f64::from(m.alpha_u), radius * phi.sin() * f64::from(m.alpha_v));
-                let h = Vec3::new(-x as f32, -y as f32, 1.0).normalize();
-                // dω = cos³ dx dy.
-                let solid = f64::from(h.z).powi(3) * f64::from(m.alpha_u * m.alpha_v);
-                sum += f(h) * solid * measure * 2.0 * std::f64::consts::PI / f64::from(sectors);
-            }
-        }
-        sum
-    }
-
-    #[test]
-    fn facets_cover_the_surface_once_and_fill_what_each_view_sees() {
-        for m in all() {
-            let cover = integrate(&m, |h| f64::from(m.density(h) * h.z));
-            assert!((cover - 1.0).abs() < 2e-3, "{m:?}: {cover}");
-            for v in views() {
-                let seen = integrate(&m, |h| f64::from(m.visible(v, h) * v.dot(h).max(0.0) * m.density(h)));
-                assert!((seen / f64::from(v.z) - 1.0).abs() < 1e-2, "{m:?} {v}: {seen}");
-            }
-        }
-    }
-
-    #[test]
-    fn sampled_normals_follow_their_density() {
-        // χ² over 8 × 8 bins of slope direction and steepness, expectations by quadrature.
-        let mut stream = Stream::new(21, Purpose::Test, 0, 0);
-        for m in all() {
-            for v in views() {
-                let bin = |h: Vec3| {
-                    let (x, y) = (h.x / h.z / m.alpha_u, h.y / h.z / m.alpha_v);
-                    let steep = ((x.hypot(y) / (1.0 + x.hypot(y))) * 8.0) as usize;
-                    let azimuth = ((y.atan2(x) / (2.0 * PI) + 0.5) * 8.0) as usize;
-                    steep.min(7) * 8 + azimuth.min(7)
-                };
-                let n = 40_000;
-                let mut expected = [0.0f64; 64];
-                integrate(&m, |h| {
-                    let p = f64::from(m.pdf(v, h));
-                    let (x, y) = (h.x / h.z / m.alpha_u, h.y / h.z / m.alpha_v);
-                    let radius = f64::from(x.hypot(y));
-                    let t = radius / (3.0 + radius);
-                    let solid = f64::from(h.z).powi(3) * f64::from(m.alpha_u * m.alpha_v);
-                    let measure = radius * 3.0 / ((1.0 - t) * (1.0 - t)) / 1500.0;
-                    expected[bin(h)] +=
-                        p * solid * measure * 2.0 * std::f64::consts::PI / 128.0 * f64::from(n);
-                    0.0
-                });
-                let mut count = [0.0f64; 64];
-                for _ in 0..n {
-                    count[bin(m.sample(v, stream.next_2d()))] += 1.0;
-                }
-                let (mut chi2, mut dof, mut rest) = (0.0, -1.0, (0.0, 0.0));
-                for (c, e) in count.iter().zip(expected) {
-                    if e < 10.0 {
-                        rest = (rest.0 + c, rest.1 + e);
-                    } else {
-                        chi2 += (c - e).powi(2) / e;
-                        dof += 1.0;
-                    }
-                }
-                if rest.1 > 10.0 {
-                    chi2 += (rest.0 - rest.1).powi(2) / rest.1;
-                    dof += 1.0;
-                }
-                // Wilson–Hilferty at p = 2·10⁻⁴ (Šidák for 32 tests at 0.01 is 3·10⁻⁴).
-                let k: f64 = 2.0 / (9.0 * dof);
-                let bound = dof * (1.0 - k + 3.55 * k.sqrt()).powi(3);
-                assert!(chi2 < bound, "{m:?} {v}: χ² {chi2}, bound {bound} ({dof} dof)");
-            }
-        }
-    }
-
-    #[test]
-    fn the_inverse_error_function_inverts() {
-        let mut stream = Stream::new(3, Purpose::Test, 0, 0);
-        for _ in 0..1000 {
-            let y = f64::from(2.0 * stream.next_1d() - 1.0) * 0.999_999;
-            assert!((libm::erf(inverse_erf(y)) - y).abs() < 1e-12, "{y}");
-        }
-    }
-}
+mod tests;

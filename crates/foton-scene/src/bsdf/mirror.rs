@@ -30,6 +30,7 @@ impl Described for Mirror {
         plugin: "conductor",
         rough_plugin: None,
         stated: Some(["string", "material", "none"]),
+        is_of_mitsuba_3: true,
     };
 
     fn default(_: bool) -> Self {

@@ -8,19 +8,24 @@ mod coat;
 mod conductor;
 mod dielectric;
 mod diffuse;
+mod diffuse_transmitter;
 mod flags;
 mod fresnel;
 mod info;
 mod lobe_sample;
 mod microfacet;
 mod mirror;
+mod mixed;
 mod model;
 mod null;
+mod phong;
 mod plastic;
 mod principled;
 mod reflect;
+mod rough_diffuse;
 mod scattering;
 mod thin_dielectric;
+mod ward;
 
 use crate::description::{Amount, Colour, Number};
 use crate::parameter::Binding;
@@ -29,19 +34,23 @@ pub(crate) use coat::Coats;
 pub use conductor::Conductor;
 pub use dielectric::Dielectric;
 pub use diffuse::Diffuse;
+pub use diffuse_transmitter::DiffuseTransmitter;
 pub use flags::LobeFlags;
 use foton_math::Rgb;
 pub use info::BsdfInfo;
 use info::Described;
 pub use lobe_sample::{BsdfSample, LobeSample, LobeSamples, Transport};
-pub use microfacet::{DISTRIBUTIONS, ISOTROPIC_ROUGHNESS, MicrofacetDistribution, Microfacets, ROUGHNESS};
+pub use microfacet::{ISOTROPIC_ROUGHNESS, MicrofacetDistribution, Microfacets, ROUGHNESS};
 pub use mirror::Mirror;
 
 pub use null::Null;
+pub use phong::Phong;
 pub use plastic::Plastic;
 pub use principled::{Principled, PrincipledThin, index_of_specular};
+pub use rough_diffuse::RoughDiffuse;
 pub use scattering::Scattering;
 pub use thin_dielectric::ThinDielectric;
+pub use ward::Ward;
 
 /// A bidirectional scattering distribution function, over colours `C` and numbers `N`: [`Colour`] and [`Number`] in a description,
 /// [`Rgb`] and [`f32`] at a point.
@@ -63,6 +72,14 @@ pub enum Bsdf<C = Colour, N = Number> {
     Principled(Principled<C, N>),
     /// The same of a thin sheet.
     PrincipledThin(PrincipledThin<C, N>),
+    /// Lambertian facets that shadow, hide and light each other.
+    RoughDiffuse(RoughDiffuse<C, N>),
+    /// A diffuse base and a lobe around the mirror direction.
+    Phong(Phong<C, N>),
+    /// A diffuse base and a highlight of Gaussian slopes.
+    Ward(Ward<C, N>),
+    /// Lambertian transmission.
+    DiffuseTransmitter(DiffuseTransmitter<C>),
     /// Nothing: light passes as if there were no surface.
     Null(Null),
 }
@@ -80,6 +97,10 @@ macro_rules! each {
             Bsdf::Mirror($model) => $result,
             Bsdf::Conductor($model) => $result,
             Bsdf::Plastic($plastic) => $of_plastic,
+            Bsdf::RoughDiffuse($model) => $result,
+            Bsdf::Phong($model) => $result,
+            Bsdf::Ward($model) => $result,
+            Bsdf::DiffuseTransmitter($model) => $result,
             Bsdf::Principled($model) => $result,
             Bsdf::PrincipledThin($model) => $result,
             Bsdf::Null($model) => $result,
@@ -91,7 +112,7 @@ use each;
 impl Bsdf {
     /// Every model as a file means it that gives no parameters; smooth, or where it can be, rough. In the order of the window.
     #[must_use]
-    pub fn defaults(rough: bool) -> [Self; 9] {
+    pub fn defaults(rough: bool) -> [Self; 13] {
         [
             Self::Diffuse(Described::default(rough)),
             Self::Dielectric(Described::default(rough)),
@@ -101,11 +122,15 @@ impl Bsdf {
             Self::Plastic(Described::default(rough)),
             Self::Principled(Described::default(rough)),
             Self::PrincipledThin(Described::default(rough)),
+            Self::RoughDiffuse(Described::default(rough)),
+            Self::Phong(Described::default(rough)),
+            Self::Ward(Described::default(rough)),
+            Self::DiffuseTransmitter(Described::default(rough)),
             Self::Null(Described::default(rough)),
         ]
     }
 
-    /// What a plugin of Mitsuba 3 means where it gives no parameters; `None`: no model is read from it.
+    /// What a plugin of Mitsuba means where it gives no parameters; `None`: no model is read from it.
     #[must_use]
     pub fn of_plugin(plugin: &str) -> Option<Self> {
         let models = Self::defaults(false).into_iter().chain(Self::defaults(true));
@@ -127,6 +152,10 @@ impl Bsdf {
             Self::Mirror(m) => Self::Mirror(of(m)),
             Self::Conductor(m) => Self::Conductor(of(m)),
             Self::Plastic(m) => Self::Plastic(of(m)),
+            Self::RoughDiffuse(m) => Self::RoughDiffuse(of(m)),
+            Self::Phong(m) => Self::Phong(of(m)),
+            Self::Ward(m) => Self::Ward(of(m)),
+            Self::DiffuseTransmitter(m) => Self::DiffuseTransmitter(of(m)),
             Self::Principled(m) => Self::Principled(of(m)),
             Self::PrincipledThin(m) => Self::PrincipledThin(of(m)),
             Self::Null(m) => Self::Null(of(m)),
@@ -143,11 +172,18 @@ impl Bsdf {
         each!(self, model => of(model))
     }
 
-    /// The plugin of Mitsuba 3 that means the same.
+    /// The plugin of Mitsuba that means the same.
     #[must_use]
     pub fn plugin(&self) -> &'static str {
         let info = self.info();
         info.rough_plugin.filter(|_| self.roughness().is_some()).unwrap_or(info.plugin)
+    }
+
+    /// Whether Mitsuba 3 has its plugin and its microfacets; others are of Mitsuba 0.6.
+    #[must_use]
+    pub fn is_of_mitsuba_3(&self) -> bool {
+        let is_phong = |r: Microfacets| r.distribution == MicrofacetDistribution::Phong;
+        self.info().is_of_mitsuba_3 && !self.roughness().is_some_and(is_phong)
     }
 
     /// Its parameters, in the order of files and of the inspector, with the places of their values.
@@ -170,6 +206,12 @@ impl<C: Copy, N: Amount> Bsdf<C, N> {
         self.flags().intersects(LobeFlags::TRANSMISSION)
     }
 
+    /// Whether light passes by a lobe that is narrower than a diffuse one.
+    #[must_use]
+    pub fn refracts(&self) -> bool {
+        self.transmits() && self.flags().intersects(LobeFlags::DELTA.or(LobeFlags::GLOSSY))
+    }
+
     /// Whether it describes both sides of the surface by itself: light passes through, or it is a sheet that is the same from both.
     #[must_use]
     pub fn has_two_sides(&self) -> bool {
@@ -183,6 +225,7 @@ impl<C: Copy, N: Amount> Bsdf<C, N> {
         N: PartialEq,
     {
         match self {
+            Self::Ward(Ward { alpha_u, alpha_v, .. }) => alpha_u != alpha_v,
             Self::Principled(Principled { anisotropic, .. })
             | Self::PrincipledThin(PrincipledThin { anisotropic, .. }) => anisotropic.most() > 0.0,
             _ => self.roughness().is_some_and(|r| r.alpha_u != r.alpha_v),
@@ -215,6 +258,10 @@ impl<C: Copy, N: Amount> Bsdf<C, N> {
             Self::Mirror(model) => Bsdf::Mirror(model.map(colours)),
             Self::Conductor(model) => Bsdf::Conductor(model.map(colours, numbers)),
             Self::Plastic(model) => Bsdf::Plastic(model.map(colours, numbers)),
+            Self::RoughDiffuse(model) => Bsdf::RoughDiffuse(model.map(colours, numbers)),
+            Self::Phong(model) => Bsdf::Phong(model.map(colours, numbers)),
+            Self::Ward(model) => Bsdf::Ward(model.map(colours, numbers)),
+            Self::DiffuseTransmitter(model) => Bsdf::DiffuseTransmitter(model.map(colours)),
             Self::Principled(model) => Bsdf::Principled(model.map(colours, numbers)),
             Self::PrincipledThin(model) => Bsdf::PrincipledThin(model.map(colours, numbers)),
             Self::Null(model) => Bsdf::Null(*model),

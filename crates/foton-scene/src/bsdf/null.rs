@@ -20,6 +20,7 @@ impl Described for Null {
         plugin: "null",
         rough_plugin: None,
         stated: None,
+        is_of_mitsuba_3: true,
     };
 
     fn default(_: bool) -> Self {

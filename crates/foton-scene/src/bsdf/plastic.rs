@@ -58,6 +58,7 @@ impl Described for Plastic {
         plugin: "plastic",
         rough_plugin: Some("roughplastic"),
         stated: None,
+        is_of_mitsuba_3: true,
     };
 
     fn default(rough: bool) -> Self {

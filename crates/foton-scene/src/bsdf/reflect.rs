@@ -46,7 +46,7 @@ pub(super) fn reflect_by_facet(
     let wi = h * (2.0 * up.dot(h)) - up;
     (wi.z > 0.0).then(|| LobeSample {
         wi: wi * side,
-        weight: fresnel(up.dot(h)) * r.visible(wi, h),
+        weight: fresnel(up.dot(h)) * (r.visible(wi, h) * r.sample_weight(up, h)),
         probability: 1.0,
     })
 }

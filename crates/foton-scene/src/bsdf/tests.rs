@@ -1,10 +1,13 @@
 //! Every BSDF against the same laws: sampling follows its density, weights are value × cosine / density, energy is not made,
 //! light paths can be reversed.
 
-use super::MicrofacetDistribution::{Beckmann, Ggx};
+use super::MicrofacetDistribution::{self as Distribution, Beckmann, Ggx};
 use super::*;
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Purpose, Rgb, Stream, warp};
+
+mod published;
+mod sampling;
 
 const ALL: LobeFlags = LobeFlags::ALL;
 const TOGETHER: LobeFlags = LobeFlags::NONE;
@@ -46,6 +49,20 @@ fn plastic(nonlinear: bool, roughness: Option<Microfacets<f32>>) -> Bsdf<Rgb, f3
     })
 }
 
+fn rough_diffuse(alpha: f32, use_fast_approx: bool) -> Bsdf<Rgb, f32> {
+    Bsdf::RoughDiffuse(RoughDiffuse { reflectance: Rgb::new(0.2, 0.5, 0.8), alpha, use_fast_approx })
+}
+
+fn phong(exponent: f32) -> Bsdf<Rgb, f32> {
+    let (specular_reflectance, diffuse_reflectance) = (Rgb::splat(0.4), Rgb::new(0.2, 0.5, 0.6));
+    Bsdf::Phong(Phong { exponent, specular_reflectance, diffuse_reflectance })
+}
+
+fn ward(variant: usize, alpha_u: f32, alpha_v: f32) -> Bsdf<Rgb, f32> {
+    let (specular_reflectance, diffuse_reflectance) = (Rgb::splat(0.3), Rgb::new(0.2, 0.5, 0.6));
+    Bsdf::Ward(Ward { variant, alpha_u, alpha_v, specular_reflectance, diffuse_reflectance })
+}
+
 fn all() -> Vec<Scattering> {
     let stretched = Some(Microfacets { distribution: Ggx, alpha_u: 0.1, alpha_v: 0.4 });
     let mut all: Vec<Scattering> = [
@@ -69,6 +86,18 @@ fn all() -> Vec<Scattering> {
         plastic(false, None),
         plastic(true, rough(Ggx, 0.05)),
         plastic(true, rough(Beckmann, 0.3)),
+        glass(rough(Distribution::Phong, 0.3)),
+        gold(rough(Distribution::Phong, 0.25)),
+        gold(Some(Microfacets { distribution: Distribution::Phong, alpha_u: 0.1, alpha_v: 0.4 })),
+        plastic(false, rough(Distribution::Phong, 0.3)),
+        rough_diffuse(0.3, false),
+        rough_diffuse(0.9, true),
+        phong(12.0),
+        phong(400.0),
+        ward(0, 0.3, 0.3),
+        ward(1, 0.15, 0.4),
+        ward(2, 0.3, 0.2),
+        Bsdf::DiffuseTransmitter(DiffuseTransmitter { transmittance: Rgb::new(0.2, 0.5, 0.8) }),
     ]
     .map(at)
     .to_vec();
@@ -128,7 +157,7 @@ fn sampling_brings_the_light_that_the_value_says() {
     let mut stream = Stream::new(32, Purpose::Test, 0, 0);
     for s in all() {
         // Narrow lobes would need far more points on the sphere.
-        if s.bsdf.roughness().is_some_and(|r| r.alpha_u < 0.2) {
+        if s.bsdf.gloss().is_some_and(|alpha| alpha < 0.2) {
             continue;
         }
         for wo in views().into_iter().filter(|&w| is_lit(&s, w)) {
@@ -142,7 +171,7 @@ fn sampling_brings_the_light_that_the_value_says() {
                 (a, a2, b, b2) = (a + x, a2 + x * x, b + y, b2 + y * y);
             }
             let count = f64::from(n);
-            if s.bsdf.roughness().is_none() {
+            if !s.bsdf.flags().intersects(LobeFlags::GLOSSY) {
                 let lobes = s.lobes(wo, Transport::Radiance, Vec2::splat(0.5), ALL);
                 b += lobes.iter().flatten().map(|l| f64::from(l.weight.g * g(l.wi))).sum::<f64>() * count;
             }
@@ -155,7 +184,7 @@ fn sampling_brings_the_light_that_the_value_says() {
 #[test]
 fn densities_integrate_to_the_chance_of_scattering() {
     let mut stream = Stream::new(33, Purpose::Test, 0, 0);
-    for s in all().into_iter().filter(|s| s.bsdf.roughness().is_some_and(|r| r.alpha_u > 0.2)) {
+    for s in all().into_iter().filter(|s| s.bsdf.gloss().is_some_and(|alpha| alpha > 0.2)) {
         for wo in views().into_iter().filter(|&w| is_lit(&s, w)) {
             let n = 400_000;
             let (mut p, mut p2) = (0.0, 0.0);

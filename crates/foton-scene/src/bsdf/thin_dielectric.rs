@@ -33,6 +33,7 @@ impl Described for ThinDielectric {
         plugin: "thindielectric",
         rough_plugin: None,
         stated: None,
+        is_of_mitsuba_3: true,
     };
 
     fn default(_: bool) -> Self {

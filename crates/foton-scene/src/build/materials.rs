@@ -71,7 +71,7 @@ impl Material {
     pub(super) fn casts(&self, textures: &[Arc<Sampler>]) -> bool {
         self.bsdfs().any(|bsdf| {
             bsdf.flags().intersects(LobeFlags::DELTA)
-                || bsdf.transmits()
+                || bsdf.refracts()
                 || gloss(bsdf, textures).is_some_and(|[least, _]| least <= MAX_CASTER_ROUGHNESS)
         })
     }
@@ -119,7 +119,7 @@ impl Census {
             }
             self.reliefs |= material.relief.is_some();
             self.mixtures |= !material.mixture.is_empty();
-            self.refraction |= bsdf.transmits();
+            self.refraction |= bsdf.refracts();
             self.straight |= masked || flags.intersects(LobeFlags::STRAIGHT);
             self.rough_coats |= matches!(bsdf, Bsdf::Plastic(plastic) if plastic.roughness.is_some());
         }

@@ -2,7 +2,7 @@
 
 use foton_math::Rgb;
 
-use super::declaration::Parameter;
+use super::declaration::{Kind, Parameter};
 use crate::bsdf::Microfacets;
 use crate::description::{Colour, Number};
 
@@ -28,6 +28,8 @@ pub enum Slot<'a> {
     Reflectivity(&'a mut f32),
     /// True or false.
     Boolean(&'a mut bool),
+    /// One of some words, by its place among them.
+    Choice(&'a mut usize),
     /// A metal's complex index of refraction: `eta` and `k`, or its name.
     Metal {
         /// The real part.
@@ -57,6 +59,7 @@ impl<'a> Binding<'a> {
             Slot::Share(Colour::Constant(c)) => is_within(c),
             Slot::Share(Colour::Texture(_)) | Slot::Boolean(_) | Slot::Number(Number::Texture(_)) => true,
             Slot::Number(Number::Constant(x)) => range.holds(f64::from(*x)),
+            Slot::Choice(i) => matches!(range.kind, Kind::Choice(words) if **i < words.len()),
             Slot::Refraction(x) | Slot::Reflectivity(x) => positive(**x),
             Slot::Metal { eta, k } => is_within(eta) && is_within(k),
             Slot::Roughness(r) => r.is_none_or(|r| {

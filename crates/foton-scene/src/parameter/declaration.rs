@@ -243,6 +243,12 @@ impl Parameter {
         Colour::Constant(Rgb::splat(self.default_number()))
     }
 
+    /// Its range in single precision.
+    #[allow(clippy::cast_possible_truncation, reason = "optics is single precision")]
+    pub(crate) const fn limits(&self) -> [f32; 2] {
+        [self.range.0 as f32, self.range.1 as f32]
+    }
+
     /// Whether a number lies within its range; NaN does not.
     #[must_use]
     pub fn holds(&self, value: f64) -> bool {

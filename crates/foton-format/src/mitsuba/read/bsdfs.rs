@@ -2,9 +2,9 @@
 
 use foton_input::quoted;
 use foton_math::Rgb;
-use foton_scene::bsdf::{DISTRIBUTIONS, MicrofacetDistribution, Microfacets, index_of_specular};
+use foton_scene::bsdf::{MicrofacetDistribution, Microfacets, index_of_specular};
 use foton_scene::description::{Bsdf, Conductor, Mirror, Number};
-use foton_scene::parameter::{Binding, Parameter, Slot};
+use foton_scene::parameter::{Binding, Kind, Parameter, Slot};
 use foton_scene::plugins::stand_ins;
 
 use crate::image::Purpose;
@@ -13,6 +13,9 @@ use crate::mitsuba::read::metals;
 use crate::mitsuba::read::properties::{Located, Properties};
 use crate::mitsuba::read::reader::Reader;
 use crate::spelling::did_you_mean;
+
+/// The name of the parameter that says which microfacets a surface has.
+const DISTRIBUTION: &str = "distribution";
 
 /// Mitsuba takes smaller values of alpha for this.
 const MIN_ALPHA: f32 = 1e-4;
@@ -57,6 +60,7 @@ impl Reader<'_> {
             Slot::Boolean(flag) => {
                 *flag = p.boolean(parameters[0].name, &mut self.report).is_some_and(|found| found.value);
             }
+            Slot::Choice(i) => *i = self.choice(p, &parameters[0])?,
             Slot::Metal { eta, k } => (*eta, *k) = self.metal(p, parameters)?,
             Slot::Roughness(Some(roughness)) => *roughness = self.roughness(p, parameters)?,
             Slot::Roughness(None) => {}
@@ -146,7 +150,7 @@ impl Reader<'_> {
     /// `distribution` and `alpha`, or `alpha_u` and `alpha_v` where they are declared.
     fn roughness(&mut self, p: &mut Properties<'_>, parameters: &'static [Parameter]) -> Option<Microfacets> {
         let declared = |name: &str| parameters.iter().find(|p| p.name == name);
-        let distribution = declared("distribution").and_then(|parameter| self.distribution(p, parameter));
+        let distribution = declared(DISTRIBUTION).and_then(|parameter| self.distribution(p, parameter));
         let mut alphas = (Some(Microfacets::DEFAULT.alpha_u), Some(Microfacets::DEFAULT.alpha_v));
         if let Some(alpha) = declared("alpha") {
             let alpha = self.alpha(p, alpha);
@@ -170,14 +174,22 @@ impl Reader<'_> {
         p: &mut Properties<'_>,
         parameter: &Parameter,
     ) -> Option<MicrofacetDistribution> {
-        let Some(Located { value, place }) = p.string(parameter.name, &mut self.report) else {
-            return Some(Microfacets::DEFAULT.distribution);
-        };
-        let known = MicrofacetDistribution::ALL.into_iter().find(|d| d.name() == value);
+        self.choice(p, parameter).map(|i| MicrofacetDistribution::ALL[i])
+    }
+
+    /// One of some words, by its place among them; the first where nothing is said.
+    fn choice(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> Option<usize> {
+        let Kind::Choice(words) = parameter.kind else { return None };
+        let name = parameter.name;
+        let Some(Located { value, place }) = p.string(name, &mut self.report) else { return Some(0) };
+        // Files before version 0.6 call the distribution of Ashikhmin and Shirley by their initials.
+        let value = if name == DISTRIBUTION && value == "as" { "phong".to_owned() } else { value };
+        let known = words.iter().position(|word| *word == value);
         if known.is_none() {
-            let hint = did_you_mean(&value, DISTRIBUTIONS.iter().copied());
-            let hint = if hint.is_empty() { ", only \"beckmann\" and \"ggx\"".to_owned() } else { hint };
-            self.report.error(place, format!("no distribution {} is known{hint}", quoted(&value)));
+            let hint = did_you_mean(&value, words.iter().copied());
+            let all = words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");
+            let hint = if hint.is_empty() { format!(", only {all}") } else { hint };
+            self.report.error(place, format!("no {name} {} is known{hint}", quoted(&value)));
         }
         known
     }

@@ -7,7 +7,7 @@ use foton_scene::bsdf::Microfacets;
 use foton_scene::description::{
     Blend, Bsdf, Colour, Material, Number, Relief, ReliefKind, Texture, TextureKind, Wrap,
 };
-use foton_scene::parameter::{Binding, Slot};
+use foton_scene::parameter::{Binding, Kind, Slot};
 use foton_scene::plugins::{textures, wrappers};
 
 use super::Writer;
@@ -218,6 +218,10 @@ pub(crate) fn stated(binding: &Binding<'_>) -> Vec<Stated> {
         Slot::Share(Colour::Constant(c)) => vec![of("rgb", name, colour(*c))],
         Slot::Share(Colour::Texture(_)) | Slot::Roughness(None) => Vec::new(),
         Slot::Number(x) => number(name, **x).into_iter().collect(),
+        Slot::Choice(i) => match binding.parameters[0].kind {
+            Kind::Choice(words) => vec![of("string", name, words[**i].to_owned())],
+            _ => Vec::new(),
+        },
         Slot::Refraction(ior) | Slot::Reflectivity(ior) => vec![of("float", name, single(**ior))],
         Slot::Boolean(flag) => vec![of("boolean", name, flag.to_string())],
         Slot::Metal { eta, k } => vec![of("rgb", "eta", colour(**eta)), of("rgb", "k", colour(**k))],

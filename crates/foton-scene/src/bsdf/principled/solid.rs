@@ -77,6 +77,7 @@ impl Described for Principled {
         plugin: "principled",
         rough_plugin: None,
         stated: None,
+        is_of_mitsuba_3: true,
     };
 
     fn default(_: bool) -> Self {

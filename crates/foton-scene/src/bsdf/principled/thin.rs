@@ -73,6 +73,7 @@ impl Described for PrincipledThin {
         plugin: "principledthin",
         rough_plugin: None,
         stated: None,
+        is_of_mitsuba_3: true,
     };
 
     fn default(_: bool) -> Self {
