@@ -16,9 +16,10 @@ use hw_skymodel::rgb::{Channel, SkyParams, SkyState};
 pub(crate) use place::PlaceAndTime;
 use sun_table::{ELEVATIONS, RADIANCES};
 
-/// Pixels of a map's height where there is a sun, which is then 3 pixels across, and where there is none. The width is twice that, plus
-/// what makes rows from pole to pole as high as columns are wide.
-const HEIGHTS: [u32; 2] = [1025, 257];
+/// Rows of a map, from pole to pole, and pixels of each, which are as wide as rows are high: 0.18°. The sun is then 3 pixels across, and the
+/// sky, which brightens steeply towards the horizon, is that of the model to a row above it.
+const HEIGHT: u32 = 1025;
+const WIDTH: u32 = 2 * (HEIGHT - 1);
 
 /// What turns the model's numbers into the radiance of Mitsuba 3's `sunsky`.
 const RADIANCE_OF_MODEL: f64 = 1.0 / 106.75;
@@ -49,20 +50,18 @@ impl Sky {
     #[allow(clippy::cast_possible_truncation, reason = "radiance is single precision")]
     pub(crate) fn bitmap(&self) -> Bitmap {
         let [of_sky, of_sun] = self.scales;
-        let height = HEIGHTS[usize::from(of_sun == 0.0)];
-        let width = 2 * (height - 1);
         let model = self.model().filter(|_| of_sky > 0.0);
-        let mut pixels = Vec::with_capacity((width * height) as usize);
-        for y in 0..height {
-            for x in 0..width {
-                let direction = direction(f64::from(x), f64::from(y), height);
+        let mut pixels = Vec::with_capacity((WIDTH * HEIGHT) as usize);
+        for y in 0..HEIGHT {
+            for x in 0..WIDTH {
+                let direction = direction(f64::from(x), f64::from(y));
                 let sky = model.as_ref().map_or([0.0; 3], |model| self.radiance(model, direction));
                 pixels.push(Rgb::from_array(sky.map(|c| (c * of_sky) as f32)));
             }
         }
-        let mut bitmap = Bitmap::new(width, height, pixels);
+        let mut bitmap = Bitmap::new(WIDTH, HEIGHT, pixels);
         if of_sun > 0.0 {
-            self.add_sun(&mut bitmap.pixels, height, of_sun);
+            self.add_sun(&mut bitmap.pixels, of_sun);
         }
         bitmap
     }
@@ -87,32 +86,31 @@ impl Sky {
 
     /// Adds the sun to the pixels that it covers, such that the map has all of its power.
     #[allow(clippy::cast_possible_truncation, reason = "radiance is single precision")]
-    fn add_sun(&self, pixels: &mut [Rgb], height: u32, scale: f64) {
+    fn add_sun(&self, pixels: &mut [Rgb], scale: f64) {
         let radius = (0.5 * self.aperture).to_radians();
         let cosine = radius.cos();
-        let width = 2 * (height - 1);
-        let pixel = PI / f64::from(height - 1);
+        let pixel = PI / f64::from(HEIGHT - 1);
         let zenith = self.sun.y.clamp(-1.0, 1.0).acos();
         let (first, last) = ((zenith - radius) / pixel - 1.0, (zenith + radius) / pixel + 1.0);
-        let rows = first.max(0.0) as u32..(last.min(f64::from(height - 1)) as u32 + 1);
+        let rows = first.max(0.0) as u32..(last.min(f64::from(HEIGHT - 1)) as u32 + 1);
         let mut covered = Vec::new();
         let mut power = 0.0;
         for y in rows {
             // What a pixel stands for: interpolation gives it all of the band above and below.
             let solid_angle = pixel * pixel * (f64::from(y) * pixel).sin().max(0.25 * pixel);
-            for x in 0..width {
-                let towards = direction(f64::from(x), f64::from(y), height);
+            for x in 0..WIDTH {
+                let towards = direction(f64::from(x), f64::from(y));
                 if towards.dot(self.sun) < (radius + 2.0 * pixel).cos() {
                     continue;
                 }
                 let part = |i: i32| (f64::from(i) + 0.5) / f64::from(PARTS) - 0.5;
                 let inside = (0..PARTS * PARTS).filter(|i| {
                     let (dx, dy) = (part(i % PARTS), part(i / PARTS));
-                    direction(f64::from(x) + dx, f64::from(y) + dy, height).dot(self.sun) > cosine
+                    direction(f64::from(x) + dx, f64::from(y) + dy).dot(self.sun) > cosine
                 });
                 let share = inside.count() as f64 / f64::from(PARTS * PARTS);
                 power += share * solid_angle;
-                covered.push(((y * width + x) as usize, share));
+                covered.push(((y * WIDTH + x) as usize, share));
             }
         }
         let wanted = TAU * (1.0 - (0.5 * APERTURE).to_radians().cos());
@@ -148,8 +146,8 @@ fn air_mass(elevation: f64) -> f64 {
 }
 
 /// The direction of a place on a map, in pixels.
-fn direction(x: f64, y: f64, height: u32) -> DVec3 {
-    let bands = f64::from(height - 1);
+fn direction(x: f64, y: f64) -> DVec3 {
+    let bands = f64::from(HEIGHT - 1);
     let (theta, phi) = (PI * y / bands, PI * (x + 0.5) / bands);
     DVec3::new(phi.sin() * theta.sin(), theta.cos(), -phi.cos() * theta.sin())
 }

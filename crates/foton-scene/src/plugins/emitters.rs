@@ -169,8 +169,7 @@ pub const PLACE_AND_TIME: [Parameter; 9] = [
 ];
 
 const COMPLEX_SUN: Parameter = Parameter::ignored("complex_sun", "The sun is an even disc.");
-const RESOLUTION: Parameter =
-    Parameter::ignored("resolution", "The map has 2048 × 1025 pixels with a sun and 512 × 257 without.");
+const RESOLUTION: Parameter = Parameter::ignored("resolution", "The map has 2048 × 1025 pixels.");
 const EXTEND: Parameter = Parameter::ignored("extend", "Below the horizon it is black.");
 const STRETCH: Parameter = Parameter::unsupported("stretch");
 
