@@ -115,19 +115,23 @@ fn bsdfs() -> Vec<Bsdf> {
         glass(roughness(MicrofacetDistribution::Phong, 0.1, 0.2)),
         Bsdf::Null(Null),
         principled(),
-        Bsdf::PrincipledThin(PrincipledThin {
-            base_color: colour(0.1, 0.2, 0.3),
-            roughness: 0.11.into(),
-            anisotropic: 0.12.into(),
-            spec_trans: 0.13.into(),
-            diff_trans: 1.14.into(),
-            eta: Number::Texture(1),
-            spec_tint: 0.15.into(),
-            sheen: 0.16.into(),
-            sheen_tint: 0.17.into(),
-            flatness: 0.18.into(),
-        }),
+        sheet(),
     ]
+}
+
+fn sheet() -> Bsdf {
+    Bsdf::PrincipledThin(PrincipledThin {
+        base_color: colour(0.1, 0.2, 0.3),
+        roughness: 0.11.into(),
+        anisotropic: 0.12.into(),
+        spec_trans: 0.13.into(),
+        diff_trans: 1.14.into(),
+        eta: Number::Texture(1),
+        spec_tint: 0.15.into(),
+        sheen: 0.16.into(),
+        sheen_tint: 0.17.into(),
+        flatness: 0.18.into(),
+    })
 }
 
 fn principled() -> Bsdf {
