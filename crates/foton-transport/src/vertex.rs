@@ -43,7 +43,7 @@ impl<'a> Vertex<'a> {
     pub fn new(scene: &Scene, surface: &'a Surface, wo: Vec3, policy: &LobePolicy) -> Option<Self> {
         let scattering = scene.scattering(surface, wo.dot(surface.normal) > 0.0)?;
         let (frame, local) = shading_view(scene, surface, wo);
-        let split = policy.split(&scattering.bsdf);
+        let split = policy.split(&scattering);
         Some(Self { surface, scattering, split, frame, wo, local })
     }
 

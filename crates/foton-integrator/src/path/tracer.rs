@@ -72,7 +72,7 @@ impl PathTracer {
         if path.edges >= self.max_depth {
             return None;
         }
-        if vertex.scattering.bsdf.flags().spreads() {
+        if vertex.scattering.flags().spreads() {
             self.look_for_emitters(scene, &path, &vertex, numbers, seen);
         }
         self.go_on(path, &vertex, numbers, seen)

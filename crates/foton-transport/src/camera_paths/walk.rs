@@ -148,8 +148,8 @@ impl<'a, 'b> Walk<'a, 'b> {
     fn meet(&mut self, branch: &Branch, surface: &Surface, outward: bool) {
         let Some(scattering) = self.pass.scene.scattering(surface, outward) else { return };
         let distance = branch.distance + (surface.position - branch.ray.origin).length();
-        let split = self.pass.policy.split(&scattering.bsdf);
-        for behind in split.sides(scattering.bsdf.flags()) {
+        let split = self.pass.policy.split(&scattering);
+        for behind in split.sides(scattering.flags()) {
             let part = Part { lobes: split.gathered, specular: false, behind };
             self.store(branch, surface, &scattering, distance, part);
         }
@@ -273,7 +273,7 @@ impl<'a, 'b> Walk<'a, 'b> {
         let Some(weight) = self.roulette(branch) else { return };
         let wo = -branch.ray.direction;
         let (frame, local) = shading_view(self.pass.scene, surface, wo);
-        let facet = match scattering.bsdf.gloss() {
+        let facet = match scattering.gloss() {
             Some(_) => Some(self.facet.take().unwrap_or_else(|| self.stream.next_2d())),
             None => None,
         };
