@@ -1,6 +1,7 @@
 //! The inspector's fields: what they show, and what setting them does.
 
 use super::*;
+use foton_scene::description::Coating;
 
 use foton_scene::description::{Colour, Conductor, Microfacets, Number, Principled};
 
