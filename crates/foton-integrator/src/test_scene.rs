@@ -56,7 +56,7 @@ pub(crate) fn description() -> SceneDescription {
             shape(Geometry::Mesh(Arc::new(Mesh::cube())), 0),
             shape(ball(-0.45), 0),
             shape(ball(0.45), 1),
-            ShapeDescription { radiance: Some(Rgb::splat(9.0)), ..shape(lamp, 0) },
+            ShapeDescription { radiance: Some(Rgb::splat(9.0).into()), ..shape(lamp, 0) },
         ],
         emitters: vec![EmitterDescription {
             name: "lamp".into(),

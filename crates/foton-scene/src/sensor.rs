@@ -192,6 +192,14 @@ impl Sensor {
         self.origin
     }
 
+    /// How the unit direction of a ray changes from one pixel to the next, along the image's width and along its height.
+    #[must_use]
+    pub fn change_of_direction(&self, direction: Vec3) -> [Vec3; 2] {
+        let depth = direction.dot(self.forward);
+        let steps = [self.right * (2.0 / self.film.x), self.up * (-2.0 / self.film.y)];
+        steps.map(|step| (step - direction * direction.dot(step)) * depth)
+    }
+
     /// Area of a pixel per square distance, perpendicular to a ray of unit `direction` (steradians).
     #[must_use]
     pub fn pixel_solid_angle(&self, direction: Vec3) -> f32 {
@@ -263,6 +271,18 @@ mod tests {
         let pinhole = Sensor::new(&closed, &Normalisation::IDENTITY);
         assert_eq!(pinhole.lens(), None);
         assert_eq!(pinhole.eye_ray(Vec2::ONE, Vec2::ZERO).origin, pinhole.ray(Vec2::ONE).origin);
+    }
+
+    #[test]
+    fn directions_change_as_rays_of_neighbouring_pixels_do() {
+        let s = sensor(FovAxis::X);
+        for film in [Vec2::new(100.0, 50.0), Vec2::new(12.0, 90.0)] {
+            let ray = s.ray(film);
+            for (change, step) in s.change_of_direction(ray.direction).into_iter().zip([Vec2::X, Vec2::Y]) {
+                let between = s.ray(film + 0.5 * step).direction - s.ray(film - 0.5 * step).direction;
+                assert!(change.distance(between) < 1e-3 * between.length(), "{change} {between}");
+            }
+        }
     }
 
     #[test]

@@ -6,6 +6,7 @@
 
 pub mod camera_paths;
 pub mod codec;
+mod differential;
 pub mod direct_light;
 pub mod guide;
 pub mod kd_tree;
@@ -20,6 +21,7 @@ mod stage;
 pub mod straight;
 mod vertex;
 
+pub use differential::{Bend, Differential};
 pub use foton_math::{Cancel, Cancelled, ShouldSuspend, Suspended};
 pub use ledger::{Ledger, Loss};
 pub use light_use::LightUse;

@@ -2,8 +2,9 @@
 
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Frame, Ray, Rgb};
-use foton_scene::{LobeFlags, LobeSample, LobeSamples, Scattering, Scene, Surface, Transport};
+use foton_scene::{Footprint, LobeFlags, LobeSample, LobeSamples, Scattering, Scene, Surface, Transport};
 
+use crate::differential::{Bend, Differential};
 use crate::direct_light::Receiver;
 use crate::lobes::{Bounce, LobePolicy, LobeSplit};
 use crate::shading::{leaves_wrongly, on_the_right_side, shading_view};
@@ -38,13 +39,36 @@ pub struct Departure {
 }
 
 impl<'a> Vertex<'a> {
-    /// Where a path from `wo` meets a surface; `None` where that side of it is black.
+    /// Where a path from `wo` meets a surface, its colours the means over what an eye sample covers there, where that is known; `None`
+    /// where that side of it is black.
     #[must_use]
-    pub fn new(scene: &Scene, surface: &'a Surface, wo: Vec3, policy: &LobePolicy) -> Option<Self> {
-        let scattering = scene.scattering(surface, wo.dot(surface.normal) > 0.0)?;
+    pub fn new(
+        scene: &Scene,
+        surface: &'a Surface,
+        wo: Vec3,
+        policy: &LobePolicy,
+        footprint: Option<&Footprint>,
+    ) -> Option<Self> {
+        let scattering = scene.scattering_seen(surface, wo.dot(surface.normal) > 0.0, footprint)?;
         let (frame, local) = shading_view(scene, surface, wo);
         let split = policy.split(&scattering);
         Some(Self { surface, scattering, split, frame, wo, local })
+    }
+
+    /// How far neighbouring samples are apart that leave in a unit direction, if that is known of those that arrive.
+    #[must_use]
+    pub fn bent(
+        &self,
+        scene: &Scene,
+        arriving: Option<(Differential, Footprint)>,
+        leaving: Vec3,
+    ) -> Option<Differential> {
+        let (differential, footprint) = arriving?;
+        let (surface, scattering, normal) = (self.surface, &self.scattering, self.frame.normal);
+        Some(
+            differential
+                .bent(&Bend { scene, surface, scattering, normal, arriving: -self.wo, footprint }, leaving),
+        )
     }
 
     /// Its point as one that light arrives at: on the side of the path, or `behind`. `edges` are those to an emitter at most.

@@ -6,10 +6,10 @@
 
 use foton_math::glam::Vec3;
 use foton_math::{Ray, Rgb};
-use foton_scene::{Scene, Surface};
+use foton_scene::{Footprint, Scene, Surface};
 use foton_transport::direct_light::{Arrival, Lights, Receiver};
 use foton_transport::photon_map::PathClass;
-use foton_transport::{Bounce, Departure, LeftOut, LobePolicy, Quantity, Vertex};
+use foton_transport::{Bounce, Departure, Differential, LeftOut, LobePolicy, Quantity, Vertex};
 
 use crate::ppm::LOBE_POLICY;
 use crate::sampled::sample::{EyeSample, Numbers, Seen};
@@ -38,6 +38,8 @@ struct Path {
     class: Option<PathClass>,
     /// Where shadow rays have been sent from for the same light, and the pdf of its direction; `None` where none have.
     sampled_at: Option<(Receiver, f32)>,
+    /// How far neighbouring samples are apart, as long as they go together.
+    differential: Option<Differential>,
 }
 
 impl PathTracer {
@@ -47,8 +49,9 @@ impl PathTracer {
 
     /// Follows an eye sample to its end.
     pub(crate) fn follow(&self, scene: &Scene, sample: EyeSample, seen: &mut Seen) {
-        let EyeSample { ray, mut numbers } = sample;
-        let mut path = Some(Path { ray, weight: Rgb::WHITE, edges: 1, class: None, sampled_at: None });
+        let EyeSample { ray, differential, mut numbers } = sample;
+        let first = Path { ray, weight: Rgb::WHITE, edges: 1, class: None, sampled_at: None, differential };
+        let mut path = Some(first);
         while let Some(now) = path {
             path = self.step(scene, now, &mut numbers, seen);
         }
@@ -63,11 +66,12 @@ impl PathTracer {
         if path.edges == 1 {
             seen.shape = Some(surface.shape);
         }
-        self.see_emitter(scene, &path, &surface, seen);
+        let footprint = path.differential.map(|d| d.footprint(&path.ray, &surface));
+        self.see_emitter(scene, &path, (&surface, footprint.as_ref()), seen);
         let wo = -path.ray.direction;
         let u = if scene.is_mixture(&surface) { numbers.choice() } else { 0.0 };
         let (surface, _) = scene.choose_component(surface, wo.dot(surface.normal) > 0.0, u);
-        let vertex = Vertex::new(scene, &surface, wo, &self.policy)?;
+        let vertex = Vertex::new(scene, &surface, wo, &self.policy, footprint.as_ref())?;
         seen.scatters |= path.class.is_none() && vertex.split.gathers();
         if path.edges >= self.max_depth {
             return None;
@@ -75,7 +79,12 @@ impl PathTracer {
         if vertex.scattering.flags().spreads() {
             self.look_for_emitters(scene, &path, &vertex, numbers, seen);
         }
-        self.go_on(path, &vertex, numbers, seen)
+        let differential = path.differential.zip(footprint);
+        self.go_on(path, &vertex, numbers, seen).map(|(path, bounce)| {
+            let goes_together = bounce != Bounce::Gathered;
+            let differential = differential.filter(|_| goes_together);
+            Path { differential: vertex.bent(scene, differential, path.ray.direction), ..path }
+        })
     }
 
     /// Adds what the path sees of emitters that are infinitely far away.
@@ -97,12 +106,18 @@ impl PathTracer {
     }
 
     /// Adds what a surface that the path has met emits.
-    fn see_emitter(&self, scene: &Scene, path: &Path, surface: &Surface, seen: &mut Seen) {
+    fn see_emitter(
+        &self,
+        scene: &Scene,
+        path: &Path,
+        (surface, footprint): (&Surface, Option<&Footprint>),
+        seen: &mut Seen,
+    ) {
         if path.edges > self.max_depth {
             return;
         }
         let Some(index) = scene.emitter_of(surface) else { return };
-        let emitted = scene.emitted(surface, -path.ray.direction);
+        let emitted = scene.emitted_seen(surface, -path.ray.direction, footprint);
         if emitted.is_black() {
             return;
         }
@@ -155,7 +170,13 @@ impl PathTracer {
     }
 
     /// Chooses a direction in which the path goes on.
-    fn go_on(&self, path: Path, vertex: &Vertex<'_>, numbers: &mut Numbers, seen: &mut Seen) -> Option<Path> {
+    fn go_on(
+        &self,
+        path: Path,
+        vertex: &Vertex<'_>,
+        numbers: &mut Numbers,
+        seen: &mut Seen,
+    ) -> Option<(Path, Bounce)> {
         let (choice, direction) = (numbers.choice(), numbers.direction());
         let Departure { ray, weight, bounce, pdf } = vertex.sample(choice, direction)?;
         let mut weight = path.weight * weight;
@@ -182,7 +203,8 @@ impl PathTracer {
             }
             _ => None,
         };
-        Some(Path { ray, weight, edges: path.edges + 1, class: after(path.class, bounce), sampled_at })
+        let class = after(path.class, bounce);
+        Some((Path { ray, weight, edges: path.edges + 1, class, sampled_at, differential: None }, bounce))
     }
 
     /// Adds light, or notes where it is no number.

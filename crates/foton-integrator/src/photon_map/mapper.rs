@@ -105,7 +105,7 @@ impl PhotonMapper {
 
     /// Follows an eye sample to where it ends, and looks light up there.
     pub(crate) fn follow(&self, scene: &Scene, sample: EyeSample, seen: &mut Seen) {
-        let EyeSample { ray, mut numbers } = sample;
+        let EyeSample { ray, mut numbers, .. } = sample;
         let pass = EyePass {
             scene,
             sensor: self.settings.sensor,
@@ -117,7 +117,8 @@ impl PhotonMapper {
             uses: self.uses,
             seed: self.settings.seed,
             purpose: Purpose::Eye,
-            pass: None,
+            // Each pass has other samples, whichever it is.
+            pass: Some(0),
         };
         let mut paths = EyePaths::default();
         seen.emission += pass.follow_one(ray, numbers.stream(), &mut paths);

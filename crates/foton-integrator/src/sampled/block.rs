@@ -5,7 +5,7 @@ use std::ops::Range;
 use foton_math::{Purpose, Stream};
 use foton_scene::Scene;
 use foton_transport::camera_paths::PixelSamples;
-use foton_transport::{LeftOut, Omissions, Quantity, Surface};
+use foton_transport::{Differential, LeftOut, Omissions, Quantity, Surface};
 
 use super::estimator::Estimator;
 use super::sample::{EyeSample, Numbers, Seen, scrambles};
@@ -62,8 +62,10 @@ impl Sampling<'_> {
             let point = (turn * samples + i) as u32;
             let place = places.point(point);
             let stream = Stream::new(self.settings.seed, Purpose::Path, index, pixel as u64);
+            let ray = sensor.eye_ray(corner + 0.5 + sensor.filter.offset(place), lens.point(point));
             let sample = EyeSample {
-                ray: sensor.eye_ray(corner + 0.5 + sensor.filter.offset(place), lens.point(point)),
+                ray,
+                differential: Differential::of_eye(self.scene, sensor, &ray, 1, true),
                 numbers: Numbers::new(stream, point, lights, directions.point(point)),
             };
             let mut seen = Seen::default();

@@ -2,14 +2,16 @@
 
 use foton_math::glam::Vec2;
 use foton_math::{Ray, Rgb, Stream};
-use foton_transport::LeftOut;
 use foton_transport::direct_light::{SCRAMBLES, Scramble};
 use foton_transport::photon_map::PathClass;
+use foton_transport::{Differential, LeftOut};
 
 /// An eye sample that is to be followed.
 pub(crate) struct EyeSample {
     /// From the camera on.
     pub(crate) ray: Ray,
+    /// How far it is from neighbouring samples; `None` where nothing asks for it.
+    pub(crate) differential: Option<Differential>,
     /// What is left to chance.
     pub(crate) numbers: Numbers,
 }

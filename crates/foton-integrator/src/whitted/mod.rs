@@ -3,10 +3,10 @@
 //! What mirrors and glass throw on other surfaces, and what these throw on each other, is missing: that is what photons are for.
 
 use foton_math::{Ray, Rgb};
-use foton_scene::Scene;
+use foton_scene::{Footprint, Scene};
 use foton_transport::direct_light::{Arrival, Lights};
 use foton_transport::photon_map::PathClass;
-use foton_transport::{LobePolicy, Vertex};
+use foton_transport::{Differential, LobePolicy, Vertex};
 
 use crate::sampled::sample::{EyeSample, Numbers, Seen};
 use crate::settings::RenderSettings;
@@ -29,6 +29,10 @@ struct Branch {
     ray: Ray,
     weight: Rgb,
     edges: u32,
+    /// How far neighbouring samples are apart; `None` where nothing asks for it.
+    differential: Option<Differential>,
+    /// What the sample covers of the surface at the end of `ray`, once that is known.
+    footprint: Option<Footprint>,
 }
 
 impl Whitted {
@@ -41,8 +45,8 @@ impl Whitted {
 
     /// Follows an eye sample through mirrors and glass.
     pub(crate) fn follow(&self, scene: &Scene, sample: EyeSample, seen: &mut Seen) {
-        let EyeSample { ray, mut numbers } = sample;
-        let mut branches = vec![Branch { ray, weight: Rgb::WHITE, edges: 1 }];
+        let EyeSample { ray, differential, mut numbers } = sample;
+        let mut branches = vec![Branch { ray, weight: Rgb::WHITE, edges: 1, differential, footprint: None }];
         let mut rays = 1;
         while let Some(branch) = branches.pop() {
             self.step(scene, branch, &mut numbers, seen, &mut branches, &mut rays);
@@ -70,14 +74,18 @@ impl Whitted {
             seen.shape = Some(surface.shape);
         }
         let wo = -branch.ray.direction;
+        let footprint = branch.differential.map(|d| d.footprint(&branch.ray, &surface));
+        let branch = Branch { footprint, ..branch };
         if is_visible {
-            seen.add(None, branch.weight * scene.emitted(&surface, wo));
+            seen.add(None, branch.weight * scene.emitted_seen(&surface, wo, footprint.as_ref()));
         }
         if branch.edges >= self.max_depth {
             return;
         }
-        for (surface, share) in scene.components(&surface, wo.dot(surface.normal) > 0.0) {
-            if let Some(vertex) = Vertex::new(scene, &surface, wo, &Self::POLICY) {
+        for (surface, share) in
+            scene.components_seen(&surface, wo.dot(surface.normal) > 0.0, footprint.as_ref())
+        {
+            if let Some(vertex) = Vertex::new(scene, &surface, wo, &Self::POLICY, footprint.as_ref()) {
                 let branch = Branch { weight: branch.weight * share, ..branch };
                 self.meet(scene, &branch, &vertex, numbers, seen, branches, rays);
             }
@@ -114,7 +122,9 @@ impl Whitted {
             let weight = branch.weight * departure.weight / chance;
             if !weight.is_black() && weight.is_finite() {
                 *rays += 1;
-                branches.push(Branch { ray: departure.ray, weight, edges: branch.edges + 1 });
+                let (ray, arriving) = (departure.ray, branch.differential.zip(branch.footprint));
+                let differential = vertex.bent(scene, arriving, ray.direction);
+                branches.push(Branch { ray, weight, edges: branch.edges + 1, differential, footprint: None });
             }
         }
     }

@@ -76,20 +76,12 @@ impl Scene {
     ) -> Result<Self, BuildError> {
         options.cancel.check()?;
         check_described_emitters(description)?;
-        let textures = Textures::check(&description.textures)?;
         let normalisation = Normalisation::for_bounds(min, max);
         check_sensors(&description.sensors, &normalisation)?;
         let mixtures = Mixtures::new(&description.materials)?;
         let gauge = options.step(BuildStep::Shapes, description.primitives());
         let mut gathered = Gathered::new(options.forced.clone(), &description.textures);
-        for material in &description.materials {
-            check_material(material, &textures)?;
-            gathered.census.textures |= material.textures().next().is_some();
-            gathered.census.anisotropy |= material.is_anisotropic();
-        }
-        for shape in &description.shapes {
-            gathered.census.textures |= check_radiance(shape, &textures)?;
-        }
+        check_surfaces(description, &mut gathered)?;
         let (shapes, emitters) = (Vec::new(), Vec::new());
         // Attributes of meshes come later: nothing here asks for their values.
         let samplers_so_far = samplers(&description.textures, &vec![None; description.textures.len()]);
@@ -195,6 +187,20 @@ fn place_of(shape: &ShapeDescription, to_scene: &Normalisation) -> Aabb {
     } else {
         Aabb::EMPTY.with(to_scene.point(min)).with(to_scene.point(max))
     }
+}
+
+/// Whether materials and lamps are such as surfaces can have; notes what they ask for.
+fn check_surfaces(description: &SceneDescription, gathered: &mut Gathered) -> Result<(), BuildError> {
+    let textures = Textures::check(&description.textures)?;
+    for material in &description.materials {
+        check_material(material, &textures)?;
+        gathered.census.textures |= material.textures().next().is_some();
+        gathered.census.anisotropy |= material.is_anisotropic();
+    }
+    for shape in &description.shapes {
+        gathered.census.textures |= check_radiance(shape, &textures)?;
+    }
+    Ok(())
 }
 
 /// How many steps between neighbouring single-precision coordinates a box is across, along its longest side; infinite for

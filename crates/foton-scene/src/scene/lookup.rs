@@ -133,3 +133,94 @@ fn change_of_weights([a, b, c]: [Vec3; 3], along: Vec3) -> Vec2 {
     let (de, df) = (along.dot(e), along.dot(f));
     Vec2::new(ff * de - ef * df, ee * df - ef * de) / (ee * ff - ef * ef)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use foton_math::glam::{DAffine3, DVec2, DVec3};
+    use foton_math::{Purpose, Ray, Stream, warp};
+
+    use super::super::tests::described;
+    use super::*;
+    use crate::description::{
+        Bsdf, Colour, Diffuse, Geometry, Material, Mesh, SceneDescription, ShapeDescription,
+    };
+
+    /// A part of a bent sheet with normals that its vertices state.
+    fn sheet() -> Mesh {
+        let corners = [(0.0, 0.0, 0.1), (1.0, 0.1, 0.0), (0.2, 0.9, 0.3)];
+        let bent = |(x, y, z): (f64, f64, f64)| DVec3::new(0.6 * x - 0.2, 0.5 * y - 0.1, 1.0 + z);
+        Mesh {
+            positions: corners.map(DVec3::from).to_vec(),
+            normals: corners.map(bent).to_vec(),
+            texture_coordinates: [(0.1, 0.2), (0.9, 0.4), (0.3, 1.7)].map(DVec2::from).to_vec(),
+            triangles: vec![[0, 1, 2]],
+            ..Mesh::default()
+        }
+    }
+
+    fn scene(geometry: Geometry, flip_normals: bool) -> Scene {
+        let front = Bsdf::Diffuse(Diffuse { reflectance: Colour::Texture(0) });
+        let material = Material { name: "squares".into(), front, ..Material::default() };
+        let turn = DAffine3::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 0.7);
+        let to_world = turn * DAffine3::from_scale(DVec3::splat(1.5));
+        let description = described(vec![material]);
+        let shape = ShapeDescription { geometry, to_world, flip_normals, ..description.shapes[0].clone() };
+        Scene::build(&SceneDescription { shapes: vec![shape], ..description }).expect("a sound scene")
+    }
+
+    /// How coordinates and normals change along the surface is what they differ by between points that are close.
+    #[test]
+    fn coordinates_and_normals_change_as_they_differ_between_near_points() {
+        let mut stream = Stream::new(1, Purpose::Test, 0, 0);
+        let tube = Geometry::Cylinder { from: DVec3::ZERO, to: DVec3::new(0.0, 0.4, 1.0), radius: 0.6 };
+        let ball = || Geometry::Sphere { centre: DVec3::X, radius: 0.8 };
+        for (name, geometry, flip) in [
+            ("sheet", Geometry::Mesh(Arc::new(sheet())), false),
+            ("ball", ball(), false),
+            ("hollow ball", ball(), true),
+            ("disc", Geometry::Disc, false),
+            ("tube", tube.clone(), false),
+            ("hollow tube", tube, true),
+        ] {
+            let scene = scene(geometry, flip);
+            let radius = scene.bounds().radius();
+            let (mut compared, mut tried) = (0, 0);
+            while compared < 100 && tried < 20_000 {
+                tried += 1;
+                let from = scene.bounds().centre() + warp::square_to_sphere(stream.next_2d()) * radius * 2.0;
+                let to = scene.bounds().centre() + warp::square_to_sphere(stream.next_2d()) * radius * 0.4;
+                let Some(here) = scene.nearest(Ray::new(from, (to - from).normalize())) else { continue };
+                let random = warp::square_to_sphere(stream.next_2d());
+                let along = (random - here.normal * random.dot(here.normal)) * radius * 2e-3;
+                // Half of it to either side.
+                let beside = |by: f32| {
+                    let to = here.position + along * by;
+                    scene.nearest(Ray::new(from, (to - from).normalize()))
+                };
+                let (Some(before), Some(after)) = (beside(-0.5), beside(0.5)) else { continue };
+                let uvs = [&before, &after].map(|s| scene.texture_coordinate(s));
+                let difference = uvs[1] - uvs[0];
+                let normals = after.shading_normal - before.shading_normal;
+                if here.normal.dot((to - from).normalize()).abs() < 0.3
+                    || difference.abs().max_element() > 0.2
+                {
+                    continue;
+                }
+                let found = scene.change_of_coordinate(&here, along);
+                assert!(
+                    (found - difference).length() < 0.03 * difference.length() + 2e-4,
+                    "{name}: {found} {difference}"
+                );
+                let found = scene.change_of_normal(&here, along);
+                assert!(
+                    (found - normals).length() < 0.03 * normals.length() + 2e-5,
+                    "{name}: {found} {normals}"
+                );
+                compared += 1;
+            }
+            assert_eq!(compared, 100, "{name}");
+        }
+    }
+}

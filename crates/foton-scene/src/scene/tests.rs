@@ -18,7 +18,7 @@ fn diffuse(reflectance: Colour) -> Bsdf {
 }
 
 /// Unit squares that face +z beside each other along x, one of each material.
-fn described(materials: Vec<Material>) -> SceneDescription {
+pub(super) fn described(materials: Vec<Material>) -> SceneDescription {
     let shape = |i: usize| ShapeDescription {
         name: format!("square {i}"),
         geometry: Geometry::Mesh(Arc::new(Mesh::rectangle())),

@@ -4,13 +4,14 @@ use std::f32::consts::FRAC_1_PI;
 
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Ray, Rgb, Stream};
-use foton_scene::{LobeFlags, LobeSample, Scattering, Surface, Transport};
+use foton_scene::{Footprint, LobeFlags, LobeSample, Scattering, Surface, Transport};
 
 use super::eye_pass::{EyePass, EyePaths};
 use super::highlights::{EmitterDraw, Glossy};
 use super::hit_point::{Gloss, HitPoint};
 use super::pixel_samples::SamplePoints;
 use super::radius::{footprint, on_surface, slab2};
+use crate::differential::{Bend, Differential};
 use crate::lobes::LobeSplit;
 use crate::not_finite::{self, LeftOut, Quantity};
 use crate::shading::{on_the_right_side, shading_view};
@@ -44,6 +45,10 @@ pub(super) struct Branch {
     distance: f32,
     /// The pdf (sr⁻¹) of its direction, where emitters are sampled as well; 0 where they are not.
     pdf: f32,
+    /// How far neighbouring samples are apart; `None` where nothing asks for it.
+    differential: Option<Differential>,
+    /// What the sample covers of the surface at the end of `ray`, once that is known.
+    footprint: Option<Footprint>,
 }
 
 /// One eye sample on its way.
@@ -103,7 +108,19 @@ impl<'a, 'b> Walk<'a, 'b> {
     pub(super) fn follow_ray(&mut self, ray: Ray) -> Rgb {
         self.view = ray.direction;
         self.solid_angle = self.pass.sensor().pixel_solid_angle(ray.direction);
-        self.branches.push(Branch { ray, weight: Rgb::WHITE, edges: 1, distance: 0.0, pdf: 0.0 });
+        let Self { pass, .. } = self;
+        let (samples, renewed) = (pass.samples_per_pixel.get(), pass.pass.is_some());
+        let differential = Differential::of_eye(pass.scene, pass.sensor(), &ray, samples, renewed);
+        let weight = Rgb::WHITE;
+        self.branches.push(Branch {
+            ray,
+            weight,
+            edges: 1,
+            distance: 0.0,
+            pdf: 0.0,
+            differential,
+            footprint: None,
+        });
         while let Some(branch) = self.branches.pop() {
             self.step(branch);
         }
@@ -128,8 +145,10 @@ impl<'a, 'b> Walk<'a, 'b> {
             *shape = surface.shape;
         }
         let wo = -branch.ray.direction;
+        let footprint = branch.differential.map(|d| d.footprint(&branch.ray, &surface));
+        let branch = Branch { footprint, ..branch };
         if visible {
-            let mut emitted = branch.weight * scene.emitted(&surface, wo);
+            let mut emitted = branch.weight * scene.emitted_seen(&surface, wo, footprint.as_ref());
             if branch.pdf > 0.0 && !emitted.is_black() {
                 emitted *= Glossy::bsdf_sampling_weight(scene, &surface, branch.ray.origin, branch.pdf);
             }
@@ -139,14 +158,15 @@ impl<'a, 'b> Walk<'a, 'b> {
         if branch.edges >= self.pass.max_depth {
             return;
         }
-        for (surface, weight) in scene.components(&surface, outward) {
+        for (surface, weight) in scene.components_seen(&surface, outward, footprint.as_ref()) {
             self.meet(&Branch { weight: branch.weight * weight, ..branch }, &surface, outward);
         }
     }
 
     /// Stores a hit point on a surface, and follows its lobes.
     fn meet(&mut self, branch: &Branch, surface: &Surface, outward: bool) {
-        let Some(scattering) = self.pass.scene.scattering(surface, outward) else { return };
+        let footprint = branch.footprint.as_ref();
+        let Some(scattering) = self.pass.scene.scattering_seen(surface, outward, footprint) else { return };
         let distance = branch.distance + (surface.position - branch.ray.origin).length();
         let split = self.pass.policy.split(&scattering);
         for behind in split.sides(scattering.flags()) {
@@ -261,6 +281,19 @@ impl<'a, 'b> Walk<'a, 'b> {
         }
     }
 
+    /// How far neighbouring samples are apart that leave a surface in a unit direction; `normal` is that about which it scatters.
+    fn bent(
+        &self,
+        branch: &Branch,
+        (surface, scattering): (&Surface, &Scattering),
+        normal: Vec3,
+        leaving: Vec3,
+    ) -> Option<Differential> {
+        let (differential, footprint) = branch.differential.zip(branch.footprint)?;
+        let (scene, arriving) = (self.pass.scene, branch.ray.direction);
+        Some(differential.bent(&Bend { scene, surface, scattering, normal, arriving, footprint }, leaving))
+    }
+
     /// Goes on by the specular lobes of a surface: all of them where the path may split, else one chosen by chance.
     fn follow_lobes(
         &mut self,
@@ -273,10 +306,8 @@ impl<'a, 'b> Walk<'a, 'b> {
         let Some(weight) = self.roulette(branch) else { return };
         let wo = -branch.ray.direction;
         let (frame, local) = shading_view(self.pass.scene, surface, wo);
-        let facet = match scattering.gloss() {
-            Some(_) => Some(self.facet.take().unwrap_or_else(|| self.stream.next_2d())),
-            None => None,
-        };
+        let is_rough = scattering.gloss().is_some();
+        let facet = is_rough.then(|| self.facet.take().unwrap_or_else(|| self.stream.next_2d()));
         if self.pass.uses.highlights_by_photons && split.follows_gloss() {
             self.store_specular(&Branch { weight, ..*branch }, surface, scattering, split, distance);
         }
@@ -312,12 +343,15 @@ impl<'a, 'b> Walk<'a, 'b> {
             let sampled = frame.to_outer(lobe.wi).normalize();
             let direction = on_the_right_side(surface, wo, sampled, lobe.wi.z * local.z > 0.0);
             let is_unmirrored = samples_emitters && direction == sampled;
+            let differential = self.bent(branch, (surface, scattering), frame.normal, direction);
             self.branches.push(Branch {
                 ray: Ray::new(surface.ray_origin(direction), direction),
                 weight,
                 edges: branch.edges + 1,
                 distance,
                 pdf: if is_unmirrored { Glossy::pdf(scattering, split, local, lobe.wi) } else { 0.0 },
+                differential,
+                footprint: None,
             });
         }
     }

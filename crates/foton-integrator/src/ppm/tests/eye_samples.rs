@@ -40,7 +40,7 @@ fn scene() -> Arc<Scene> {
     });
     description.shapes.push(description::ShapeDescription {
         geometry: description::Geometry::Sphere { centre: [0.6, 0.6, 0.6].into(), radius: 0.1 },
-        radiance: Some(Rgb::new(3.0, 2.0, 1.0)),
+        radiance: Some(Rgb::new(3.0, 2.0, 1.0).into()),
         material: 0,
         ..ball
     });
