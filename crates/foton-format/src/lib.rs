@@ -28,6 +28,7 @@ mod mitsuba;
 mod open;
 mod opened;
 mod options;
+mod sky;
 mod spelling;
 mod standalone;
 mod suggested;

@@ -73,6 +73,18 @@ fn every_format_has_the_colours_of_a_png() {
 }
 
 #[test]
+fn radiance_files_may_have_other_names() {
+    // One pixel of three shared exponents: 128/256 · 2 in red, and halves of it.
+    for name in ["#?RADIANCE", "#?RGBE", "#?made by hand"] {
+        let file =
+            [name.as_bytes(), b"\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n", &[128, 64, 32, 129]].concat();
+        let (found, warnings) = read("t.hdr", &file).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert!(warnings.is_empty(), "{warnings:?}");
+        assert_eq!(found.pixels, [Rgb::new(1.0, 0.5, 0.25)], "{name}");
+    }
+}
+
+#[test]
 fn a_jpeg_that_ends_early_is_read_as_far_as_it_goes_and_that_is_said() {
     let mut bytes = Vec::new();
     let red = image::RgbImage::from_fn(128, 128, |x, y| image::Rgb([200, (x * y) as u8, 0]));

@@ -2,6 +2,7 @@
 //!
 //! Colours are taken as they are, whatever alpha says, as in Mitsuba 3; alpha is read only where it is asked for. A JPEG that ends too early is read as far as it goes, with a warning; the others are errors then. Every image is decoded once for each way to read it.
 
+mod hdr;
 mod pfm;
 
 use std::collections::HashMap;
@@ -161,7 +162,7 @@ fn read(
     let place = filename.place;
     let (path, bytes) =
         match files.read_or_do_without(&filename.value, place, "magenta stands for it", report)? {
-            Ok(read) => read,
+            Ok((path, bytes)) => (path, hdr::named(bytes)),
             Err(Absent) => return Some(Bitmap::new(1, 1, vec![MAGENTA])),
         };
     let cancel = files.cancel();

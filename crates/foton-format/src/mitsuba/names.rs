@@ -40,7 +40,7 @@ pub(crate) const TEXTURES: Plugins = Plugins {
 pub(crate) const EMITTERS: Plugins = Plugins {
     kind: "emitter",
     supported: || plugins::names(plugins::emitters::ALL).collect(),
-    elsewhere: &["directionalarea", "projector", "sunsky", "timed_sunsky", "sky", "sun", "collimated"],
+    elsewhere: &["directionalarea", "projector", "timed_sunsky", "collimated"],
 };
 
 pub(crate) const SENSORS: Plugins = Plugins {

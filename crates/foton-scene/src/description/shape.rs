@@ -111,18 +111,31 @@ impl Mesh {
         }
     }
 
-    /// The cube [−1, 1]³ with flat faces, normals outwards.
+    /// The cube [−1, 1]³ with flat faces, normals outwards; texture coordinates cover each face, turned as in Mitsuba 3.
     #[must_use]
     pub fn cube() -> Self {
-        let positions = (0..8)
-            .map(|i| {
-                let side = |bit: i32| if i & bit == 0 { -1.0 } else { 1.0 };
-                DVec3::new(side(1), side(2), side(4))
-            })
-            .collect();
-        let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-        let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
-        Self { positions, triangles, ..Self::default() }
+        let corner = |i: i32| {
+            let side = |bit: i32| if i & bit == 0 { -1.0 } else { 1.0 };
+            DVec3::new(side(1), side(2), side(4))
+        };
+        const ALONG: [(f64, f64); 4] = [(0.0, 0.0), (0.0, 1.0), (1.0, 1.0), (1.0, 0.0)];
+        // The corners of each face, and which of them has the first texture coordinates.
+        let faces = [
+            ([0, 4, 6, 2], 0),
+            ([1, 3, 7, 5], 3),
+            ([0, 1, 5, 4], 0),
+            ([2, 6, 7, 3], 2),
+            ([0, 2, 3, 1], 1),
+            ([4, 5, 7, 6], 0),
+        ];
+        let mut cube = Self::default();
+        for (corners, first) in faces {
+            let start = cube.positions.len() as u32;
+            cube.positions.extend(corners.map(corner));
+            cube.texture_coordinates.extend((0..4).map(|i| DVec2::from(ALONG[(i + 4 - first) % 4])));
+            cube.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|t| t.map(|i: u32| start + i)));
+        }
+        cube
     }
 }
 
@@ -141,5 +154,32 @@ mod tests {
             assert!((b - a).cross(c - a).dot(a + b + c) > 0.0, "{t:?}");
         }
         assert_eq!(cube.triangles.len(), 12);
+    }
+
+    #[test]
+    fn texture_coordinates_of_the_cube_are_those_of_mitsuba() {
+        // Printed by Mitsuba 3.9.1: a corner of each face, the face's normal, and the coordinates there.
+        let printed = [
+            ([1.0, -1.0, -1.0], [0.0, -1.0, 0.0], [0.0, 1.0]),
+            ([-1.0, -1.0, 1.0], [0.0, -1.0, 0.0], [1.0, 0.0]),
+            ([1.0, 1.0, -1.0], [0.0, 1.0, 0.0], [0.0, 1.0]),
+            ([-1.0, 1.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0]),
+            ([1.0, -1.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0]),
+            ([1.0, 1.0, 1.0], [1.0, 0.0, 0.0], [1.0, 0.0]),
+            ([1.0, -1.0, 1.0], [0.0, 0.0, 1.0], [0.0, 1.0]),
+            ([-1.0, 1.0, 1.0], [0.0, 0.0, 1.0], [1.0, 0.0]),
+            ([-1.0, -1.0, 1.0], [-1.0, 0.0, 0.0], [0.0, 1.0]),
+            ([-1.0, 1.0, -1.0], [-1.0, 0.0, 0.0], [1.0, 0.0]),
+            ([1.0, 1.0, -1.0], [0.0, 0.0, -1.0], [0.0, 1.0]),
+            ([-1.0, -1.0, -1.0], [0.0, 0.0, -1.0], [1.0, 0.0]),
+        ];
+        let cube = Mesh::cube();
+        for (corner, normal, uv) in printed {
+            let (corner, normal) = (DVec3::from(corner), DVec3::from(normal));
+            let on_face = |f: &usize| cube.positions[4 * f..4 * f + 4].iter().all(|p| p.dot(normal) == 1.0);
+            let face = (0..6).find(on_face).expect("a face of that normal");
+            let i = (4 * face..4 * face + 4).find(|&i| cube.positions[i] == corner).expect("that corner");
+            assert_eq!(cube.texture_coordinates[i], DVec2::from(uv), "{corner} of {normal}");
+        }
     }
 }

@@ -118,5 +118,98 @@ pub const ENVMAP: Plugin = Plugin {
     ],
 };
 
+/// How hazy the air is.
+pub const TURBIDITY: Parameter = Parameter::number("turbidity", 3.0, (1.0, 10.0))
+    .help("How hazy the air is: 2 on a very clear day in the mountains, 3 on a clear one, 10 in haze.");
+
+/// What the ground reflects.
+pub const ALBEDO: Parameter = Parameter { textured: false, ..Parameter::share("albedo", 0.3) }
+    .help("Share of light that the ground reflects into the sky. 0.15 in files of version 0.");
+
+/// Where the sun is.
+pub const SUN_DIRECTION: Parameter = Parameter::other("sun_direction", Kind::Vector, "by place and time")
+    .help("Where the sun is, in the world.");
+
+/// Factor on the sky's radiance.
+pub const SKY_SCALE: Parameter =
+    Parameter::number("sky_scale", 1.0, (0.0, 1e30)).help("Factor on the sky's radiance.");
+
+/// Factor on the sun's radiance.
+pub const SUN_SCALE: Parameter =
+    Parameter::number("sun_scale", 1.0, (0.0, 1e30)).help("Factor on the sun's radiance.");
+
+/// Factor on all of it.
+pub const SCALE_OF_SKY: Parameter =
+    Parameter::number("scale", 1.0, (0.0, 1e30)).help("Factor on the radiance, of files of version 0.");
+
+/// How large the sun is.
+pub const SUN_APERTURE: Parameter = Parameter::number("sun_aperture", 0.5358, (0.01, 90.0))
+    .unit("°")
+    .help("How large the sun is; its power does not depend on that.");
+
+/// How much larger the sun is than it is.
+pub const SUN_RADIUS_SCALE: Parameter = Parameter::number("sun_radius_scale", 1.0, (0.02, 100.0))
+    .help("Factor on the sun's size, of files of version 0; its power does not depend on that.");
+
+const fn place(name: &'static str, default: f64, range: (f64, f64), help: &'static str) -> Parameter {
+    Parameter::number(name, default, range).help(help)
+}
+
+/// The place, by degrees of latitude and longitude and hours of its clock before Greenwich, and the date and time there.
+pub const PLACE_AND_TIME: [Parameter; 9] = [
+    place("latitude", 35.6894, (-90.0, 90.0), "Degrees to the north, where there is no `sun_direction`."),
+    place("longitude", 139.6917, (-180.0, 180.0), "Degrees to the east."),
+    place("timezone", 9.0, (-14.0, 14.0), "Hours that the clock is ahead of Greenwich."),
+    place("year", 2010.0, (-4000.0, 9999.0), "The year."),
+    place("month", 7.0, (1.0, 12.0), "The month."),
+    place("day", 10.0, (1.0, 31.0), "The day."),
+    place("hour", 15.0, (0.0, 24.0), "The hour by the clock."),
+    place("minute", 0.0, (0.0, 60.0), "The minute."),
+    place("second", 0.0, (0.0, 60.0), "The second."),
+];
+
+const COMPLEX_SUN: Parameter = Parameter::ignored("complex_sun", "The sun is an even disc.");
+const RESOLUTION: Parameter =
+    Parameter::ignored("resolution", "The map has 2048 × 1025 pixels with a sun and 512 × 257 without.");
+const EXTEND: Parameter = Parameter::ignored("extend", "Below the horizon it is black.");
+const STRETCH: Parameter = Parameter::unsupported("stretch");
+
+/// The sky with its sun.
+pub const SUNSKY: Plugin = Plugin {
+    name: "sunsky",
+    label: "",
+    help: "A clear sky with its sun, after Hošek and Wilkie, as an environment map: +z is up, in files of version 0 +y.",
+    parameters: &[
+        TURBIDITY,
+        ALBEDO,
+        SUN_DIRECTION,
+        SKY_SCALE,
+        SUN_SCALE,
+        SCALE_OF_SKY,
+        SUN_APERTURE,
+        SUN_RADIUS_SCALE,
+        TO_WORLD,
+        PLACE_AND_TIME[0],
+        PLACE_AND_TIME[1],
+        PLACE_AND_TIME[2],
+        PLACE_AND_TIME[3],
+        PLACE_AND_TIME[4],
+        PLACE_AND_TIME[5],
+        PLACE_AND_TIME[6],
+        PLACE_AND_TIME[7],
+        PLACE_AND_TIME[8],
+        COMPLEX_SUN,
+        RESOLUTION,
+        EXTEND,
+        STRETCH,
+    ],
+};
+
+/// The sky alone.
+pub const SKY: Plugin = Plugin { name: "sky", help: "The sky of `sunsky` without its sun.", ..SUNSKY };
+
+/// The sun alone.
+pub const SUN: Plugin = Plugin { name: "sun", help: "The sun of `sunsky` without its sky.", ..SUNSKY };
+
 /// All of them.
-pub const ALL: &[Plugin] = &[AREA, POINT, SPOT, CONSTANT, DIRECTIONAL, ENVMAP];
+pub const ALL: &[Plugin] = &[AREA, POINT, SPOT, CONSTANT, DIRECTIONAL, ENVMAP, SUNSKY, SKY, SUN];

@@ -134,7 +134,16 @@ impl Scene {
 
     /// One component of a surface, chosen with its weight by `u` in [0, 1), and what the choice leaves of `u`: again in [0, 1).
     #[must_use]
+    #[inline(always)]
     pub fn choose_component(&self, surface: Surface, outward: bool, u: f32) -> (Surface, f32) {
+        if self.mixtures.is_empty() && !self.census.reliefs {
+            return (surface, u);
+        }
+        self.choose_among(surface, outward, u)
+    }
+
+    #[inline(never)]
+    fn choose_among(&self, surface: Surface, outward: bool, u: f32) -> (Surface, f32) {
         if !self.is_mixture(&surface) {
             return (self.relieved(surface, outward, None), u);
         }

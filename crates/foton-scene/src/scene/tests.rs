@@ -9,8 +9,8 @@ use super::Scene;
 use crate::bsdf::{LobeFlags, Scattering};
 use crate::description::{
     Bsdf, Colour, Conductor, Diffuse, Filter, FovAxis, Geometry, Material, Mesh, MicrofacetDistribution,
-    Microfacets, Mirror, Number, Plastic, SceneDescription, SensorDescription, ShapeDescription, Texture,
-    TextureKind, ThinDielectric,
+    Microfacets, Mirror, Number, Plastic, Principled, PrincipledThin, SceneDescription, SensorDescription,
+    ShapeDescription, Texture, TextureKind, ThinDielectric,
 };
 
 fn diffuse(reflectance: Colour) -> Bsdf {
@@ -163,4 +163,36 @@ fn a_number_from_a_texture_that_is_not_there_is_refused_by_the_materials_name() 
     r.alpha_u = Number::Texture(7);
     let description = described(vec![metal]);
     assert!(matches!(Scene::build(&description), Err(crate::BuildError::NoTexture(name)) if name == "rough"));
+}
+
+#[test]
+fn behind_a_surface_that_is_clear_in_places_the_others_are_black_and_a_sheet_is_lit_from_both_sides() {
+    let material = |front| Material { name: "m".into(), front, back: None, ..Material::default() };
+    let of = |plugin| Bsdf::of_plugin(plugin).expect("is modelled");
+    let Bsdf::Principled(plain) = of("principled") else { panic!("a body") };
+    let Bsdf::PrincipledThin(sheet) = of("principledthin") else { panic!("a sheet") };
+    let patched = Principled { spec_trans: Number::Texture(0), ..plain };
+    let mut description = described(vec![
+        material(Bsdf::Principled(patched)),
+        material(Bsdf::Principled(plain)),
+        material(Bsdf::PrincipledThin(PrincipledThin { base_color: Rgb::WHITE.into(), ..sheet })),
+    ]);
+    let fields = [0.0, 0.7].map(|c| Rgb::splat(c).into());
+    description.textures[0].kind = TextureKind::Checkerboard { colours: fields };
+    let scene = Scene::build(&description).expect("a sound scene");
+    let behind = |square: f64, place: [f64; 2]| {
+        let above = DVec3::new(3.0 * square + place[0], place[1], 1.0);
+        let surface =
+            scene.nearest(Ray::new(scene.normalisation().point(above), -Vec3::Z)).expect("a square");
+        scene.scattering(&surface, false)
+    };
+    let reflects = |s: Option<Scattering>| {
+        let (wo, wi) = (Vec3::new(0.6, 0.0, -0.8), Vec3::new(0.0, 0.6, -0.8));
+        s.map(|s| s.eval(wo, wi, LobeFlags::ALL).g)
+    };
+    let (opaque, clear) = ([-0.5, -0.5], [0.5, -0.5]);
+    assert!(reflects(behind(0.0, opaque)).is_none_or(|g| g == 0.0));
+    assert!(behind(0.0, clear).is_some_and(|s| s.bsdf.transmits()));
+    assert!(behind(1.0, opaque).is_none(), "a body without transmission is black behind");
+    assert!(reflects(behind(2.0, opaque)).is_some_and(|g| g > 0.3), "a sheet is the same behind");
 }

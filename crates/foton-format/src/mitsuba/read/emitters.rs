@@ -29,6 +29,7 @@ impl Reader<'_> {
             "spot" => self.spot(&mut p),
             "directional" => self.directional(&mut p),
             "envmap" => self.envmap(&mut p),
+            "sunsky" | "sky" | "sun" => self.sky(plugin, &mut p),
             _ => self.constant(&mut p),
         };
         // It steers another renderer's sampling.
@@ -163,7 +164,7 @@ impl Reader<'_> {
     }
 
     /// Whether there is no other emitter all around; otherwise an error.
-    fn is_first_around(&mut self, p: &Properties<'_>) -> bool {
+    pub(super) fn is_first_around(&mut self, p: &Properties<'_>) -> bool {
         let around = |e: &EmitterDescription| {
             matches!(e.kind, EmitterKind::Constant { .. } | EmitterKind::Environment { .. })
         };

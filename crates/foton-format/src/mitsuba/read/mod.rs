@@ -15,6 +15,7 @@ pub(crate) mod properties;
 pub(crate) mod reader;
 pub(crate) mod sensor;
 pub(crate) mod shapes;
+pub(crate) mod sky;
 pub(crate) mod spectra;
 pub(crate) mod spectrum;
 pub(crate) mod stand_ins;

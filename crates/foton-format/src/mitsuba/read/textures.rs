@@ -265,7 +265,7 @@ impl Reader<'_> {
     }
 
     /// A number within the range that it declares.
-    fn ranged(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> f64 {
+    pub(crate) fn ranged(&mut self, p: &mut Properties<'_>, parameter: &Parameter) -> f64 {
         let Parameter { name, range: (min, max), default, .. } = *parameter;
         let Some(number) = p.number(name, &mut self.report) else { return default };
         if parameter.holds(number.value) {

@@ -7,7 +7,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "rays start off their surface",
         file: "crates/foton-scene/src/surface.rs",
-        from: "let distance = self.normal.abs().dot(self.error);",
+        from: "let distance = self.normal.abs().dot(self.error).max(LEAST_OFFSET);",
         to: "let distance = 0.0 * self.normal.abs().dot(self.error);",
         target: GEOMETRY,
         test: "rays_off_triangles_do_not_meet_them",
@@ -276,5 +276,21 @@ pub(super) const LIST: &[Mutation] = &[
         to: "",
         target: GEOMETRY,
         test: "a_build_that_is_cancelled_ends_in_that_wherever_it_comes",
+    },
+    Mutation {
+        what: "a wide highlight under a clear coat is gathered",
+        file: "crates/foton-scene/src/bsdf/principled/solid.rs",
+        from: "self.spec_trans.least() == 0.0 && alpha > WIDEST",
+        to: "self.spec_trans.least() == 0.0 && alpha > 9.0",
+        target: SCENE,
+        test: "lobes_are_told_by_how_paths_treat_them",
+    },
+    Mutation {
+        what: "photons pass a sheet as its light is seen",
+        file: "crates/foton-scene/src/bsdf/principled/thin.rs",
+        from: "Transport::Importance => self.transmission(wi, wo, lobes)",
+        to: "Transport::Importance => self.transmission(wo, wi, lobes)",
+        target: SCENE,
+        test: "photons_bring_the_light_that_is_seen",
     },
 ];
