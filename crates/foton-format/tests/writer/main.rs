@@ -12,11 +12,11 @@ use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
     Attribute, Bitmap, Colour, Crop, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Hidden,
-    Keyframes, Lens, Mesh, Mirror, Motion, SceneDescription, SensorDescription, ShapeDescription, Texture,
+    Keyframes, Lens, Mesh, Motion, SceneDescription, SensorDescription, ShapeDescription, Texture,
     TextureKind, Wrap,
 };
 
-use materials::{COMPONENTS, colour, materials};
+use materials::{COMPONENTS, materials};
 use same::assert_same;
 
 /// A folder of a test's own, removed when the test is over.

@@ -7,7 +7,7 @@ use foton_scene::description::{
     RoughDiffuse, ThinDielectric, Ward,
 };
 
-pub(super) const fn colour(r: f32, g: f32, b: f32) -> Colour {
+const fn colour(r: f32, g: f32, b: f32) -> Colour {
     Colour::Constant(Rgb::new(r, g, b))
 }
 
