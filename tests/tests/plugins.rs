@@ -40,6 +40,7 @@ fn value(parameter: &Parameter) -> String {
 fn said(plugin: &Declared, contents: &str) -> String {
     let inside = match plugin.name {
         "mask" | "twosided" | "mixturebsdf" | "coating" | "roughcoating" => r#"<bsdf type="diffuse"/>"#,
+        "instance" => r#"<shape type="shapegroup"><shape type="cube"/></shape>"#,
         "blendbsdf" => r#"<bsdf type="diffuse"/><bsdf type="diffuse"/>"#,
         "bumpmap" => r#"<texture type="checkerboard"/><bsdf type="diffuse"/>"#,
         "normalmap" if contents.contains("checkerboard") || contents.contains("filename") => {

@@ -42,7 +42,7 @@ fn not_of_mitsuba_3(description: &SceneDescription) -> Vec<String> {
 pub(crate) fn run(args: &Convert, console: &Console) -> Result<(), Failure> {
     check_writable(&args.output)?;
     // A signal ends the program at once: there is nothing to save.
-    let opened = open(&args.scene, &args.read, None, &Cancel::default())?;
+    let opened = open(&args.scene, &args.read, None, console, &Cancel::default())?;
     refuse_two_roles(args.roles(), &opened)?;
     for finding in &opened.warnings {
         console.diagnostic(finding);

@@ -17,8 +17,6 @@ pub(crate) const SHAPES: Plugins = Plugins {
     kind: "shape",
     supported: || plugins::names(plugins::shapes::ALL).collect(),
     elsewhere: &[
-        "instance",
-        "shapegroup",
         "merge",
         "blender",
         "bsplinecurve",

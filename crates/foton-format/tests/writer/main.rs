@@ -1,6 +1,6 @@
 //! What is written reads back as an equal description.
 
-mod materials;
+mod parts;
 mod same;
 
 use std::fs;
@@ -11,12 +11,14 @@ use foton_format::{Options, open, write_scene};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
-    Attribute, Bitmap, Colour, Crop, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Hidden,
-    Keyframes, Lens, Mesh, Motion, SceneDescription, SensorDescription, ShapeDescription, Texture,
-    TextureKind, Wrap,
+    Attribute, Bitmap, Blend, Bsdf, Coating, Colour, Conductor, Crop, Dielectric, Diffuse,
+    DiffuseTransmitter, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Hidden, Keyframes, Lens,
+    Material, Mesh, MicrofacetDistribution, Microfacets, Mirror, Motion, Null, Number, Phong, Plastic,
+    Relief, ReliefKind, RoughDiffuse, SceneDescription, SensorDescription, ShapeDescription, Texture,
+    TextureKind, ThinDielectric, Ward, Wrap,
 };
 
-use materials::{COMPONENTS, materials};
+use parts::{sensors, shapes};
 use same::assert_same;
 
 /// A folder of a test's own, removed when the test is over.
@@ -58,81 +60,130 @@ fn odd_transform() -> DAffine3 {
     DAffine3::from_translation(DVec3::new(odd(5), 1e-9 * odd(6), 1e17 * odd(7))) * turn
 }
 
-fn odd_attributes() -> Vec<Attribute> {
-    let of = |name: &str, channels, numbers: usize| Attribute {
-        name: name.to_owned(),
-        channels,
-        values: (0..numbers).map(|i| odd(i as _) as f32).collect(),
-    };
-    vec![of("vertex_color", 3, 12), of("vertex_w", 1, 4), of("face_color", 3, 6)]
+const fn colour(r: f32, g: f32, b: f32) -> Colour {
+    Colour::Constant(Rgb::new(r, g, b))
 }
 
-fn odd_mesh(narrow: bool, normals: bool) -> Geometry {
-    let value = |i| if narrow { f64::from(odd(i) as f32) } else { odd(i) };
-    let positions = (0..4).map(|i| DVec3::new(value(i), value(i + 4), value(i + 8))).collect();
-    let normals = if normals { vec![DVec3::new(odd(1), odd(2), odd(3)); 4] } else { Vec::new() };
-    let texture_coordinates = vec![DVec2::new(odd(1), 0.5); if narrow { 0 } else { 4 }];
-    Geometry::Mesh(Arc::new(Mesh {
-        positions,
-        normals,
-        texture_coordinates,
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
-        attributes: if narrow { odd_attributes() } else { Vec::new() },
-    }))
-}
-
-fn shapes(materials: usize) -> Vec<ShapeDescription> {
-    let shared = odd_mesh(false, true);
-    let geometries = [
-        Geometry::Sphere { centre: DVec3::new(odd(1), odd(2), odd(3)), radius: 1.0 / 3.0 },
-        Geometry::Disc,
-        Geometry::Cylinder { from: DVec3::ZERO, to: DVec3::new(0.0, odd(2), 0.1), radius: 0.1 },
-        Geometry::Mesh(Arc::new(Mesh::rectangle())),
-        Geometry::Mesh(Arc::new(Mesh::cube())),
-        odd_mesh(true, false),
-        odd_mesh(false, false),
-        shared.clone(),
-        shared,
-    ];
-    let mirror = DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
-    let shape = |i: usize| ShapeDescription {
-        name: if i.is_multiple_of(2) { String::new() } else { "ä/b".to_owned() },
-        geometry: geometries[i % geometries.len()].clone(),
-        to_world: if i % 4 < 2 { odd_transform() } else { odd_transform() * mirror },
-        flip_normals: i.is_multiple_of(3),
-        material: i % materials,
-        radiance: i
-            .is_multiple_of(5)
-            .then(|| if i == 5 { Colour::Texture(1) } else { Rgb::new(0.1, 1e-12, 1e12).into() }),
+fn bsdfs() -> Vec<Bsdf> {
+    let roughness = |distribution, alpha_u: f32, alpha_v: f32| {
+        Some(Microfacets { distribution, alpha_u: alpha_u.into(), alpha_v: alpha_v.into() })
     };
-    (0..24).map(shape).collect()
-}
-
-fn sensors() -> Vec<SensorDescription> {
-    let sensor = |fov_axis, filter, near_clip: Option<f64>| SensorDescription {
-        name: "sensor".to_owned(),
-        to_world: DAffine3::from_axis_angle(DVec3::Y, odd(1)),
-        fov_degrees: 40.0 + odd(2),
-        fov_axis,
-        width: 320,
-        height: 200,
-        crop: None,
-        filter,
-        near_clip,
-        far_clip: near_clip.map(|near| near + 100.0),
-        lens: None,
+    let textured =
+        |alpha_u, alpha_v| Some(Microfacets { distribution: MicrofacetDistribution::Ggx, alpha_u, alpha_v });
+    let (specular_reflectance, specular_transmittance) = (colour(1.0, 1.0, 1.0), colour(0.5, 0.6, 0.7));
+    let plastic = |nonlinear, roughness| {
+        Bsdf::Plastic(Plastic {
+            int_ior: 1.49,
+            ext_ior: 1.000_277,
+            diffuse_reflectance: Colour::Texture(1),
+            specular_reflectance: colour(0.9, 0.8, 0.7),
+            nonlinear,
+            roughness,
+        })
     };
+    let glass = |roughness| {
+        Bsdf::Dielectric(Dielectric {
+            int_ior: 1.5046,
+            ext_ior: 1.000_277,
+            specular_reflectance,
+            specular_transmittance,
+            roughness,
+        })
+    };
+    let metal = |roughness| {
+        Bsdf::Conductor(Conductor {
+            eta: Rgb::new(0.143_08, 0.374_95, 1.4424),
+            k: Rgb::new(3.9831, 2.3857, 1.6032),
+            specular_reflectance,
+            roughness,
+        })
+    };
+    let (int_ior, ext_ior) = (1.5, 1.0);
+    let pane = ThinDielectric { int_ior, ext_ior, specular_reflectance, specular_transmittance };
     vec![
-        sensor(FovAxis::Larger, Filter::Box { radius: 0.5 }, Some(odd(1))),
-        SensorDescription {
-            crop: Some(Crop { x: 10, y: 20, width: 100, height: 80 }),
-            lens: Some(Lens { aperture_radius: odd(3), focus_distance: odd(4).abs() }),
-            ..sensor(FovAxis::X, Filter::Box { radius: 0.5 }, None)
-        },
-        sensor(FovAxis::Diagonal, Filter::Tent { radius: 1.1 }, None),
-        sensor(FovAxis::Y, Filter::Gaussian { stddev: 0.3 }, None),
+        plastic(false, None),
+        plastic(true, roughness(MicrofacetDistribution::Ggx, 0.3, 0.3)),
+        glass(None),
+        glass(roughness(MicrofacetDistribution::Beckmann, 0.1, 0.2)),
+        Bsdf::ThinDielectric(pane),
+        Bsdf::Mirror(Mirror { reflectance: colour(0.999, 0.999, 0.999) }),
+        metal(None),
+        metal(roughness(MicrofacetDistribution::Ggx, 0.02, 0.02)),
+        metal(textured(Number::Texture(0), Number::Texture(0))),
+        glass(textured(Number::Constant(0.1), Number::Texture(1))),
+        plastic(true, textured(Number::Texture(1), Number::Texture(1))),
+        glass(roughness(MicrofacetDistribution::Phong, 0.1, 0.2)),
+        Bsdf::Null(Null),
     ]
 }
+
+/// Those that Mitsuba 3 does not have.
+fn old_bsdfs() -> Vec<Bsdf> {
+    vec![
+        Bsdf::RoughDiffuse(RoughDiffuse {
+            reflectance: Colour::Texture(0),
+            alpha: Number::Texture(1),
+            use_fast_approx: true,
+        }),
+        Bsdf::Phong(Phong {
+            exponent: 12.5.into(),
+            specular_reflectance: colour(0.25, 0.5, 0.125),
+            diffuse_reflectance: Colour::Texture(0),
+        }),
+        Bsdf::Ward(Ward {
+            variant: 2,
+            alpha_u: 0.25.into(),
+            alpha_v: Number::Texture(1),
+            specular_reflectance: colour(1.0, 1.0, 1.0),
+            diffuse_reflectance: colour(0.5, 0.6, 0.7),
+        }),
+        Bsdf::DiffuseTransmitter(DiffuseTransmitter { transmittance: colour(0.5, 0.25, 0.75) }),
+    ]
+}
+
+fn materials() -> Vec<Material> {
+    let diffuse = Bsdf::Diffuse(Diffuse { reflectance: colour(0.1, 0.63, 1.0 / 3.0) });
+    let textured = Bsdf::Diffuse(Diffuse { reflectance: Colour::Texture(0) });
+    let mut sides = vec![
+        (diffuse, None, None),
+        (diffuse, Some(diffuse), None),
+        (diffuse, Some(textured), Some(colour(0.3, 0.3, 0.3))),
+    ];
+    sides.extend(bsdfs().into_iter().chain(old_bsdfs()).enumerate().map(|(i, front)| {
+        let back = matches!(front, Bsdf::Conductor(Conductor { roughness: Some(_), .. })).then_some(diffuse);
+        (front, back, (i == 0).then_some(Colour::Texture(2)))
+    }));
+    let material = |(front, back, opacity)| Material {
+        // One name for all: ids must become different ones.
+        name: "a \"strange\" <name> & $more".to_owned(),
+        front,
+        back,
+        opacity,
+        ..Material::default()
+    };
+    let mut materials: Vec<Material> = sides.into_iter().map(material).collect();
+    let count = materials.len();
+    let blend = |material, weight| Blend { material, weight };
+    let relief = |kind, same_behind| Some(Relief { texture: 0, kind, same_behind });
+    materials[0].mixture = vec![blend(count, Number::Constant(0.1)), blend(count + 1, Number::Texture(1))];
+    materials[0].relief = relief(ReliefKind::Bump { scale: -1.0 / 3.0 }, false);
+    materials[1].relief = relief(ReliefKind::Normal, true);
+    materials[2].relief = relief(ReliefKind::Normal, false);
+    let amber =
+        Coating { thickness: 0.3.into(), sigma_a: colour(0.1, 2.5, 1.0 / 3.0), ..Coating::default(true) };
+    let textured = Coating { sigma_a: Colour::Texture(0), ..Coating::default(false) };
+    materials[0].coatings = [Some(textured), None];
+    materials[1].coatings = [Some(amber); 2];
+    materials[2].coatings = [None, Some(amber)];
+    materials
+        .push(Material { mixture: vec![blend(count + 1, Number::Constant(0.7))], ..materials[3].clone() });
+    materials
+        .push(Material { relief: relief(ReliefKind::Bump { scale: 2.0 }, true), ..materials[1].clone() });
+    materials
+}
+
+/// Materials that are only blended with others, the last ones of [`materials`].
+const COMPONENTS: usize = 2;
 
 fn everything() -> SceneDescription {
     let pixels = (0..6).map(|i| Rgb::new(i as f32 / 7.0, 0.1, 1.0 / 3.0)).collect();

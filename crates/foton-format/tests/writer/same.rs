@@ -1,7 +1,5 @@
 //! Whether two descriptions say the same.
 
-use foton_scene::description::{Blend, Material};
-
 use super::*;
 
 /// Panics where two descriptions differ, but for names, zeros of either sign, and the order of materials and textures.
