@@ -11,11 +11,11 @@ use foton_format::{Options, open, write_scene};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
-    Attribute, Bitmap, Blend, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, DiffuseTransmitter,
-    EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Hidden, Keyframes, Lens, Material, Mesh,
-    MicrofacetDistribution, Microfacets, Mirror, Motion, Null, Number, Phong, Plastic, Relief, ReliefKind,
-    RoughDiffuse, SceneDescription, SensorDescription, ShapeDescription, Texture, TextureKind,
-    ThinDielectric, Ward, Wrap,
+    Attribute, Bitmap, Blend, Bsdf, Coating, Colour, Conductor, Crop, Dielectric, Diffuse,
+    DiffuseTransmitter, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Hidden, Keyframes, Lens,
+    Material, Mesh, MicrofacetDistribution, Microfacets, Mirror, Motion, Null, Number, Phong, Plastic,
+    Relief, ReliefKind, RoughDiffuse, SceneDescription, SensorDescription, ShapeDescription, Texture,
+    TextureKind, ThinDielectric, Ward, Wrap,
 };
 
 use parts::{sensors, shapes};
@@ -169,6 +169,12 @@ fn materials() -> Vec<Material> {
     materials[0].relief = relief(ReliefKind::Bump { scale: -1.0 / 3.0 }, false);
     materials[1].relief = relief(ReliefKind::Normal, true);
     materials[2].relief = relief(ReliefKind::Normal, false);
+    let amber =
+        Coating { thickness: 0.3.into(), sigma_a: colour(0.1, 2.5, 1.0 / 3.0), ..Coating::default(true) };
+    let textured = Coating { sigma_a: Colour::Texture(0), ..Coating::default(false) };
+    materials[0].coatings = [Some(textured), None];
+    materials[1].coatings = [Some(amber); 2];
+    materials[2].coatings = [None, Some(amber)];
     materials
         .push(Material { mixture: vec![blend(count + 1, Number::Constant(0.7))], ..materials[3].clone() });
     materials
