@@ -11,6 +11,7 @@ use crate::diagnostic::{Place, Report};
 use crate::hash::Fnv1a;
 use crate::limits::Budget;
 use crate::options::{BYTES_PER_BYTE, Options, ReadFile};
+use crate::watch::Watch;
 
 /// What is said once where files are missing.
 const HELP_MISSING: &str = "--allow-missing opens the scene without the files that are not there: textures are magenta, meshes are left out";
@@ -29,7 +30,9 @@ enum Found {
 /// Reads files and remembers which.
 pub(crate) struct Files<'a> {
     read: &'a ReadFile<'a>,
-    cancel: &'a Cancel,
+    /// Of all that is read, and of what is read now.
+    whole: Watch<'a>,
+    watch: Watch<'a>,
     allow_missing: bool,
     /// Whether it was said how to do without files.
     has_helped: bool,
@@ -42,9 +45,9 @@ pub(crate) struct Files<'a> {
 
 impl<'a> Files<'a> {
     pub(crate) fn new(read: &'a ReadFile<'a>, options: &'a Options, budget: Budget) -> Self {
-        let (cancel, allow_missing) = (&options.cancel, options.allow_missing);
+        let (watch, allow_missing) = (Watch::new(&options.cancel, &options.progress), options.allow_missing);
         let (seen, hash) = (HashSet::new(), Fnv1a::default());
-        Self { read, cancel, allow_missing, has_helped: false, seen, hash, budget }
+        Self { read, whole: watch, watch, allow_missing, has_helped: false, seen, hash, budget }
     }
 
     /// Whether the user takes a picture in which parts are missing.
@@ -54,7 +57,19 @@ impl<'a> Files<'a> {
 
     /// What ends reading: from then on no file is read.
     pub(crate) const fn cancel(&self) -> &'a Cancel {
-        self.cancel
+        self.watch.cancel()
+    }
+
+    /// What reads the file that comes next tells to how far it is.
+    pub(crate) const fn watch(&self) -> Watch<'a> {
+        self.watch
+    }
+
+    /// Begins one of so many parts of a scene.
+    pub(crate) fn begin_part(&mut self, part: usize, parts: usize) {
+        let parts = parts.max(1) as f64;
+        self.watch = self.whole.part(part as f64 / parts, 1.0 / parts);
+        self.watch.at(0.0);
     }
 
     /// The path where a file named at `place` is looked for first: its identity, whether it is there or not.
@@ -114,7 +129,7 @@ impl<'a> Files<'a> {
 
     /// What lies where a file may lie; nothing once cancelled.
     fn find(&self, filename: &str, place: Place, report: &Report) -> Option<Found> {
-        if self.cancel.is_requested() {
+        if self.watch.is_requested() {
             return None;
         }
         let mut nothing = None;

@@ -32,6 +32,7 @@ mod sky;
 mod spelling;
 mod standalone;
 mod suggested;
+mod watch;
 
 pub use diagnostic::{Diagnostic, OpenError, Place, Severity};
 pub use excerpt::Excerpt;
@@ -42,3 +43,4 @@ pub use open::{import, open, read_str};
 pub use opened::{MitsubaScene, Opened, Origin, SceneNodes};
 pub use options::{Options, ReadFile};
 pub use suggested::Suggested;
+pub use watch::Progress;

@@ -6,6 +6,8 @@ use std::path::Path;
 use foton_input::{Limit, Named};
 use foton_math::Cancel;
 
+use crate::watch::Progress;
+
 /// Reads a file that a scene names.
 pub type ReadFile<'a> = dyn Fn(&Path) -> io::Result<Vec<u8>> + 'a;
 
@@ -20,12 +22,14 @@ pub struct Options {
     pub allow_missing: bool,
     /// Ends reading within a fraction of a second: then the outcome is [`OpenError::Cancelled`](crate::OpenError::Cancelled).
     pub cancel: Cancel,
+    /// Is told how far reading is.
+    pub progress: Progress,
 }
 
 impl Options {
     /// The same, once reading is over.
     pub(crate) fn without_cancel(&self) -> Self {
-        Self { cancel: Cancel::default(), ..self.clone() }
+        Self { cancel: Cancel::default(), progress: Progress::default(), ..self.clone() }
     }
 
     /// Reads a file of the disk, or refuses it by its kind or size; an error of some kind once cancelled.

@@ -3,9 +3,10 @@
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
 
 use foton_film::{Image, Metadata, ToneMap, write_exr, write_png};
-use foton_format::{OpenError, Opened, Options, open};
+use foton_format::{OpenError, Opened, Options, Progress, open};
 use foton_math::{Cancel, Rgb};
 
 /// A folder that goes with the test.
@@ -200,4 +201,24 @@ fn a_request_says_nothing_of_a_file_that_is_wrong() {
     options.cancel.rearm();
     let error = open(&scene, &options).expect_err("wrong");
     assert!(matches!(&error, OpenError::Faults(found) if found.len() == 1), "{error}");
+}
+
+#[test]
+fn reading_tells_how_far_it_is() {
+    let folder = Folder::new("progress");
+    let mut text = String::new();
+    corners().for_each(|[x, y, z]| writeln!(text, "v {x} {y} {z}").expect("text"));
+    (0..SQUARES).map(|i| 2 * i + 1).for_each(|i| writeln!(text, "f {i} {} {}", i + 1, i + 2).expect("text"));
+    let obj = folder.write("line.obj", &text);
+    let shape = "<shape type='obj'><string name='filename' value='line.obj'/></shape>";
+    let two = folder.scene(&format!("{shape}<shape type='sphere'/>"));
+    for (path, most) in [(obj, 1.0), (two, 0.5)] {
+        let told = Arc::new(Mutex::new(Vec::new()));
+        let teller = Arc::clone(&told);
+        let progress = Progress::new(move |share| teller.lock().expect("whole").push(share));
+        open(&path, &Options { progress, ..Options::default() }).expect("a scene");
+        let told = told.lock().expect("whole");
+        assert!(told.len() > 10 && told.is_sorted(), "{told:?}");
+        assert!(told[0] == 0.0 && told.iter().any(|share| (0.8 * most..=most).contains(share)), "{told:?}");
+    }
 }

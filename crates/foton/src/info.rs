@@ -21,7 +21,7 @@ const PROBE_PHOTONS: NonZeroU32 = NonZeroU32::new(1 << 14).expect("above 0");
 pub(crate) fn print(args: &Info, console: &Console) -> Result<(), Failure> {
     // A signal ends the program at once: there is nothing to save.
     let cancel = Cancel::default();
-    let opened = open(&args.scene, &args.scene_options.read, args.memory, &cancel)?;
+    let opened = open(&args.scene, &args.scene_options.read, args.memory, console, &cancel)?;
     refuse_two_roles(args.roles(), &opened)?;
     let name = file_name(&args.scene);
     let sensor = choose_sensor(&opened, args.scene_options.sensor.as_deref())?;

@@ -18,7 +18,7 @@ pub(crate) fn run(args: &Measure, console: &mut Console) -> Result<(), Failure> 
     let given = args.reference.as_deref().map(|path| read_exr_within(path, memory)).transpose()?;
     let interrupt = interrupt_on_signals(console);
     console.begin();
-    let opened = open(&args.scene, &args.scene_options.read, None, interrupt.cancel())?;
+    let opened = open(&args.scene, &args.scene_options.read, None, console, interrupt.cancel())?;
     refuse_two_roles(args.roles(), &opened)?;
     let name = file_name(&args.scene);
     let sensor = choose_sensor(&opened, args.scene_options.sensor.as_deref())?;

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use foton_format::{Opened, Options, Severity};
+use foton_format::{Opened, Options, Progress, Severity};
 use foton_integrator::{Cancel, MemoryEstimate, RenderSettings};
 use foton_scene::description::{Crop, SceneDescription};
 use foton_scene::{BuildOptions, Scene};
@@ -21,10 +21,13 @@ pub(crate) fn open(
     scene: &Path,
     read: &ReadOptions,
     memory: Option<u64>,
+    console: &Console,
     cancel: &Cancel,
 ) -> Result<Opened, Failure> {
     begin_step("reading the scene");
-    foton_format::open(scene, &how_to_read(read, memory, cancel)).map_err(Failure::of_open)
+    let progress = Progress::new(console.reading());
+    let options = Options { progress, ..how_to_read(read, memory, cancel) };
+    foton_format::open(scene, &options).map_err(Failure::of_open)
 }
 
 /// How a scene is read within that many bytes, or what the system leaves.
@@ -34,6 +37,7 @@ pub(crate) fn how_to_read(read: &ReadOptions, memory: Option<u64>, cancel: &Canc
         memory: memory::limit(memory).map(|b| b as u64),
         allow_missing: read.allow_missing,
         cancel: cancel.clone(),
+        progress: Progress::default(),
     }
 }
 

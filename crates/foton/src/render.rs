@@ -32,7 +32,7 @@ pub(crate) fn render(args: &RenderArgs, console: &mut Console) -> Result<(), Fai
     check_outputs(args)?;
     let interrupt = interrupt_on_signals(console);
     console.begin();
-    let opened = open(&args.scene, &args.scene_options.read, args.memory, interrupt.cancel())?;
+    let opened = open(&args.scene, &args.scene_options.read, args.memory, console, interrupt.cancel())?;
     refuse_two_roles(args.roles(), &opened)?;
     let name = file_name(&args.scene);
     let asked = args.scene_options.sensor.as_deref();

@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use foton_format::{OpenError, Opened, Options, Saved, Severity, save_edited};
+use foton_format::{OpenError, Opened, Options, Progress, Saved, Severity, save_edited};
 use foton_input::printable;
 use foton_integrator::Cancel;
 use foton_preview::{BuiltIn, Close, WindowError};
 use foton_scene::BuildError;
 use foton_scene::description::SceneDescription;
 use foton_session::SceneIdentity;
-use foton_session::engine::{Loaded, Loader, Reopened, SavedScene, Source};
+use foton_session::engine::{Loaded, Loader, Reopened, SavedScene, Source, TellReading};
 
 use crate::args::{Args, ReadOptions};
 use crate::console::located;
@@ -88,15 +88,15 @@ impl Files {
 }
 
 impl Loader for Files {
-    fn open(&self, source: &Source, cancel: &Cancel) -> Result<Loaded, String> {
+    fn open(&self, source: &Source, cancel: &Cancel, tell: TellReading) -> Result<Loaded, String> {
+        let progress = Progress::new(tell);
+        let options = |path| Options { progress, ..self.options(path, cancel) };
         let (opened, name) = match source {
-            Source::File(path) => {
-                (foton_format::open(path, &self.options(Some(path), cancel)), name_of(path))
-            }
+            Source::File(path) => (foton_format::open(path, &options(Some(path))), name_of(path)),
             Source::BuiltIn(name) => {
                 let scene =
                     Embedded::named(name).ok_or_else(|| format!("no scene \"{name}\" ships with foton"))?;
-                (scene.open(&self.options(None, cancel)), name.clone())
+                (scene.open(&options(None)), name.clone())
             }
         };
         let opened = opened.map_err(|error| lines(&error))?;

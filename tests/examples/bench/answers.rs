@@ -11,7 +11,8 @@ use foton_integrator::{Alpha, Cancel, PpmSettings, RenderSettings, SettingChange
 use foton_scene::Scene;
 use foton_scene::description::SceneDescription;
 use foton_session::engine::{
-    Activity, Command, Event, Frame, Loaded, Loader, SavedScene, SceneEdit, Setup, Source, ViewMode,
+    Activity, Command, Event, Frame, Loaded, Loader, SavedScene, SceneEdit, Setup, Source, TellReading,
+    ViewMode,
 };
 use foton_session::{Engine, SceneIdentity, Session};
 
@@ -32,7 +33,7 @@ impl DefaultScene {
 }
 
 impl Loader for DefaultScene {
-    fn open(&self, _: &Source, _: &Cancel) -> Result<Loaded, String> {
+    fn open(&self, _: &Source, _: &Cancel, _: TellReading) -> Result<Loaded, String> {
         let opened = opened()?;
         Ok(Loaded {
             description: opened.description.clone(),

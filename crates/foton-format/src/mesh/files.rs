@@ -16,7 +16,6 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 
-use foton_math::Cancel;
 use foton_math::glam::{DAffine3, DVec2, DVec3};
 use foton_scene::description::Mesh;
 
@@ -28,6 +27,7 @@ use crate::mesh::obj::Obj;
 use crate::mesh::wanted::{Format, Parsed, Wanted};
 use crate::mesh::{ply, serialized, stl};
 use crate::mitsuba::read::properties::Located;
+use crate::watch::Watch;
 
 /// What a file holds.
 enum Contents {
@@ -146,8 +146,8 @@ impl Meshes {
         if matches!(format, Format::Serialized(_)) {
             self.several = Some((key.to_owned(), Rc::clone(&file)));
         }
-        let cancel = files.cancel();
-        let contents = parse(&file.path, &file.bytes, format, (&mut files.budget, cancel), report)?;
+        let watch = files.watch();
+        let contents = parse(&file.path, &file.bytes, format, (&mut files.budget, watch), report)?;
         Some(Read { contents, has_mesh: Cell::new(false) })
     }
 }
@@ -156,7 +156,7 @@ fn parse(
     path: &Path,
     bytes: &[u8],
     format: Format,
-    (budget, cancel): (&mut Budget, &Cancel),
+    (budget, watch): (&mut Budget, Watch<'_>),
     report: &mut Report,
 ) -> Option<Contents> {
     let one = |parsed: Parsed| match parsed {
@@ -164,13 +164,13 @@ fn parse(
         Err(problem) => Err(vec![problem]),
     };
     let contents = match format {
-        Format::Obj => Obj::parse(bytes, cancel).map(|mut obj| {
+        Format::Obj => Obj::parse(bytes, watch).map(|mut obj| {
             let warnings = std::mem::take(&mut obj.warnings);
             (Contents::Obj(obj), warnings)
         }),
-        Format::Ply => one(ply::parse(bytes, cancel)),
-        Format::Stl => one(stl::parse(bytes, cancel)),
-        Format::Serialized(number) => one(serialized::parse(bytes, number, budget, cancel)),
+        Format::Ply => one(ply::parse(bytes, watch)),
+        Format::Stl => one(stl::parse(bytes, watch.cancel())),
+        Format::Serialized(number) => one(serialized::parse(bytes, number, budget, watch.cancel())),
     };
     let file = path.to_string_lossy();
     match contents {

@@ -3,10 +3,11 @@
 //! Lines end in `\n`, with a `\r` before it or not; in a file without any `\n` they end in `\r`.
 
 pub(crate) use foton_input::shown_bytes as shown;
+use foton_math::Cancelled;
 use foton_math::glam::{DVec2, DVec3};
-use foton_math::{Cancel, Cancelled};
 
 use crate::diagnostic::Place;
+use crate::watch::Watch;
 
 /// What is wrong, and where.
 pub(crate) type Problem = (Place, String);
@@ -86,7 +87,7 @@ const BYTES_UNASKED: usize = 1 << 16;
 /// end, and whoever opened it does not look at what was found.
 pub(crate) struct Words<'a> {
     bytes: &'a [u8],
-    cancel: &'a Cancel,
+    watch: Watch<'a>,
     /// From where on it is to be asked again.
     asks_at: usize,
     at: usize,
@@ -97,17 +98,19 @@ pub(crate) struct Words<'a> {
 }
 
 impl<'a> Words<'a> {
-    pub(crate) fn new(bytes: &'a [u8], cancel: &'a Cancel) -> Self {
+    pub(crate) fn new(bytes: &'a [u8], watch: impl Into<Watch<'a>>) -> Self {
+        let watch = watch.into();
         let bytes = without_mark(bytes);
         let line_end = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
-        Self { bytes, cancel, asks_at: 0, at: 0, line: 1, line_start: 0, line_end, started: false }
+        Self { bytes, watch, asks_at: 0, at: 0, line: 1, line_start: 0, line_end, started: false }
     }
 
     /// Goes to the end of the file once cancelled.
     fn ask(&mut self) {
         if self.at >= self.asks_at {
             self.asks_at = self.at + BYTES_UNASKED;
-            if self.cancel.is_requested() {
+            self.watch.at(self.at as f64 / self.bytes.len().max(1) as f64);
+            if self.watch.is_requested() {
                 self.bytes = &self.bytes[..self.at.min(self.bytes.len())];
             }
         }
@@ -178,6 +181,8 @@ impl<'a> Words<'a> {
 
 #[cfg(test)]
 mod tests {
+    use foton_math::Cancel;
+
     use super::*;
 
     fn lines(text: &str) -> Vec<(u32, String)> {

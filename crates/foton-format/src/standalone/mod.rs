@@ -16,8 +16,8 @@ mod shapes;
 use std::path::Path;
 
 use foton_input::shown;
+use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DMat3, DVec3};
-use foton_math::{Cancel, Rgb};
 use foton_scene::description::{
     Colour, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Mesh, SceneDescription,
     SensorDescription,
@@ -35,6 +35,7 @@ use crate::mesh::words::Problem;
 use crate::opened::{Opened, Origin};
 use crate::options::{BYTES_PER_BYTE, Options, ReadFile};
 use crate::suggested::Suggested;
+use crate::watch::Watch;
 use shapes::{Library, add_shape};
 
 /// Field of view along the shorter side of the image.
@@ -125,7 +126,7 @@ pub(crate) fn open(
         }
         Some((path.to_string_lossy().into_owned(), bytes))
     };
-    let read = read(&bytes, kind, &mut library, &mut report, &options.cancel);
+    let read = read(&bytes, kind, &mut library, &mut report, Watch::new(&options.cancel, &options.progress));
     options.cancel.check()?;
     let description = match read {
         Ok(description) => description,
@@ -166,18 +167,19 @@ fn read(
     kind: Kind,
     library: &mut Library<'_>,
     report: &mut Report,
-    cancel: &Cancel,
+    watch: Watch<'_>,
 ) -> Result<SceneDescription, Vec<Problem>> {
+    let cancel = watch.cancel();
     let mut scene = SceneDescription::default();
     match kind {
         Kind::Obj => {
-            let mut obj = Obj::parse(bytes, cancel)?;
+            let mut obj = Obj::parse(bytes, watch)?;
             warn(std::mem::take(&mut obj.warnings), report);
             parts::add_obj(&obj, library, report, &mut scene, cancel);
         }
         Kind::Ply => {
             let wanted = Wanted { format: Format::Ply, face_normals: false, flip_v: false };
-            let (mesh, warnings) = ply::parse(bytes, cancel).map_err(|problem| vec![problem])?;
+            let (mesh, warnings) = ply::parse(bytes, watch).map_err(|problem| vec![problem])?;
             warn(warnings, report);
             let mesh = normals::finished(&mesh, wanted, &DAffine3::IDENTITY, cancel);
             add_shape("mesh", mesh, None, &mut scene);

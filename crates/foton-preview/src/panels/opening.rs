@@ -1,7 +1,7 @@
 //! A scene that is being opened: how far it is, and a way to call it off.
 
 use egui::Ui;
-use foton_session::engine::{BuildProgress, Command};
+use foton_session::engine::{BuildProgress, BuildStep, Command};
 
 use super::text::shortened;
 use crate::state::State;
@@ -13,7 +13,11 @@ pub(super) fn show(ui: &mut Ui, state: &mut State) {
     ui.spinner();
     ui.label(format!("Opening {}", shortened(&name, 28))).on_hover_text(&name);
     if let Some(BuildProgress { step, share }) = building {
-        ui.add(egui::ProgressBar::new(share as f32).desired_width(160.0).text(step.text()));
+        ui.add(
+            egui::ProgressBar::new(share as f32)
+                .desired_width(160.0)
+                .text(step.map_or("reading the file", BuildStep::text)),
+        );
     }
     if ui.button("Cancel").clicked() {
         state.ask(Command::CancelOpen);

@@ -71,11 +71,11 @@ pub struct DrawnPath {
     pub class: PathClass,
 }
 
-/// How far building a scene is.
+/// How far opening a scene is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BuildProgress {
-    /// The step under way.
-    pub step: BuildStep,
+    /// The step of building that is under way; `None` while the file is read.
+    pub step: Option<BuildStep>,
     /// The share of it that is done.
     pub share: f64,
 }

@@ -34,13 +34,16 @@ pub struct Loaded {
     pub origin: Arc<dyn Any + Send + Sync>,
 }
 
+/// Is told which share of a file is read.
+pub type TellReading = Box<dyn Fn(f64) + Send + Sync>;
+
 /// Opens and saves scenes.
 pub trait Loader: Send + Sync + 'static {
-    /// Opens a scene, unless cancelled: nobody sees the outcome then.
+    /// Opens a scene, unless cancelled: nobody sees the outcome then. `tell` is told how far reading is, from 0 to 1.
     ///
     /// # Errors
     /// Everything that is wrong with it, each fault with its place, a line each.
-    fn open(&self, source: &Source, cancel: &Cancel) -> Result<Loaded, String>;
+    fn open(&self, source: &Source, cancel: &Cancel, tell: TellReading) -> Result<Loaded, String>;
 
     /// Why what was opened makes no scene: with its place, where the loader knows it.
     fn why_not_built(&self, loaded: &Loaded, cause: &BuildError) -> String {
@@ -146,7 +149,7 @@ impl Opening {
     /// Work on a file of that name, on a thread of its own.
     fn of(
         name: String,
-        work: impl FnOnce(&Mutex<Option<BuildProgress>>, Cancel) -> Result<Arrival, String> + Send + 'static,
+        work: impl FnOnce(&Arc<Mutex<Option<BuildProgress>>>, Cancel) -> Result<Arrival, String> + Send + 'static,
     ) -> Self {
         let (sender, result) = bounded(1);
         let (cancel, at) = (Cancel::default(), Arc::new(Mutex::new(None)));
@@ -165,7 +168,7 @@ impl Opening {
         Self { name, result, at, cancel }
     }
 
-    /// How far building is; `None` while the file is read.
+    /// How far opening is; `None` before that is known.
     pub(super) fn building(&self) -> Option<BuildProgress> {
         *self.at.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -174,13 +177,16 @@ impl Opening {
 fn open_and_build(
     loader: &dyn Loader,
     source: Source,
-    at: &Mutex<Option<BuildProgress>>,
+    at: &Arc<Mutex<Option<BuildProgress>>>,
     cancel: Cancel,
 ) -> Result<Box<Ready>, String> {
-    loader.open(&source, &cancel).and_then(|loaded| {
-        let tell = |step, share| {
-            *at.lock().unwrap_or_else(PoisonError::into_inner) = Some(BuildProgress { step, share });
-        };
+    let place = |at: &Mutex<Option<BuildProgress>>, step, share| {
+        *at.lock().unwrap_or_else(PoisonError::into_inner) = Some(BuildProgress { step, share });
+    };
+    let reading = Arc::clone(at);
+    let tell_reading = Box::new(move |share| place(&reading, None, share));
+    loader.open(&source, &cancel, tell_reading).and_then(|loaded| {
+        let tell = |step, share| place(at, Some(step), share);
         let options = BuildOptions { cancel, tell: Some(&tell), ..BuildOptions::default() };
         let built = Scene::build_with(&loaded.description, &options);
         let scene = built.map_err(|cause| loader.why_not_built(&loaded, &cause))?;

@@ -41,7 +41,7 @@ pub use frame::{
     SensorFacts, SurfaceNames,
 };
 pub use history::{HistoryEntry, Thumbnail, shrunk};
-pub use loader::{Loaded, Loader, Reopened, SavedScene};
+pub use loader::{Loaded, Loader, Reopened, SavedScene, TellReading};
 pub use setup::Setup;
 
 /// Commands that may wait at once. A window sends a few for each frame it draws.

@@ -17,6 +17,7 @@ use foton_scene::description::{
 };
 use foton_session::engine::{
     Activity, Command, Event, Frame, Loaded, Loader, Picture, Reopened, SavedScene, Setup, Source,
+    TellReading,
 };
 use foton_session::{Engine, SceneIdentity, Session, StopRule};
 
@@ -157,8 +158,9 @@ pub(crate) struct Shelf {
 }
 
 impl Loader for Shelf {
-    fn open(&self, source: &Source, cancel: &Cancel) -> Result<Loaded, String> {
+    fn open(&self, source: &Source, cancel: &Cancel, tell: TellReading) -> Result<Loaded, String> {
         let name = source.to_string();
+        tell(0.5);
         match name.as_str() {
             "room" | "vast" | "heap" | "sensorless" => {}
             "faulty" => panic!("this loader has a fault"),

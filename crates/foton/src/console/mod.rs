@@ -204,6 +204,12 @@ impl Console {
         self.bar.set_message(what);
     }
 
+    /// Says how far reading a scene is.
+    pub(crate) fn reading(&self) -> impl Fn(f64) + Send + Sync + 'static + use<> {
+        let bar = self.bar.clone();
+        move |share| bar.set_position((share * 1000.0) as u64)
+    }
+
     /// Says how far building a scene is, from any thread.
     pub(crate) fn building(&self) -> impl Fn(BuildStep, f64) + Sync + use<> {
         let bar = self.bar.clone();

@@ -56,7 +56,7 @@ const ERROR: &str = "error noise bias error_low error_high error_focus unknown_s
 const STAGES: &str = "eye_pass layout trace sort gather shadow_rays radiance";
 
 /// What a scene may switch on, as `foton info` names it.
-const FEATURES: [&str; 17] = [
+const FEATURES: [&str; 19] = [
     "followed paths",
     "splitting at glass",
     "narrow gloss",

@@ -1,5 +1,6 @@
 //! What a scene has the program say or do.
 
+use super::interface::has_keys;
 use super::*;
 
 /// The scene with a lamp of the same size, below the floor, where nothing is seen.
@@ -201,4 +202,44 @@ fn a_scene_without_light_is_black_with_a_warning() {
     assert_eq!(said, ["nothing in the scene emits light: the image will be black"]);
     assert_eq!(done["ledger"]["emitted"], 0.0);
     assert!(folder.exr("x.exr").0.pixels.iter().all(|c| c.is_black()));
+}
+
+#[test]
+fn findings_show_their_line_and_json_has_the_same_keys_as_ever() {
+    let folder = Folder::new("excerpts");
+    folder.write(
+        "wrong.xml",
+        "<scene version='3.0.0'>\n  <!-- a -- b -->\n  <shape type='spere'/>\n  <shape type='cube'><bsdf type='diffuse'/></shape>\n</scene>\n",
+    );
+    let output = folder.run("info wrong.xml --json");
+    assert_eq!(output.status.code(), Some(1));
+    let said = text(&output.stderr);
+    let wanted = "error: wrong.xml:3:16: unknown shape \"spere\", did you mean \"sphere\"?\n  |\n3 |   <shape type='spere'/>\n  |                ^^^^^\n  |\n  = help: the shape plugins that foton reads are cube, ";
+    assert!(said.contains(wanted) && !said.contains('\u{1b}'), "{said}");
+    let events = events(&output.stdout);
+    let error = events.iter().find(|e| e["event"] == "error").expect("an error");
+    has_keys(error, "event message file line column");
+    assert_eq!(error.as_object().map(|keys| keys.len()), Some(5), "{error}");
+}
+
+#[test]
+fn scenes_open_without_what_is_missing_where_that_is_allowed() {
+    let folder = Folder::new("missing");
+    let gone = "<shape type='obj'><string name='filename' value='gone.obj'/></shape>\n\
+        <shape type='sphere'><bsdf type='diffuse'><texture type='bitmap' name='reflectance'>\
+        <string name='filename' value='gone.png'/></texture></bsdf></shape>\n</scene>";
+    folder.write("missing.xml", &SCENE.replace("</scene>", gone));
+    let outputs =
+        ["info missing.xml", "convert missing.xml out.xml", "render missing.xml -o x.png --passes 1"];
+    for arguments in outputs {
+        let refused = folder.run(arguments);
+        let said = text(&refused.stderr);
+        assert_eq!(refused.status.code(), Some(1), "{said}");
+        assert!(said.contains("gone.obj: ") && said.contains("gone.png: "), "{said}");
+        assert_eq!(said.matches("= help: --allow-missing opens the scene").count(), 1, "{said}");
+        let opened = folder.done(&format!("{arguments} --allow-missing"));
+        let said = text(&opened.stderr);
+        assert!(said.contains("gone.obj is missing: the shape is left out"), "{said}");
+        assert!(said.contains("gone.png is missing: magenta stands for it"), "{said}");
+    }
 }

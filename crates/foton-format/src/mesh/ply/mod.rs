@@ -13,7 +13,6 @@ mod numbers;
 mod values;
 
 use foton_input::shown;
-use foton_math::Cancel;
 use foton_math::glam::{DVec2, DVec3};
 use foton_scene::description::Mesh;
 
@@ -22,6 +21,7 @@ use values::skip_value;
 use crate::mesh::normals;
 use crate::mesh::wanted::Parsed;
 use crate::mesh::words::Problem;
+use crate::watch::Watch;
 use attributes::Attributes;
 use faces::Faces;
 use header::{Element, Encoding, Header, Kind, Property};
@@ -31,13 +31,13 @@ use numbers::{Binary, Cancellable, Numbers, Text};
 ///
 /// # Errors
 /// The first problem, with its line in a text file and with its byte in the message for a binary one.
-pub(crate) fn parse(bytes: &[u8], cancel: &Cancel) -> Parsed {
+pub(crate) fn parse(bytes: &[u8], watch: Watch<'_>) -> Parsed {
     let header = Header::parse(bytes)?;
     let body = &bytes[header.length..];
     let (mesh, mut warnings) = match header.encoding {
-        Encoding::Ascii => read(&header, Text::new(body, header.line_end, header.lines + 1), cancel)?,
-        Encoding::LittleEndian => read(&header, Binary::<false>::new(body, header.length), cancel)?,
-        Encoding::BigEndian => read(&header, Binary::<true>::new(body, header.length), cancel)?,
+        Encoding::Ascii => read(&header, Text::new(body, header.line_end, header.lines + 1), watch)?,
+        Encoding::LittleEndian => read(&header, Binary::<false>::new(body, header.length), watch)?,
+        Encoding::BigEndian => read(&header, Binary::<true>::new(body, header.length), watch)?,
     };
     let wrapped = header.wrapped.warning("line of the header goes", "lines of the header go", WRAPPED);
     warnings.extend(wrapped);
@@ -46,8 +46,9 @@ pub(crate) fn parse(bytes: &[u8], cancel: &Cancel) -> Parsed {
 
 const WRAPPED: &str = "on with the one before";
 
-fn read(header: &Header, numbers: impl Numbers, cancel: &Cancel) -> Parsed {
-    let mut numbers = Cancellable { numbers, cancel, left: 0 };
+fn read(header: &Header, numbers: impl Numbers, watch: Watch<'_>) -> Parsed {
+    let (bytes, cancel) = (numbers.bytes_left(), watch.cancel());
+    let mut numbers = Cancellable { numbers, watch, bytes, left: 0 };
     let mut mesh = Mesh::default();
     let (mut faces, mut attributes) = (Faces::new(header), Attributes::default());
     let fits = |element: &Element, numbers: &_| {

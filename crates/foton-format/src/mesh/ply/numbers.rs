@@ -5,6 +5,7 @@ use foton_math::Cancel;
 use super::header::{Kind, Number};
 use crate::diagnostic::Place;
 use crate::mesh::words::{Problem, parsed, shown, unread};
+use crate::watch::Watch;
 
 /// A way to store numbers.
 pub(super) trait Numbers {
@@ -138,10 +139,12 @@ impl<const BIG_ENDIAN: bool> Numbers for Binary<'_, BIG_ENDIAN> {
     }
 }
 
-/// Numbers that end in a problem once reading is cancelled.
+/// Numbers that end in a problem once reading is cancelled, and tell how far it is.
 pub(super) struct Cancellable<'a, N> {
     pub(super) numbers: N,
-    pub(super) cancel: &'a Cancel,
+    pub(super) watch: Watch<'a>,
+    /// Bytes of all of them.
+    pub(super) bytes: usize,
     /// Numbers until it is asked again.
     pub(super) left: usize,
 }
@@ -149,7 +152,8 @@ pub(super) struct Cancellable<'a, N> {
 impl<N: Numbers> Numbers for Cancellable<'_, N> {
     fn next(&mut self, kind: Number) -> Result<f64, Problem> {
         if self.left == 0 {
-            self.cancel.check().map_err(unread)?;
+            self.watch.check().map_err(unread)?;
+            self.watch.at(1.0 - self.numbers.bytes_left() as f64 / self.bytes.max(1) as f64);
             self.left = Cancel::EVERY;
         }
         self.left -= 1;

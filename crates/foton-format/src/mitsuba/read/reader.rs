@@ -100,7 +100,9 @@ impl<'a> Reader<'a> {
         for emitter in &emitters {
             self.scene_emitter(emitter.node);
         }
-        for shape in contents.nested("shape") {
+        let shapes = contents.nested("shape");
+        for (i, shape) in shapes.iter().enumerate() {
+            self.files.begin_part(i, shapes.len());
             if self.files.cancel().is_requested() {
                 return;
             }

@@ -103,7 +103,7 @@ fn a_scene_that_opens_can_be_called_off_and_one_that_changed_reloaded() {
     let mut harness = window(|state| {
         let frame = state.frame.as_mut().expect("there");
         frame.opening = Some("slow.xml".into());
-        frame.building = Some(BuildProgress { step: BuildStep::Tree, share: 0.25 });
+        frame.building = Some(BuildProgress { step: Some(BuildStep::Tree), share: 0.25 });
         state.changed_on_disk = true;
     });
     harness.get_by_role_and_label(Role::ProgressIndicator, BuildStep::Tree.text());
@@ -112,6 +112,16 @@ fn a_scene_that_opens_can_be_called_off_and_one_that_changed_reloaded() {
     click(&mut harness, Role::Button, "Reload");
     assert_asked(&mut harness, &Command::Open(Source::File("/scenes/room.xml".into())));
     assert!(harness.query_by_label("Reload").is_none());
+}
+
+#[test]
+fn a_file_that_is_read_shows_how_far_that_is() {
+    let harness = window(|state| {
+        let frame = state.frame.as_mut().expect("there");
+        frame.opening = Some("slow.xml".into());
+        frame.building = Some(BuildProgress { step: None, share: 0.25 });
+    });
+    harness.get_by_role_and_label(Role::ProgressIndicator, "reading the file");
 }
 
 #[test]

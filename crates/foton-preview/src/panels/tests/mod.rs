@@ -250,7 +250,7 @@ fn every_control_has_an_accessible_name() {
                 state.frame.as_mut().expect("there").selection = Some(selection());
                 state.frame.as_mut().expect("there").opening = Some("slow.xml".into());
                 state.frame.as_mut().expect("there").building =
-                    Some(BuildProgress { step: BuildStep::Tree, share: 0.25 });
+                    Some(BuildProgress { step: Some(BuildStep::Tree), share: 0.25 });
                 state.frame.as_mut().expect("there").stop = StopRule::passes(9);
                 state.error("room.xml:1:1: wrong");
                 state.changed_on_disk = true;
