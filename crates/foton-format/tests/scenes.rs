@@ -349,3 +349,31 @@ fn a_missing_file_is_an_error_with_its_name() {
     let error = open(Path::new("no-such-scene.xml"), &Options::default()).unwrap_err();
     assert!(error.to_string().starts_with("no-such-scene.xml: cannot be read: "), "{error}");
 }
+
+#[test]
+fn instances_show_the_shapes_of_their_group_at_their_place() {
+    let opened = read(
+        "<shape type='shapegroup' id='pair'><shape type='cube' id='box'>\
+         <transform name='to_world'><translate x='1'/></transform></shape>\
+         <shape type='sphere' id='ball'/></shape>\
+         <shape type='instance' id='one'><ref id='pair'/>\
+         <transform name='to_world'><scale value='2'/></transform></shape>\
+         <shape type='instance' id='two'><ref id='pair'/>\
+         <transform name='to_world'><scale x='-1'/></transform></shape>",
+    );
+    let shapes = &opened.description.shapes;
+    let found: Vec<_> = shapes
+        .iter()
+        .map(|s| (s.name.as_str(), s.to_world.transform_point3(DVec3::X).x, s.flip_normals))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            ("one/box", 4.0, false),
+            ("one/ball", 2.0, false),
+            ("two/box", -2.0, false),
+            ("two/ball", -1.0, true)
+        ]
+    );
+    assert_eq!(shapes[0].material, shapes[2].material);
+}

@@ -17,8 +17,6 @@ pub(crate) const SHAPES: Plugins = Plugins {
     kind: "shape",
     supported: || plugins::names(plugins::shapes::ALL).collect(),
     elsewhere: &[
-        "instance",
-        "shapegroup",
         "merge",
         "blender",
         "bsplinecurve",
@@ -29,8 +27,7 @@ pub(crate) const SHAPES: Plugins = Plugins {
     ],
 };
 
-pub(crate) const BSDFS: Plugins =
-    Plugins { kind: "bsdf", supported: || bsdfs().collect(), elsewhere: &["coating", "roughcoating"] };
+pub(crate) const BSDFS: Plugins = Plugins { kind: "bsdf", supported: || bsdfs().collect(), elsewhere: &[] };
 
 pub(crate) const TEXTURES: Plugins = Plugins {
     kind: "texture",

@@ -47,6 +47,22 @@ const SAMPLING_WEIGHT: Parameter =
     Parameter::ignored("silhouette_sampling_weight", "It steers another renderer's sampling.");
 const FLAT: Parameter = Parameter::ignored("face_normals", "Its faces are always flat.");
 
+/// Shapes for instances.
+pub const SHAPEGROUP: Plugin = Plugin {
+    name: "shapegroup",
+    label: "",
+    help: "Around shapes that instances show; by itself it is not seen.",
+    parameters: &[],
+};
+
+/// Shapes of a group at another place.
+pub const INSTANCE: Plugin = Plugin {
+    name: "instance",
+    label: "",
+    help: "Around a `shapegroup` or a reference to one: its shapes once more, at another place. Each takes the memory of a shape of its own.",
+    parameters: &[TO_WORLD],
+};
+
 /// Shapes from files and shapes by formula.
 pub const ALL: &[Plugin] = &[
     Plugin {
@@ -111,4 +127,6 @@ pub const ALL: &[Plugin] = &[
         help: "The side of a cylinder, without caps.",
         parameters: &[P0, P1, RADIUS, FLIP_NORMALS, TO_WORLD, SAMPLING_WEIGHT],
     },
+    SHAPEGROUP,
+    INSTANCE,
 ];

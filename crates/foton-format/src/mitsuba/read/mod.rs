@@ -7,6 +7,7 @@ pub(crate) mod colours;
 pub(crate) mod emitters;
 pub(crate) mod ids;
 pub(crate) mod include;
+mod instances;
 pub(crate) mod integrator;
 pub(crate) mod known;
 pub(crate) mod materials;

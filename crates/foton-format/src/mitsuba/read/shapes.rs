@@ -30,6 +30,11 @@ impl Reader<'_> {
             self.surface(&mut p);
             return;
         };
+        match plugin {
+            "instance" => return self.instance(node, element),
+            "shapegroup" => return self.shapegroup(node),
+            _ => {}
+        }
         let mut p = self.properties(node, plugin);
         let (transform, keyframes) = p.placement(TO_WORLD.name, &mut self.report).unzip();
         let mut to_world = transform.map_or(DAffine3::IDENTITY, |t| t.value);
