@@ -39,7 +39,7 @@ fn value(parameter: &Parameter) -> String {
 /// What is said of a scene in which a plugin has some contents.
 fn said(plugin: &Declared, contents: &str) -> String {
     let inside = match plugin.name {
-        "mask" | "twosided" | "mixturebsdf" => r#"<bsdf type="diffuse"/>"#,
+        "mask" | "twosided" | "mixturebsdf" | "coating" | "roughcoating" => r#"<bsdf type="diffuse"/>"#,
         "instance" => r#"<shape type="shapegroup"><shape type="cube"/></shape>"#,
         "blendbsdf" => r#"<bsdf type="diffuse"/><bsdf type="diffuse"/>"#,
         "bumpmap" => r#"<texture type="checkerboard"/><bsdf type="diffuse"/>"#,

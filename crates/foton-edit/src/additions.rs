@@ -234,7 +234,7 @@ pub(crate) fn import(
     };
     for material in &from.materials {
         let name = names::free(description, &material.name);
-        let Material { front, back, opacity, relief, mixture, .. } = material;
+        let Material { front, back, coatings, opacity, relief, mixture, .. } = material;
         let moved_side = |b: &Bsdf| b.map(moved, moved_number);
         let (front, back) = (moved_side(front), back.as_ref().map(moved_side));
         let relief = relief.map(|relief| Relief { texture: relief.texture + textures, ..relief });
@@ -244,7 +244,8 @@ pub(crate) fn import(
         };
         let mixture = mixture.iter().map(moved_blend).collect();
         let opacity = opacity.map(moved);
-        description.materials.push(Material { name, front, back, opacity, relief, mixture });
+        let coatings = coatings.map(|c| c.map(|c| c.map(moved, moved_number)));
+        description.materials.push(Material { name, front, back, coatings, opacity, relief, mixture });
     }
     for shape in &from.shapes {
         let name = names::free(description, &shape.name);

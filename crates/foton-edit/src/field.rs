@@ -46,6 +46,10 @@ pub enum Side {
     Front,
     /// The other side, where it differs.
     Back,
+    /// What lies over the front, and over the other side if it is the same.
+    Coating,
+    /// What lies over the other side, where it differs.
+    CoatingBehind,
 }
 
 /// A property of a material's side.

@@ -48,6 +48,13 @@ pub(crate) fn fields(material: &Material, out: &mut Fields) -> bool {
     if let Some(back) = material.back.filter(|b| *b != material.front && !material.front.has_two_sides()) {
         textured |= side_fields(&back, Side::Back, out);
     }
+    let [over_front, over_back] = material.coatings;
+    let behind = over_back.filter(|_| over_back != over_front);
+    for (coating, side) in [(over_front, Side::Coating), (behind, Side::CoatingBehind)] {
+        if let Some(mut coating) = coating {
+            textured |= binding_fields(coating.parameters(), side, out);
+        }
+    }
     match material.opacity.unwrap_or(WHITE) {
         Colour::Constant(c) => out.parameter(FieldId::Opacity, &OPACITY, f64::from(c.mean())),
         Colour::Texture(_) => textured = true,
@@ -60,9 +67,14 @@ fn side_fields(bsdf: &Bsdf, side: Side, out: &mut Fields) -> bool {
     let label = if side == Side::Front { "Kind" } else { "Kind behind" };
     let kinds = Bsdf::defaults(false).map(|b| b.info().label.to_owned()).to_vec();
     out.choice(id(Property::Kind), label, kind_of(bsdf), kinds, "What the surface is made of.");
-    let mut textured = false;
     let mut bsdf = *bsdf;
-    let mut bindings = bsdf.parameters();
+    binding_fields(bsdf.parameters(), side, out)
+}
+
+/// The fields of parameters; whether some come from textures.
+fn binding_fields(mut bindings: Vec<Binding<'_>>, side: Side, out: &mut Fields) -> bool {
+    let id = |p| FieldId::Material(side, p);
+    let mut textured = false;
     bindings.sort_by_key(|binding| rank(&binding.slot));
     for Binding { parameters, slot } in bindings {
         let parameter = &parameters[0];
@@ -178,8 +190,20 @@ fn roughness_fields(
 
 /// Sets what a field of a side says; the value fits the field.
 pub(crate) fn set(material: &mut Material, side: Side, property: Property, value: Value) {
+    let [over_front, over_back] = &mut material.coatings;
     let alike = material.back == Some(material.front);
     let bsdf = match side {
+        Side::Coating | Side::CoatingBehind => {
+            let both = over_front == over_back;
+            let coating = if side == Side::Coating { &mut *over_front } else { &mut *over_back };
+            if let Some(coating) = coating {
+                set_bindings(coating.parameters(), property, value);
+            }
+            if both && side == Side::Coating {
+                *over_back = *over_front;
+            }
+            return;
+        }
         Side::Front => &mut material.front,
         Side::Back => match &mut material.back {
             Some(back) => back,
@@ -196,6 +220,7 @@ pub(crate) fn set(material: &mut Material, side: Side, property: Property, value
     } else if was_clear && side == Side::Front {
         // Glass has two sides; what takes its place gets them, too.
         material.back = Some(material.front);
+        material.coatings[1] = material.coatings[0];
     }
     if material.back.is_some_and(|b| b.has_two_sides()) {
         material.back = None;
@@ -212,7 +237,12 @@ fn set_side(bsdf: &mut Bsdf, property: Property, value: Value) {
         *bsdf = of_kind(kind, bsdf);
         return;
     }
-    for Binding { parameters, slot } in bsdf.parameters() {
+    set_bindings(bsdf.parameters(), property, value);
+}
+
+/// Sets the parameter that a property says.
+fn set_bindings(bindings: Vec<Binding<'_>>, property: Property, value: Value) {
+    for Binding { parameters, slot } in bindings {
         let is_it = property == Property::Parameter(parameters[0].name);
         match (slot, value) {
             (Slot::Share(share), Value::Colour(c)) if is_it => *share = Rgb::from_array(c).into(),

@@ -6,7 +6,8 @@ use std::path::Path;
 use foton_format::{Options, read_str};
 use foton_math::Rgb;
 use foton_scene::description::{
-    Bsdf, Colour, DiffuseTransmitter, MicrofacetDistribution, Number, Phong, RoughDiffuse, Ward,
+    Bsdf, Coating, Colour, DiffuseTransmitter, Material, MicrofacetDistribution, Number, Phong, RoughDiffuse,
+    Ward,
 };
 
 fn no_files(_: &Path) -> io::Result<Vec<u8>> {
@@ -60,4 +61,42 @@ fn plugins_of_mitsuba_0_6_are_read_with_their_defaults_and_old_names() {
     assert_eq!(materials[0].front, rough(0.7, true));
     let Some(facets) = materials[1].front.roughness() else { panic!("a rough metal") };
     assert_eq!((facets.distribution, facets.alpha_v), (MicrofacetDistribution::Phong, 0.2.into()));
+}
+
+/// The first material of a scene, and its warnings.
+fn material(inside: &str) -> (Material, Vec<String>) {
+    let xml = format!("<scene version='0.6.0'>{inside}</scene>");
+    let opened = read_str("s.xml", &xml, &no_files, &Options::default()).expect("a scene");
+    let warnings = opened.warnings.iter().map(|w| w.message.clone());
+    let of_coatings = warnings.filter(|w| w.contains("coating")).collect();
+    (opened.description.materials[0].clone(), of_coatings)
+}
+
+#[test]
+fn coatings_lie_over_each_side_and_over_each_of_a_blend() {
+    let of = |rough, sigma_a: Rgb, thickness: f32| Coating {
+        sigma_a: sigma_a.into(),
+        thickness: thickness.into(),
+        ..Coating::default(rough)
+    };
+    let amber = "<rgb name='sigmaA' value='0.1, 0.5, 4'/><float name='thickness' value='2'/>";
+    let diffuse = "<bsdf type='diffuse'/>";
+    let smooth = of(false, Rgb::new(0.1, 0.5, 4.0), 2.0);
+    let (it, warnings) = material(&format!("<bsdf type='coating'>{amber}{diffuse}</bsdf>"));
+    assert_eq!((it.coatings, it.back, warnings.len()), ([Some(smooth), None], None, 0));
+    // Inside a twosided one, and around it.
+    let rough = "<bsdf type='roughcoating'><float name='alpha' value='0.1'/><bsdf type='diffuse'/></bsdf>";
+    let (it, _) = material(&format!("<bsdf type='twosided'>{rough}{diffuse}</bsdf>"));
+    assert_eq!(it.coatings, [Some(Coating::default(true)), None]);
+    let (it, _) =
+        material(&format!("<bsdf type='coating'>{amber}<bsdf type='twosided'>{diffuse}</bsdf></bsdf>"));
+    assert_eq!(it.coatings, [Some(smooth), Some(smooth)]);
+    // The outer one counts, and a warning says so.
+    let (it, warnings) = material(&format!("<bsdf type='coating'>{amber}{rough}</bsdf>"));
+    assert_eq!((it.coatings[0], warnings.len()), (Some(smooth), 1));
+    let blend = format!("<bsdf type='blendbsdf'><float name='weight' value='0.3'/>{diffuse}{diffuse}</bsdf>");
+    let xml = format!("<scene version='3.0.0'><bsdf type='coating'>{blend}</bsdf></scene>");
+    let opened = read_str("s.xml", &xml, &no_files, &Options::default()).expect("a scene");
+    assert_eq!(opened.description.materials.len(), 2);
+    assert!(opened.description.materials.iter().all(|m| m.coatings[0] == Some(Coating::default(false))));
 }

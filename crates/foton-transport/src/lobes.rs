@@ -4,8 +4,7 @@
 //! [`LobeUse`]. The rule holds for the whole render: emission counts where eye paths meet emitters by specular lobes, and photons
 //! count where hit points gather, so nothing counts twice.
 
-use foton_math::Rgb;
-use foton_scene::{Bsdf, Census, LobeFlags};
+use foton_scene::{Census, LobeFlags, Scattering};
 
 /// The rule by which lobes are divided: *specular* ones, which eye paths follow, and *gathered* ones, for which hit points gather
 /// photons.
@@ -27,8 +26,8 @@ pub struct LobeSplit {
 impl LobePolicy {
     /// How the lobes of a BSDF are divided, by the parameters that it has at a point.
     #[must_use]
-    pub fn split(&self, bsdf: &Bsdf<Rgb, f32>) -> LobeSplit {
-        self.split_flags(bsdf.flags(), bsdf.gloss())
+    pub fn split(&self, scattering: &Scattering) -> LobeSplit {
+        self.split_flags(scattering.flags(), scattering.gloss())
     }
 
     /// Delta lobes are specular, diffuse ones gathered. Of glossy ones, narrow reflections are specular, and so is all that rough
@@ -140,9 +139,15 @@ impl LobeUse {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use foton_math::Rgb;
+    use foton_scene::Bsdf;
     use foton_scene::bsdf::{Dielectric, Diffuse, MicrofacetDistribution, Microfacets, Null, Plastic};
 
     const POLICY: LobePolicy = LobePolicy { max_specular_roughness: 0.1 };
+
+    fn at(bsdf: Bsdf<Rgb, f32>) -> Scattering {
+        Scattering { bsdf, opacity: 1.0, coat: None }
+    }
 
     fn rough(alpha: f32) -> Option<Microfacets<f32>> {
         Some(Microfacets::isotropic(MicrofacetDistribution::Ggx, alpha))
@@ -182,22 +187,22 @@ mod tests {
             (plastic(rough(0.1)), glossy, diffuse),
             (plastic(rough(0.11)), LobeFlags::NONE, diffuse | glossy),
         ] {
-            assert_eq!(POLICY.split(&bsdf), LobeSplit { specular, gathered }, "{bsdf:?}");
+            assert_eq!(POLICY.split(&at(bsdf)), LobeSplit { specular, gathered }, "{bsdf:?}");
         }
         // The rule is the method's own.
         let none = LobePolicy { max_specular_roughness: 0.0 };
-        assert_eq!(none.split(&plastic(rough(0.05))).gathered, diffuse | glossy);
+        assert_eq!(none.split(&at(plastic(rough(0.05)))).gathered, diffuse | glossy);
     }
 
     #[test]
     fn a_bounce_goes_by_the_lobe_and_the_rule() {
-        let split = POLICY.split(&plastic(rough(0.05)));
+        let split = POLICY.split(&at(plastic(rough(0.05))));
         let reflection = LobeFlags::REFLECTION;
         assert_eq!(split.bounce(LobeFlags::GLOSSY | reflection), Bounce::Glossy);
         assert_eq!(split.bounce(LobeFlags::DIFFUSE | reflection), Bounce::Gathered);
-        let wide = POLICY.split(&plastic(rough(0.5)));
+        let wide = POLICY.split(&at(plastic(rough(0.5))));
         assert_eq!(wide.bounce(LobeFlags::DIFFUSE | LobeFlags::GLOSSY | reflection), Bounce::Gathered);
-        assert_eq!(POLICY.split(&plastic(None)).bounce(LobeFlags::DELTA | reflection), Bounce::Delta);
+        assert_eq!(POLICY.split(&at(plastic(None))).bounce(LobeFlags::DELTA | reflection), Bounce::Delta);
         let hole = LobeFlags::DELTA | LobeFlags::TRANSMISSION | LobeFlags::STRAIGHT;
         assert_eq!(wide.bounce(hole), Bounce::Straight);
     }

@@ -51,7 +51,7 @@ impl<'a> Vertex<'a> {
     ) -> Option<Self> {
         let scattering = scene.scattering_seen(surface, wo.dot(surface.normal) > 0.0, footprint)?;
         let (frame, local) = shading_view(scene, surface, wo);
-        let split = policy.split(&scattering.bsdf);
+        let split = policy.split(&scattering);
         Some(Self { surface, scattering, split, frame, wo, local })
     }
 

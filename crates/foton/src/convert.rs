@@ -3,7 +3,7 @@
 use foton_film::check_writable;
 use foton_integrator::Cancel;
 use foton_scene::Scene;
-use foton_scene::description::{Motion, SceneDescription};
+use foton_scene::description::{Coating, Motion, SceneDescription};
 
 use crate::args::Convert;
 use crate::console::{Console, Failure};
@@ -13,6 +13,15 @@ use crate::opening::{open, refuse_to_build, refuse_two_roles};
 fn not_of_mitsuba_3(description: &SceneDescription) -> Vec<String> {
     let mut said = Vec::new();
     for material in &description.materials {
+        for plugin in material.coatings.iter().flatten().map(Coating::plugin) {
+            if !said.iter().any(|(p, _)| *p == plugin) {
+                let name = &material.name;
+                let message = format!(
+                    "the material \"{name}\" is written with a \"{plugin}\" of Mitsuba 0.6: Mitsuba 3 does not have such a plugin and will refuse the file"
+                );
+                said.push((plugin, message));
+            }
+        }
         let sides = [Some(material.front), material.back];
         for bsdf in sides.into_iter().flatten().filter(|b| !b.is_of_mitsuba_3()) {
             let plugin = bsdf.plugin();

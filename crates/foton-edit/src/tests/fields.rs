@@ -1,6 +1,7 @@
 //! The inspector's fields: what they show, and what setting them does.
 
 use super::*;
+use foton_scene::description::Coating;
 
 use foton_scene::description::{Colour, Conductor, Microfacets, Number, Principled};
 
@@ -133,6 +134,19 @@ fn a_number_that_comes_from_a_texture_is_no_field_until_its_kind_changes() {
     let glass = set(&metal, BALL, field(Property::Kind), Value::Choice(1));
     let Bsdf::Dielectric(glass) = glass.materials[1].front else { panic!("glass") };
     assert_eq!(glass.roughness, Some(textured), "it keeps its roughness");
+}
+
+#[test]
+fn a_coating_has_fields_of_its_own_and_both_sides_keep_it_alike() {
+    let mut coated = set(&scene(), BALL, FieldId::Material(Side::Front, Property::Kind), Value::Choice(0));
+    coated.materials[1].coatings = [Some(Coating::default(false)); 2];
+    let thickness = FieldId::Material(Side::Coating, Property::Parameter("thickness"));
+    let index = FieldId::Material(Side::Coating, Property::Parameter("int_ior"));
+    let thick = set(&coated, BALL, thickness, Value::Number(2.5));
+    let thick = set(&thick, BALL, index, Value::Number(1.7));
+    let [Some(front), back] = thick.materials[1].coatings else { panic!("a coating") };
+    assert_eq!((front.thickness, front.int_ior, back), (2.5.into(), 1.7, Some(front)));
+    assert_eq!(thick.materials[1].front, coated.materials[1].front);
 }
 
 #[test]

@@ -27,8 +27,7 @@ pub(crate) const SHAPES: Plugins = Plugins {
     ],
 };
 
-pub(crate) const BSDFS: Plugins =
-    Plugins { kind: "bsdf", supported: || bsdfs().collect(), elsewhere: &["coating", "roughcoating"] };
+pub(crate) const BSDFS: Plugins = Plugins { kind: "bsdf", supported: || bsdfs().collect(), elsewhere: &[] };
 
 pub(crate) const TEXTURES: Plugins = Plugins {
     kind: "texture",

@@ -11,11 +11,11 @@ use foton_format::{Options, open, write_scene};
 use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DVec2, DVec3};
 use foton_scene::description::{
-    Attribute, Bitmap, Blend, Bsdf, Colour, Conductor, Crop, Dielectric, Diffuse, DiffuseTransmitter,
-    EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Hidden, Keyframes, Lens, Material, Mesh,
-    MicrofacetDistribution, Microfacets, Mirror, Motion, Null, Number, Phong, Plastic, Relief, ReliefKind,
-    RoughDiffuse, SceneDescription, SensorDescription, ShapeDescription, Texture, TextureKind,
-    ThinDielectric, Ward, Wrap,
+    Attribute, Bitmap, Blend, Bsdf, Coating, Colour, Conductor, Crop, Dielectric, Diffuse,
+    DiffuseTransmitter, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Hidden, Keyframes, Lens,
+    Material, Mesh, MicrofacetDistribution, Microfacets, Mirror, Motion, Null, Number, Phong, Plastic,
+    Principled, PrincipledThin, Relief, ReliefKind, RoughDiffuse, SceneDescription, SensorDescription,
+    ShapeDescription, Texture, TextureKind, ThinDielectric, Ward, Wrap,
 };
 
 use parts::{sensors, shapes};
@@ -114,7 +114,41 @@ fn bsdfs() -> Vec<Bsdf> {
         plastic(true, textured(Number::Texture(1), Number::Texture(1))),
         glass(roughness(MicrofacetDistribution::Phong, 0.1, 0.2)),
         Bsdf::Null(Null),
+        principled(),
+        sheet(),
     ]
+}
+
+fn sheet() -> Bsdf {
+    Bsdf::PrincipledThin(PrincipledThin {
+        base_color: colour(0.1, 0.2, 0.3),
+        roughness: 0.11.into(),
+        anisotropic: 0.12.into(),
+        spec_trans: 0.13.into(),
+        diff_trans: 1.14.into(),
+        eta: Number::Texture(1),
+        spec_tint: 0.15.into(),
+        sheen: 0.16.into(),
+        sheen_tint: 0.17.into(),
+        flatness: 0.18.into(),
+    })
+}
+
+fn principled() -> Bsdf {
+    Bsdf::Principled(Principled {
+        base_color: Colour::Texture(0),
+        roughness: Number::Texture(1),
+        anisotropic: 0.21.into(),
+        metallic: 0.22.into(),
+        spec_trans: Number::Texture(0),
+        eta: 1.23,
+        spec_tint: 0.24.into(),
+        sheen: 2.5.into(),
+        sheen_tint: 0.26.into(),
+        flatness: 0.27.into(),
+        clearcoat: 0.28.into(),
+        clearcoat_gloss: Number::Texture(1),
+    })
 }
 
 /// Those that Mitsuba 3 does not have.
@@ -169,6 +203,12 @@ fn materials() -> Vec<Material> {
     materials[0].relief = relief(ReliefKind::Bump { scale: -1.0 / 3.0 }, false);
     materials[1].relief = relief(ReliefKind::Normal, true);
     materials[2].relief = relief(ReliefKind::Normal, false);
+    let amber =
+        Coating { thickness: 0.3.into(), sigma_a: colour(0.1, 2.5, 1.0 / 3.0), ..Coating::default(true) };
+    let textured = Coating { sigma_a: Colour::Texture(0), ..Coating::default(false) };
+    materials[0].coatings = [Some(textured), None];
+    materials[1].coatings = [Some(amber); 2];
+    materials[2].coatings = [None, Some(amber)];
     materials
         .push(Material { mixture: vec![blend(count + 1, Number::Constant(0.7))], ..materials[3].clone() });
     materials

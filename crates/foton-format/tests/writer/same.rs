@@ -68,9 +68,9 @@ fn bitmap_text(bitmap: &Bitmap) -> String {
 
 /// What a material is, textures included, with numbers to all digits.
 fn material(scene: &SceneDescription, index: usize) -> String {
-    let Material { front, back, opacity, relief, mixture, .. } = &scene.materials[index];
+    let Material { front, back, coatings, opacity, relief, mixture, .. } = &scene.materials[index];
     let relief = relief.map(|r| format!("{:?} {} {:?}", r.kind, r.same_behind, Colour::Texture(r.texture)));
-    let mut text = format!("{front:?} {back:?} {opacity:?} {relief:?}");
+    let mut text = format!("{front:?} {back:?} {coatings:?} {opacity:?} {relief:?}");
     for Blend { material: other, weight } in mixture {
         text += &format!(" {weight:?} of ({})", material(scene, *other));
     }

@@ -76,7 +76,7 @@ impl PathTracer {
         if path.edges >= self.max_depth {
             return None;
         }
-        if vertex.scattering.bsdf.flags().spreads() {
+        if vertex.scattering.flags().spreads() {
             self.look_for_emitters(scene, &path, &vertex, numbers, seen);
         }
         let differential = path.differential.zip(footprint);

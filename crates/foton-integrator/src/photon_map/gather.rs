@@ -87,7 +87,7 @@ impl Gather<'_> {
         let scattering = scene.scattering(&surface, outward)?;
         let (frame, local) = shading_view(scene, &surface, wo);
         let met = Met { surface: &surface, scattering, frame, wo, local };
-        let split = LOBE_POLICY.split(&scattering.bsdf);
+        let split = LOBE_POLICY.split(&scattering);
         if split.gathers() {
             let distance = surface.position.distance(way.ray.origin);
             let is_near = way.is_spread && distance < self.look_up.maps.reach.irradiance_disc;
@@ -151,7 +151,7 @@ impl Gather<'_> {
     /// Goes on from a surface by any of its lobes.
     fn go_further(way: Way, met: &Met<'_>, scratch: &mut Scratch<'_>) -> Option<Way> {
         let (u, direction) = (scratch.stream.next_1d(), scratch.stream.next_2d());
-        let split = LOBE_POLICY.split(&met.scattering.bsdf);
+        let split = LOBE_POLICY.split(&met.scattering);
         let sample = met.scattering.sample(met.local, Transport::Radiance, u, direction, split.specular)?;
         let is_spread = !split.specular.intersects(sample.lobe.spreading());
         let further = way.further + u32::from(is_spread);
@@ -190,8 +190,8 @@ impl Met<'_> {
     /// Directions to the sides on which light that arrives is gathered.
     fn sides(&self) -> impl Iterator<Item = Vec3> + use<> {
         let wo = self.wo;
-        let split = LOBE_POLICY.split(&self.scattering.bsdf);
-        split.sides(self.scattering.bsdf.flags()).map(move |behind| if behind { -wo } else { wo })
+        let split = LOBE_POLICY.split(&self.scattering);
+        split.sides(self.scattering.flags()).map(move |behind| if behind { -wo } else { wo })
     }
 
     /// The value of `lobes` for light from the unit direction `wi` (sr⁻¹).

@@ -251,7 +251,7 @@ fn gathered(gather: &Gather<'_>, end: &End<'_>, count: u32, scratch: &mut Scratc
                 let by_bsdf =
                     |wi: Vec3| gloss.scattering.pdf(gloss.wo, gloss.frame.to_local(frame.to_outer(wi)));
                 let wi = if scratch.stream.next_1d() < BY_BSDF {
-                    let specular = LOBE_POLICY.split(&gloss.scattering.bsdf).specular;
+                    let specular = LOBE_POLICY.split(&gloss.scattering).specular;
                     let choice = scratch.stream.next_1d();
                     let sample =
                         gloss.scattering.sample(gloss.wo, Transport::Radiance, choice, within, specular);

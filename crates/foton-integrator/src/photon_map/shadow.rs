@@ -84,7 +84,7 @@ fn photon(scene: &Scene, surface: &Surface, wo: Vec3, class: MapClass, emitter: 
         // Light that comes from behind the shading normal is none.
         let is_seen = wo.dot(shading_normal_towards(&surface, wo)).abs() > 0.0;
         let scattering = scene.scattering(&surface, outward);
-        is_seen && scattering.is_some_and(|s| LOBE_POLICY.split(&s.bsdf).gathers())
+        is_seen && scattering.is_some_and(|s| LOBE_POLICY.split(&s).gathers())
     };
     let patch = surface.patch_towards(outward);
     let number = Rgbe(emitter.to_le_bytes());

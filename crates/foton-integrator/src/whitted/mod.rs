@@ -104,7 +104,7 @@ impl Whitted {
         branches: &mut Vec<Branch>,
         rays: &mut u32,
     ) {
-        if vertex.scattering.bsdf.flags().spreads() {
+        if vertex.scattering.flags().spreads() {
             seen.scatters = true;
             let lit = self.lit(scene, branch, vertex, numbers, seen);
             seen.add(Some(PathClass::Direct), branch.weight * lit);
@@ -143,9 +143,8 @@ impl Whitted {
         let mut sum = Rgb::BLACK;
         for behind in sides {
             let at = vertex.receiver(*behind, self.max_depth - branch.edges);
-            let value = |arrival: &Arrival| {
-                vertex.eval(arrival.from, vertex.scattering.bsdf.flags()) * arrival.irradiance
-            };
+            let value =
+                |arrival: &Arrival| vertex.eval(arrival.from, vertex.scattering.flags()) * arrival.irradiance;
             self.lights.fixed(scene, &at, &mut seen.rays, |arrival| sum += value(&arrival));
             let mut of_several = Rgb::BLACK;
             for i in 0..SHADOW_RAYS {

@@ -136,13 +136,13 @@ impl Model for Conductor<Rgb, f32> {
 
     fn lobes(&self, wo: Vec3, _: Transport, u: Vec2, lobes: LobeFlags) -> LobeSamples {
         if !lobes.intersects(self.flags().spreading()) {
-            return [None; 3];
+            return [None; 4];
         }
         let fresnel = |cos: f32| fresnel::conductor(cos, self.eta, self.k) * self.specular_reflectance;
         let reflected = match self.roughness {
             None => Some(LobeSample::only(mirrored(wo), fresnel(wo.z.abs()))),
             Some(r) => reflect_by_facet(&r, wo, u, fresnel),
         };
-        [reflected, None, None]
+        [reflected, None, None, None]
     }
 }

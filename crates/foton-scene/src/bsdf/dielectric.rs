@@ -130,7 +130,7 @@ impl Model for Dielectric<Rgb, f32> {
     }
 
     fn lobes(&self, wo: Vec3, transport: Transport, u: Vec2, lobes: LobeFlags) -> LobeSamples {
-        if lobes.intersects(self.flags().spreading()) { self.sampled(wo, transport, u) } else { [None; 3] }
+        if lobes.intersects(self.flags().spreading()) { self.sampled(wo, transport, u) } else { [None; 4] }
     }
 }
 
@@ -170,7 +170,7 @@ impl Dielectric<Rgb, f32> {
             .refracted
             .filter(|_| f < 1.0)
             .and_then(|wi| lobe(back(wi), 1.0 - f, refracted * spread, false));
-        [reflection, refraction, None]
+        [reflection, refraction, None, None]
     }
 
     /// `f(wo, wi)` of rough glass for radiance, reflection and refraction. `[WML07]` equations 20 and 21

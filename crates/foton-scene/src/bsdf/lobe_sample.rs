@@ -37,8 +37,8 @@ impl LobeSample {
     }
 }
 
-/// One direction of each delta or glossy lobe: of reflection, of refraction, and straight on.
-pub type LobeSamples = [Option<LobeSample>; 3];
+/// One direction of each delta or glossy lobe: of reflection, of refraction, straight on, and of reflection by a coating.
+pub type LobeSamples = [Option<LobeSample>; 4];
 
 /// One direction chosen at random among all lobes.
 #[derive(Clone, Copy, Debug)]

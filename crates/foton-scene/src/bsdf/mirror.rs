@@ -64,6 +64,6 @@ impl Model for Mirror<Rgb> {
 
     fn lobes(&self, wo: Vec3, _: Transport, _: Vec2, lobes: LobeFlags) -> LobeSamples {
         let is_asked = lobes.intersects(LobeFlags::DELTA);
-        [is_asked.then(|| LobeSample::only(mirrored(wo), self.reflectance)), None, None]
+        [is_asked.then(|| LobeSample::only(mirrored(wo), self.reflectance)), None, None, None]
     }
 }

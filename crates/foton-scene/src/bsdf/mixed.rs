@@ -93,7 +93,7 @@ impl<M: Mixed> Model for M {
     fn lobes(&self, wo: Vec3, _: Transport, u: Vec2, lobes: LobeFlags) -> LobeSamples {
         let sample = if lobes.intersects(LobeFlags::GLOSSY) { gloss_sample(self, wo, u) } else { None };
         let [_, gloss] = shares(self);
-        [sample.map(|(wi, weight)| LobeSample::only(wi, gloss * weight)), None, None]
+        [sample.map(|(wi, weight)| LobeSample::only(wi, gloss * weight)), None, None, None]
     }
 
     fn sample(&self, wo: Vec3, _: Transport, u_lobe: f32, u: Vec2, apart: LobeFlags) -> Option<BsdfSample> {

@@ -5,6 +5,7 @@
 //! lobes ([`LobeFlags`]). No texture lookups and no geometry either: correcting for shading normals is the path's business.
 
 mod coat;
+mod coating;
 mod conductor;
 mod dielectric;
 mod diffuse;
@@ -12,6 +13,7 @@ mod diffuse_transmitter;
 mod flags;
 mod fresnel;
 mod info;
+mod layer;
 mod lobe_sample;
 mod microfacet;
 mod mirror;
@@ -31,6 +33,8 @@ use crate::description::{Amount, Colour, Number};
 use crate::parameter::Binding;
 pub use coat::Coat;
 pub(crate) use coat::Coats;
+pub use coating::Coating;
+pub(crate) use coating::{COATING, ROUGH_COATING};
 pub use conductor::Conductor;
 pub use dielectric::Dielectric;
 pub use diffuse::Diffuse;
@@ -48,7 +52,7 @@ pub use phong::Phong;
 pub use plastic::Plastic;
 pub use principled::{Principled, PrincipledThin, index_of_specular};
 pub use rough_diffuse::RoughDiffuse;
-pub use scattering::Scattering;
+pub use scattering::{Cover, Scattering};
 pub use thin_dielectric::ThinDielectric;
 pub use ward::Ward;
 

@@ -36,7 +36,7 @@ pub(super) trait Model {
 
     /// One direction of each delta or glossy lobe among `lobes`; a glossy one's is chosen by `u`.
     fn lobes(&self, _wo: Vec3, _transport: Transport, _u: Vec2, _lobes: LobeFlags) -> LobeSamples {
-        [None; 3]
+        [None; 4]
     }
 
     /// The share of light from `wo` that passes straight on, tinted.
@@ -68,6 +68,7 @@ pub(super) fn choose(lobes: &LobeSamples, flags: LobeFlags, u: f32) -> Option<(L
         bent.or(LobeFlags::REFLECTION),
         bent.or(LobeFlags::TRANSMISSION),
         LobeFlags::DELTA.or(LobeFlags::TRANSMISSION).or(LobeFlags::STRAIGHT),
+        bent.or(LobeFlags::REFLECTION),
     ];
     let mut left = u;
     for (kind, lobe) in kinds.into_iter().zip(lobes) {

@@ -48,7 +48,7 @@ impl Model for Null {
     }
 
     fn lobes(&self, wo: Vec3, _: Transport, _: Vec2, lobes: LobeFlags) -> LobeSamples {
-        [None, None, if lobes.intersects(LobeFlags::DELTA) { self.straight(wo) } else { None }]
+        [None, None, if lobes.intersects(LobeFlags::DELTA) { self.straight(wo) } else { None }, None]
     }
 
     fn straight(&self, wo: Vec3) -> Option<LobeSample> {

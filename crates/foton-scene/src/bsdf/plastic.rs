@@ -248,7 +248,7 @@ impl Model for Coated<'_> {
 
     fn lobes(&self, wo: Vec3, _: Transport, u: Vec2, lobes: LobeFlags) -> LobeSamples {
         let is_asked = lobes.intersects(self.flags().without(LobeFlags::DIFFUSE).spreading());
-        [if is_asked { self.coat_sample(wo, u) } else { None }, None, None]
+        [if is_asked { self.coat_sample(wo, u) } else { None }, None, None, None]
     }
 
     fn sample(&self, wo: Vec3, _: Transport, u_lobe: f32, u: Vec2, apart: LobeFlags) -> Option<BsdfSample> {

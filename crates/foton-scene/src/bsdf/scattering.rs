@@ -5,6 +5,7 @@ use foton_math::glam::{Vec2, Vec3};
 
 use super::coat::Coat;
 use super::flags::LobeFlags;
+use super::layer::{Layer, Under};
 use super::lobe_sample::{BsdfSample, LobeSample, LobeSamples, Transport};
 use super::model::{Model, choose};
 use super::{Bsdf, each};
@@ -18,24 +19,75 @@ pub struct Scattering {
     pub bsdf: Bsdf<Rgb, f32>,
     /// Share of light that meets the surface; the rest passes straight through.
     pub opacity: f32,
-    /// What gets through its coat, where that is rough.
-    pub coat: Option<Coat>,
+    /// What covers it, where that is more than its parameters say.
+    pub coat: Option<Cover>,
 }
 
-/// Evaluates an expression of the model that a [`Scattering`] has, with what gets through its coat.
+/// What covers a BSDF at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cover {
+    /// What gets through its own coat, where that is rough.
+    Coat(Coat),
+    /// A coating.
+    Layer(Layer),
+}
+
+/// Evaluates an expression of the model that a [`Scattering`] has, with what covers it.
 macro_rules! model {
     ($scattering:expr, $model:ident => $result:expr) => {
-        each!(&$scattering.bsdf, $model => $result, plastic => {
-            let $model = &plastic.under($scattering.coat.as_ref());
-            $result
-        })
+        match &$scattering.coat {
+            Some(Cover::Layer(layer)) => $scattering.covered(layer, |$model| $result),
+            Some(Cover::Coat(coat)) => each!(&$scattering.bsdf, $model => $result, plastic => {
+                let $model = &plastic.under(Some(coat));
+                $result
+            }),
+            None => each!(&$scattering.bsdf, $model => $result, plastic => {
+                let $model = &plastic.under(None);
+                $result
+            }),
+        }
     };
 }
 
 impl Scattering {
+    /// Evaluates a function of the base under a coating. What gets through a rough coat of the base's own counts as through a smooth one.
+    #[cold]
+    #[inline(never)]
+    fn covered<R>(&self, layer: &Layer, f: impl FnOnce(&Under<'_>) -> R) -> R {
+        let plastic_under;
+        let base: &dyn Model = each!(&self.bsdf, model => model, plastic => {
+            plastic_under = plastic.under(None);
+            &plastic_under
+        });
+        f(&Under { layer, base })
+    }
+
+    /// The lobes that it has.
+    #[must_use]
+    #[inline(always)]
+    pub fn flags(&self) -> LobeFlags {
+        match &self.coat {
+            Some(Cover::Layer(layer)) => layer.over(self.bsdf.flags(), self.bsdf.gloss()).0,
+            _ => self.bsdf.flags(),
+        }
+    }
+
+    /// The larger roughness α of its glossy lobes, if it has any.
+    #[must_use]
+    #[inline(always)]
+    pub fn gloss(&self) -> Option<f32> {
+        match &self.coat {
+            Some(Cover::Layer(layer)) => layer.over(self.bsdf.flags(), self.bsdf.gloss()).1,
+            _ => self.bsdf.gloss(),
+        }
+    }
+
     /// `π f` if it is Lambertian and nothing else, but for holes.
     #[must_use]
     pub fn lambertian(&self) -> Option<Rgb> {
+        if matches!(self.coat, Some(Cover::Layer(_))) {
+            return None;
+        }
         self.bsdf.lambertian().map(|reflectance| reflectance * self.opacity)
     }
 
@@ -97,7 +149,7 @@ impl Scattering {
         u: Vec2,
         lobes: LobeFlags,
     ) -> Option<LobeSample> {
-        choose(&self.lobes(wo, transport, u, lobes), self.bsdf.flags(), u_lobe).map(|(_, lobe)| lobe)
+        choose(&self.lobes(wo, transport, u, lobes), self.flags(), u_lobe).map(|(_, lobe)| lobe)
     }
 
     /// The share of light from `wo` that passes straight on, as if there were no surface.

@@ -91,11 +91,11 @@ impl Model for ThinDielectric<Rgb> {
 
     fn lobes(&self, wo: Vec3, _: Transport, _: Vec2, lobes: LobeFlags) -> LobeSamples {
         if !lobes.intersects(LobeFlags::DELTA) {
-            return [None; 3];
+            return [None; 4];
         }
         let f = self.reflectance(wo);
         let weight = self.specular_reflectance * f;
-        [Some(LobeSample { wi: mirrored(wo), weight, probability: f }), None, self.straight(wo)]
+        [Some(LobeSample { wi: mirrored(wo), weight, probability: f }), None, self.straight(wo), None]
     }
 
     fn straight(&self, wo: Vec3) -> Option<LobeSample> {

@@ -7,7 +7,8 @@ use super::error::BuildError;
 use super::gather::even_scale;
 use super::textures::Textures;
 use crate::description::{
-    Bsdf, Colour, EmitterKind, Geometry, Material, SceneDescription, SensorDescription, ShapeDescription,
+    Bsdf, Coating, Colour, EmitterKind, Geometry, Material, SceneDescription, SensorDescription,
+    ShapeDescription,
 };
 use crate::emitter::{Emitter, Kind};
 use crate::normalise::Normalisation;
@@ -171,7 +172,10 @@ pub(super) fn check_material(material: &Material, textures: &Textures<'_>) -> Re
         textures.is_there(index, &material.name)?;
     }
     let is_sound = |bsdf: &Bsdf| { *bsdf }.parameters().iter().all(Binding::is_valid);
-    if material.bsdfs().all(is_sound) { Ok(()) } else { Err(BuildError::BadMaterial(material.name.clone())) }
+    let is_sound_coating = |coating: &Coating| { *coating }.parameters().iter().all(Binding::is_valid);
+    let all_sound =
+        material.bsdfs().all(is_sound) && material.coatings.iter().flatten().all(is_sound_coating);
+    if all_sound { Ok(()) } else { Err(BuildError::BadMaterial(material.name.clone())) }
 }
 
 /// The corners of a surface in world units, but of what is left out of the scene: vertices of no triangle that has area. Not finite

@@ -3,7 +3,7 @@
 use foton_math::Rgb;
 
 use super::texture::{Colour, Number};
-use crate::bsdf::{Bsdf, Diffuse};
+use crate::bsdf::{Bsdf, Coating, Diffuse};
 
 /// How a surface scatters, on each side.
 #[derive(Clone, Debug)]
@@ -14,6 +14,8 @@ pub struct Material {
     pub front: Bsdf,
     /// On the other side. `None`: a reflector is black there.
     pub back: Option<Bsdf>,
+    /// What lies over the front and over the back. That of the front lies on both sides of what describes both by itself.
+    pub coatings: [Option<Coating>; 2],
     /// Share of light that meets the surface at all; the rest passes straight through. `None`: all. Of a colour the mean channel
     /// counts, of a bitmap's the luminance, as in Mitsuba 3.
     pub opacity: Option<Colour>,
@@ -30,6 +32,7 @@ impl Default for Material {
             name: String::new(),
             front: Bsdf::Diffuse(Diffuse { reflectance: Rgb::splat(0.5).into() }),
             back: None,
+            coatings: [None; 2],
             opacity: None,
             relief: None,
             mixture: Vec::new(),
@@ -41,7 +44,7 @@ impl Material {
     /// Whether anything but the name differs.
     #[must_use]
     pub fn scatters_differently(&self, other: &Self) -> bool {
-        let all = |m: &Self| (m.front, m.back, m.opacity, m.relief);
+        let all = |m: &Self| (m.front, m.back, m.coatings, m.opacity, m.relief);
         all(self) != all(other) || self.mixture != other.mixture
     }
 }

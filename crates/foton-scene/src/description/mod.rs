@@ -13,8 +13,8 @@ mod texture;
 
 pub use crate::bitmap::{Bitmap, Smaller, Wrap};
 pub use crate::bsdf::{
-    Bsdf, Conductor, Dielectric, Diffuse, DiffuseTransmitter, MicrofacetDistribution, Microfacets, Mirror,
-    Null, Phong, Plastic, Principled, PrincipledThin, RoughDiffuse, ThinDielectric, Ward,
+    Bsdf, Coating, Conductor, Dielectric, Diffuse, DiffuseTransmitter, MicrofacetDistribution, Microfacets,
+    Mirror, Null, Phong, Plastic, Principled, PrincipledThin, RoughDiffuse, ThinDielectric, Ward,
 };
 pub use emitter::{EmitterDescription, EmitterKind};
 pub use hidden::Hidden;

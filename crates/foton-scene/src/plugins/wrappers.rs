@@ -1,6 +1,7 @@
 //! BSDFs of scene files that stand around others.
 
 use super::Plugin;
+use crate::bsdf::{COATING, ROUGH_COATING};
 use crate::parameter::{Kind, Parameter};
 
 /// How much of a surface is there.
@@ -85,5 +86,22 @@ pub const NORMALMAP: Plugin = Plugin {
     parameters: &[NORMALS, NORMALS_FILE, FLIP, SHADOWING],
 };
 
+/// A clear coat.
+pub const COATING_PLUGIN: Plugin = Plugin {
+    name: "coating",
+    label: "",
+    help: "Around one BSDF: a smooth clear coat, which may absorb light (Weidlich and Wilkie). Light that it sends back to the base is lost. Mitsuba 3 does not have it.",
+    parameters: COATING,
+};
+
+/// A rough clear coat.
+pub const ROUGHCOATING_PLUGIN: Plugin = Plugin {
+    name: "roughcoating",
+    label: "",
+    help: "Around one BSDF: a rough clear coat. Through it light refracts as through a smooth one. Mitsuba 3 does not have it.",
+    parameters: ROUGH_COATING,
+};
+
 /// All of them.
-pub const ALL: &[Plugin] = &[TWOSIDED, MASK, BLENDBSDF, MIXTUREBSDF, BUMPMAP, NORMALMAP];
+pub const ALL: &[Plugin] =
+    &[COATING_PLUGIN, ROUGHCOATING_PLUGIN, TWOSIDED, MASK, BLENDBSDF, MIXTUREBSDF, BUMPMAP, NORMALMAP];

@@ -5,8 +5,8 @@ use std::cell::LazyCell;
 use foton_math::Rgb;
 
 use super::{Footprint, Scene};
-use crate::bsdf::Scattering;
-use crate::description::{Bsdf, Colour, Diffuse, Number};
+use crate::bsdf::{Cover, Scattering};
+use crate::description::{Bsdf, Coating, Colour, Diffuse, Number};
 use crate::surface::Surface;
 
 /// The side that a material does not describe.
@@ -42,15 +42,19 @@ impl Scene {
         };
         let coats = self.coats.get(index);
         let coats = coats.and_then(|c| c[usize::from(!front)].as_ref());
-        let complete = |bsdf: Bsdf<Rgb, f32>, opacity: f32| {
-            let coat = coats.map(|coats| coats.at(bsdf.gloss().unwrap_or(0.0)));
+        let coating = &material.coatings[usize::from(!front)];
+        let complete = |bsdf: Bsdf<Rgb, f32>, coating: Option<Coating<Rgb, f32>>, opacity: f32| {
+            let coat = match coating {
+                None => coats.map(|coats| Cover::Coat(coats.at(bsdf.gloss().unwrap_or(0.0)))),
+                Some(coating) => Some(Cover::Layer(coating.layer(coats))),
+            };
             Some(Scattering { bsdf: surface.between(bsdf), opacity, coat })
         };
         if !self.census.textures {
             let constant = |c: Colour| if let Colour::Constant(c) = c { c } else { Rgb::BLACK };
             let opacity = material.opacity.map_or(1.0, |c| constant(c).mean());
             let number = |n: Number, _| if let Number::Constant(x) = n { x } else { 0.0 };
-            return complete(bsdf.map(constant, number), opacity);
+            return complete(bsdf.map(constant, number), coating.map(|c| c.map(constant, number)), opacity);
         }
         let lookup = LazyCell::new(|| self.lookup(surface, footprint));
         let opacity = material.opacity.map_or(1.0, |c| match c {
@@ -65,11 +69,14 @@ impl Scene {
             Number::Constant(x) => x,
             Number::Texture(t) => lookup.scalar(&self.textures[t]).clamp(low, high),
         };
-        let found = bsdf.map(colour, number);
+        let (found, coating) = (bsdf.map(colour, number), coating.map(|c| c.map(colour, number)));
         // Light passes elsewhere on the surface and not here: this side is black.
         let is_behind = front && !outward && !found.has_two_sides();
         let black = Bsdf::Diffuse(Diffuse { reflectance: Rgb::BLACK });
-        complete(if is_behind { black } else { found }, opacity.clamp(0.0, 1.0))
+        if is_behind {
+            return complete(black, None, opacity.clamp(0.0, 1.0));
+        }
+        complete(found, coating, opacity.clamp(0.0, 1.0))
     }
 
     /// The reflectance of a side that is Lambertian and nothing else, its colour looked up: what most photons meet, and with a

@@ -168,8 +168,8 @@ impl<'a, 'b> Walk<'a, 'b> {
         let footprint = branch.footprint.as_ref();
         let Some(scattering) = self.pass.scene.scattering_seen(surface, outward, footprint) else { return };
         let distance = branch.distance + (surface.position - branch.ray.origin).length();
-        let split = self.pass.policy.split(&scattering.bsdf);
-        for behind in split.sides(scattering.bsdf.flags()) {
+        let split = self.pass.policy.split(&scattering);
+        for behind in split.sides(scattering.flags()) {
             let part = Part { lobes: split.gathered, specular: false, behind };
             self.store(branch, surface, &scattering, distance, part);
         }
@@ -306,7 +306,7 @@ impl<'a, 'b> Walk<'a, 'b> {
         let Some(weight) = self.roulette(branch) else { return };
         let wo = -branch.ray.direction;
         let (frame, local) = shading_view(self.pass.scene, surface, wo);
-        let is_rough = scattering.bsdf.gloss().is_some();
+        let is_rough = scattering.gloss().is_some();
         let facet = is_rough.then(|| self.facet.take().unwrap_or_else(|| self.stream.next_2d()));
         if self.pass.uses.highlights_by_photons && split.follows_gloss() {
             self.store_specular(&Branch { weight, ..*branch }, surface, scattering, split, distance);

@@ -105,7 +105,7 @@ fn meets_caster(scene: &Scene, sources: &Sources, policy: &LobePolicy, cell: &Ce
         let outward = wo.dot(surface.normal) > 0.0;
         let straight = straight::through(scene, &surface, wo);
         let casts = |(surface, _): (Surface, f32)| {
-            scene.scattering(&surface, outward).is_some_and(|s| policy.split(&s.bsdf).follows())
+            scene.scattering(&surface, outward).is_some_and(|s| policy.split(&s).follows())
         };
         if straight != Rgb::WHITE && scene.components(&surface, outward).any(casts) {
             return true;

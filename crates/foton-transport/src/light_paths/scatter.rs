@@ -71,7 +71,7 @@ impl PhotonPass<'_> {
         // Whichever component this photon takes, hit points of all of them may gather it.
         let gathers = |(surface, _): (Surface, f32)| {
             let scattering = self.scene.scattering(&surface, outward);
-            let split = scattering.map(|s| self.policy.split(&s.bsdf));
+            let split = scattering.map(|s| self.policy.split(&s));
             split.is_some_and(|split| split.gathers() || path.lone && split.follows_gloss())
         };
         let counts = self.scene.is_mixture(surface) && self.scene.components(surface, outward).any(gathers);
@@ -82,7 +82,7 @@ impl PhotonPass<'_> {
             chunk.ledger.absorbed += energy(path.power);
             return stored;
         };
-        let split = self.policy.split(&scattering.bsdf);
+        let split = self.policy.split(&scattering);
         if !counts && (split.gathers() || path.lone && split.follows_gloss()) {
             stored = self.store(path, surface, wo, chunk);
         }

@@ -46,7 +46,7 @@ impl Reader<'_> {
     }
 
     /// Reads a value into its place; `None` where it is not valid.
-    fn read_binding(
+    pub(super) fn read_binding(
         &mut self,
         p: &mut Properties<'_>,
         Binding { parameters, slot }: Binding<'_>,

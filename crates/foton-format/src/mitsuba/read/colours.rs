@@ -34,7 +34,8 @@ impl Reader<'_> {
         }
         let subject = p.subject();
         if least < -OUT_OF_GAMUT * most || most > 1.0 + OUT_OF_GAMUT {
-            self.report.error(colour.place, format!("\"{name}\" of \"{subject}\" must lie between 0 and 1"));
+            let wanted = if parameter.range.1 > 1.0 { "not be negative" } else { "lie between 0 and 1" };
+            self.report.error(colour.place, format!("\"{name}\" of \"{subject}\" must {wanted}"));
         } else {
             let message = format!(
                 "\"{name}\" of \"{subject}\" lies a little outside 0 to 1, as colours outside sRGB do; it is cut to that"

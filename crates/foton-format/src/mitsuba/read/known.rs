@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use foton_scene::description::{Bsdf, Colour, Number, Relief};
+use foton_scene::description::{Bsdf, Coating, Colour, Number, Relief};
 
 use crate::image::Purpose;
 use crate::mitsuba::document::NodeId;
@@ -25,6 +25,7 @@ pub(crate) struct Materials {
 pub(crate) struct Sides {
     pub(crate) front: Bsdf,
     pub(crate) back: Option<Bsdf>,
+    pub(crate) coatings: [Option<Coating>; 2],
     pub(crate) opacity: Option<Colour>,
     pub(crate) relief: Option<Relief>,
     /// What is blended with it in turn, each with its share.
@@ -36,7 +37,15 @@ pub(crate) struct Sides {
 impl Sides {
     /// One side that is described by a BSDF alone.
     pub(crate) const fn of(front: Bsdf) -> Self {
-        Self { front, back: None, opacity: None, relief: None, mixture: Vec::new(), node: None }
+        Self {
+            front,
+            back: None,
+            coatings: [None; 2],
+            opacity: None,
+            relief: None,
+            mixture: Vec::new(),
+            node: None,
+        }
     }
 
     /// Changes this material and all that are blended with it.

@@ -27,10 +27,11 @@ impl Reader<'_> {
 
     /// Puts a material into the description, and behind it those that are blended with it.
     fn enter(&mut self, name: String, sides: Sides) -> usize {
-        let Sides { front, back, opacity, relief, mixture, node } = sides;
+        let Sides { front, back, coatings, opacity, relief, mixture, node } = sides;
         let index = self.description.materials.len();
         self.nodes.materials.push(node);
-        let material = Material { name: name.clone(), front, back, opacity, relief, mixture: Vec::new() };
+        let material =
+            Material { name: name.clone(), front, back, coatings, opacity, relief, mixture: Vec::new() };
         self.description.materials.push(material);
         let others = mixture.into_iter().enumerate();
         let blends = others

@@ -3,7 +3,7 @@
 use foton_math::Rgb;
 use foton_math::glam::DAffine2;
 use foton_scene::description::{
-    Bsdf, Colour, Diffuse, Number, Relief, ReliefKind, Texture, TextureKind, Wrap,
+    Bsdf, Coating, Colour, Diffuse, Number, Relief, ReliefKind, Texture, TextureKind, Wrap,
 };
 use foton_scene::plugins::wrappers::{
     BUMPMAP, NORMALMAP, NORMALS, NORMALS_FILE, OPACITY, SCALE, WEIGHT, WEIGHTS,
@@ -34,6 +34,8 @@ impl Reader<'_> {
             "mixturebsdf" => self.mixture(p),
             "bumpmap" => self.bump_map(p),
             "normalmap" => self.normal_map(p),
+            "coating" => self.coating(p, false),
+            "roughcoating" => self.coating(p, true),
             _ => return None,
         })
     }
@@ -62,6 +64,7 @@ impl Reader<'_> {
                 let mut sides = self.reflecting(both)?;
                 let _ = sides.for_each(&mut |sides| {
                     sides.back = Some(sides.front);
+                    sides.coatings[1] = sides.coatings[0];
                     sides.relief.iter_mut().for_each(|relief| relief.same_behind = true);
                     Ok::<_, ()>(())
                 });
@@ -202,6 +205,40 @@ impl Reader<'_> {
         Some(index)
     }
 
+    /// A clear coat over a BSDF, or over each of a blend.
+    fn coating(&mut self, p: &mut Properties<'_>, rough: bool) -> Option<Sides> {
+        let mut coating = Coating::default(rough);
+        let mut is_complete = true;
+        for binding in coating.parameters() {
+            is_complete &= self.read_binding(p, binding).is_some();
+        }
+        let nested = self.inner_bsdf(p)?;
+        let mut sides = self.nested_sides(nested)?;
+        let [mut has_two, mut has_holes, mut has_rough_coat] = [false; 3];
+        let _ = sides.for_each(&mut |sides| {
+            let rough_coat =
+                |bsdf: Bsdf| matches!(bsdf, Bsdf::Plastic(plastic) if plastic.roughness.is_some());
+            has_two |= sides.coatings.iter().any(Option::is_some);
+            has_holes |= sides.opacity.is_some();
+            has_rough_coat |= rough_coat(sides.front) || sides.back.is_some_and(rough_coat);
+            sides.coatings = [Some(coating), sides.back.map(|_| coating)];
+            Ok::<_, ()>(())
+        });
+        for (is_so, message) in [
+            (has_two, "of a coating inside another the outer one counts, the inner one is left out"),
+            (has_holes, "the holes of a mask inside a coating go through the coating, too"),
+            (
+                has_rough_coat,
+                "what gets through the rough plastic's own coat counts as through a smooth one, inside a coating",
+            ),
+        ] {
+            if is_so {
+                self.report.warning(nested.place, message);
+            }
+        }
+        is_complete.then_some(sides)
+    }
+
     /// Gives a material a relief. One that it has already counts alone: a warning says so.
     fn relieved(
         &mut self,
@@ -256,6 +293,7 @@ fn two_sides(front: &Sides, back: &Sides) -> Sides {
     let mut both = front.clone();
     let _ = both.for_each(&mut |sides| {
         sides.back = Some(back.front);
+        sides.coatings[1] = back.coatings[0];
         sides.relief.iter_mut().for_each(|relief| relief.same_behind = true);
         Ok::<_, ()>(())
     });

@@ -49,6 +49,12 @@ pub(super) fn build(document: &mut Document, new: &Material, indentation: &str) 
         let _ = bsdf.map(|c| textured |= matches!(c, Colour::Texture(_)), is_texture);
         textured |= of_numbers;
     }
+    for coating in new.coatings.iter().flatten() {
+        let mut of_numbers = false;
+        let is_texture = |n, _| of_numbers |= matches!(n, Number::Texture(_));
+        let _ = coating.map(|c| textured |= matches!(c, Colour::Texture(_)), is_texture);
+        textured |= of_numbers;
+    }
     if !new.mixture.is_empty() {
         return Err(format!("the material \"{}\" is a blend and changed its kind", new.name));
     }
@@ -60,7 +66,8 @@ pub(super) fn build(document: &mut Document, new: &Material, indentation: &str) 
 
 /// Changes values alone; `None` where that is not enough.
 fn change_values(document: &mut Document, node: NodeId, old: &Material, new: &Material) -> Option<()> {
-    (old.relief == new.relief && old.mixture == new.mixture).then_some(())?;
+    let is_same = old.relief == new.relief && old.mixture == new.mixture && old.coatings == new.coatings;
+    is_same.then_some(())?;
     let mut node = first_inside(document, node)?;
     if kind(document, node)? == "mask" {
         match (new.opacity, old.opacity) {
@@ -94,8 +101,15 @@ fn change_values(document: &mut Document, node: NodeId, old: &Material, new: &Ma
 
 /// The element of the first BSDF inside of blends and reliefs.
 fn first_inside(document: &Document, mut node: NodeId) -> Option<NodeId> {
-    let around =
-        [wrappers::BLENDBSDF, wrappers::MIXTUREBSDF, wrappers::BUMPMAP, wrappers::NORMALMAP].map(|p| p.name);
+    let around = [
+        wrappers::BLENDBSDF,
+        wrappers::MIXTUREBSDF,
+        wrappers::BUMPMAP,
+        wrappers::NORMALMAP,
+        wrappers::COATING_PLUGIN,
+        wrappers::ROUGHCOATING_PLUGIN,
+    ]
+    .map(|p| p.name);
     while around.contains(&kind(document, node)?.as_str()) {
         node = *inside(document, node)?.first()?;
     }

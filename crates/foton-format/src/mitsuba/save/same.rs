@@ -5,8 +5,8 @@ use std::sync::Arc;
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
 use foton_scene::description::{
-    Bitmap, Bsdf, Colour, EmitterKind, Geometry, Mesh, Number, Relief, SceneDescription, SensorDescription,
-    Texture, TextureKind,
+    Bitmap, Bsdf, Coating, Colour, EmitterKind, Geometry, Mesh, Number, Relief, SceneDescription,
+    SensorDescription, Texture, TextureKind,
 };
 
 /// How far normals that were made again under another scale may lie from the first ones.
@@ -114,6 +114,10 @@ fn same_material((a, i): MaterialOf<'_>, (b, j): MaterialOf<'_>) -> bool {
     let sides = [(Some(x.front), Some(y.front)), (x.back, y.back)];
     same_colour((a, opacities[0]), (b, opacities[1]))
         && same_relief((a, x.relief), (b, y.relief))
+        && x.coatings.iter().zip(&y.coatings).all(|(x, y)| match (x, y) {
+            (Some(x), Some(y)) => same_coating((a, x), (b, y)),
+            (x, y) => x.is_none() && y.is_none(),
+        })
         && x.mixture.len() == y.mixture.len()
         && x.mixture.iter().zip(&y.mixture).all(|(x, y)| {
             same_number((a, x.weight), (b, y.weight)) && same_material((a, x.material), (b, y.material))
@@ -131,6 +135,18 @@ fn same_relief(
     let (Some(x), Some(y)) = (x, y) else { return x == y };
     (x.kind, x.same_behind) == (y.kind, y.same_behind)
         && same_colour((a, Colour::Texture(x.texture)), (b, Colour::Texture(y.texture)))
+}
+
+fn same_coating((a, x): (&SceneDescription, &Coating), (b, y): (&SceneDescription, &Coating)) -> bool {
+    let values = |coating: &Coating| {
+        let (mut colours, mut numbers) = (Vec::new(), Vec::new());
+        let rest = coating.map(|c| colours.push(c), |n, _| numbers.push(n));
+        (colours, numbers, rest)
+    };
+    let ((colours, numbers, x), (its_colours, its_numbers, y)) = (values(x), values(y));
+    x == y
+        && colours.iter().zip(&its_colours).all(|(x, y)| same_colour((a, *x), (b, *y)))
+        && numbers.iter().zip(&its_numbers).all(|(x, y)| same_number((a, *x), (b, *y)))
 }
 
 fn same_bsdf((a, x): (&SceneDescription, &Bsdf), (b, y): (&SceneDescription, &Bsdf)) -> bool {

@@ -5,7 +5,7 @@ use foton_math::Rgb;
 use foton_math::glam::{DAffine2, DAffine3, DMat3};
 use foton_scene::bsdf::Microfacets;
 use foton_scene::description::{
-    Blend, Bsdf, Colour, Material, Number, Relief, ReliefKind, Texture, TextureKind, Wrap,
+    Blend, Bsdf, Coating, Colour, Material, Number, Relief, ReliefKind, Texture, TextureKind, Wrap,
 };
 use foton_scene::parameter::{Binding, Kind, Slot};
 use foton_scene::plugins::{textures, wrappers};
@@ -119,24 +119,36 @@ impl Writer<'_> {
                 let mut around = vec![("type", wrappers::TWOSIDED.name)];
                 around.append(&mut attributes);
                 self.xml.open("bsdf", &around);
-                self.side(&material.front, inner.as_ref(), Vec::new());
-                if back != material.front {
-                    self.side(&back, inner.as_ref(), Vec::new());
+                let [over_front, over_back] = material.coatings;
+                self.side((&material.front, over_front), inner.as_ref(), Vec::new());
+                if (back, over_back) != (material.front, over_front) {
+                    self.side((&back, over_back), inner.as_ref(), Vec::new());
                 }
                 self.xml.close("bsdf");
             }
-            _ => self.side(&material.front, inner.as_ref(), attributes),
+            _ => self.side((&material.front, material.coatings[0]), inner.as_ref(), attributes),
         }
         for _ in 0..usize::from(outer) + usize::from(material.opacity.is_some()) {
             self.xml.close("bsdf");
         }
     }
 
-    /// Writes the BSDF of one side with its relief.
-    fn side(&mut self, bsdf: &Bsdf, relief: Option<&Relief>, mut attributes: Vec<(&str, &str)>) {
+    /// Writes the BSDF of one side with its relief and its coating.
+    fn side(
+        &mut self,
+        (bsdf, coating): (&Bsdf, Option<Coating>),
+        relief: Option<&Relief>,
+        mut attributes: Vec<(&str, &str)>,
+    ) {
         let is_open = self.relief(relief, &mut attributes);
+        if let Some(mut coating) = coating {
+            let mut outer = vec![("type", coating.plugin())];
+            outer.append(&mut attributes);
+            self.xml.open("bsdf", &outer);
+            self.parameters(coating.parameters());
+        }
         self.bsdf(bsdf, &attributes);
-        if is_open {
+        for _ in 0..usize::from(is_open) + usize::from(coating.is_some()) {
             self.xml.close("bsdf");
         }
     }
@@ -149,7 +161,12 @@ impl Writer<'_> {
             self.xml.value(tag, name, value);
         }
         let mut bsdf = *bsdf;
-        for binding in bsdf.parameters() {
+        self.parameters(bsdf.parameters());
+        self.xml.close("bsdf");
+    }
+
+    fn parameters(&mut self, bindings: Vec<Binding<'_>>) {
+        for binding in bindings {
             let parameter = &binding.parameters[0];
             match &binding.slot {
                 // A factor need not stand where it changes nothing.
@@ -164,7 +181,6 @@ impl Writer<'_> {
                 }
             }
         }
-        self.xml.close("bsdf");
     }
 
     pub(super) fn colour(&mut self, name: &str, value: Colour) {

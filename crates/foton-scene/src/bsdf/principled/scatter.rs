@@ -253,7 +253,7 @@ impl Model for Principled<Rgb, f32> {
     #[inline(never)]
     fn lobes(&self, wo: Vec3, transport: Transport, u: Vec2, lobes: LobeFlags) -> LobeSamples {
         if !lobes.intersects(LobeFlags::GLOSSY) {
-            return [None; 3];
+            return [None; 4];
         }
         let (outside, side, up) = (self.is_outside(wo), 1f32.copysign(wo.z), upward(wo));
         let reflection = self.glossy_reflection(up, outside, u).map(|(wi, weight)| (wi * side, weight));
@@ -266,7 +266,7 @@ impl Model for Principled<Rgb, f32> {
         let [a, b] = [reflection, refraction].map(|lobe| lobe.map_or(0.0, |(_, weight)| weight.mean()));
         let lobe =
             |(wi, weight): (Vec3, Rgb)| LobeSample { wi, weight, probability: weight.mean() / (a + b) };
-        [reflection.map(lobe), refraction.map(lobe), None]
+        [reflection.map(lobe), refraction.map(lobe), None, None]
     }
 
     #[inline(never)]

@@ -317,7 +317,7 @@ impl Model for PrincipledThin<Rgb, f32> {
     #[inline(never)]
     fn lobes(&self, wo: Vec3, transport: Transport, u: Vec2, lobes: LobeFlags) -> LobeSamples {
         if self.spec_trans <= 0.0 || !lobes.intersects(LobeFlags::GLOSSY) {
-            return [None; 3];
+            return [None; 4];
         }
         let sampled = [false, true].map(|passes| {
             let chances = if passes {
@@ -333,7 +333,7 @@ impl Model for PrincipledThin<Rgb, f32> {
         let sum: f32 = sampled.iter().flatten().map(|(_, weight)| weight.mean()).sum();
         let [reflection, passage] = sampled
             .map(|lobe| lobe.map(|(wi, weight)| LobeSample { wi, weight, probability: weight.mean() / sum }));
-        [reflection, passage, None]
+        [reflection, passage, None, None]
     }
 
     #[inline(never)]

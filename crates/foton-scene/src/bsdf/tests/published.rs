@@ -6,10 +6,10 @@ use std::f64::consts::PI;
 use super::*;
 
 /// Directions by their angle from the normal and their azimuth, in degrees.
-const DIRECTIONS: [[f64; 2]; 7] =
+pub(super) const DIRECTIONS: [[f64; 2]; 7] =
     [[0.0, 0.0], [8.0, 30.0], [25.0, 100.0], [44.0, 170.0], [61.0, 260.0], [77.0, 300.0], [86.0, 10.0]];
 
-fn direction([theta, phi]: [f64; 2]) -> Vec3 {
+pub(super) fn direction([theta, phi]: [f64; 2]) -> Vec3 {
     let ((st, ct), (sp, cp)) = (theta.to_radians().sin_cos(), phi.to_radians().sin_cos());
     Vec3::new((st * cp) as f32, (st * sp) as f32, ct as f32)
 }
@@ -26,8 +26,8 @@ fn assert_values(bsdf: Bsdf<Rgb, f32>, formula: impl Fn([f64; 2], [f64; 2]) -> f
 }
 
 /// The green share of light from `wo` that a BSDF returns, by quadrature over the sphere.
-fn albedo(s: &Scattering, wo: Vec3) -> f64 {
-    let (rows, columns) = (720, 720);
+pub(super) fn albedo(s: &Scattering, wo: Vec3) -> f64 {
+    let (rows, columns) = (400, 400);
     let mut sum = 0.0;
     for i in 0..rows {
         let theta = PI * (f64::from(i) + 0.5) / f64::from(rows);
@@ -42,7 +42,7 @@ fn albedo(s: &Scattering, wo: Vec3) -> f64 {
 }
 
 /// The same by sampling.
-fn sampled_albedo(s: &Scattering, wo: Vec3) -> f64 {
+pub(super) fn sampled_albedo(s: &Scattering, wo: Vec3) -> f64 {
     let mut stream = Stream::new(37, Purpose::Test, 0, 0);
     let n = 200_000;
     let weights = (0..n)

@@ -33,7 +33,7 @@ fn expected(s: &Scattering, wo: Vec3) -> Vec<f64> {
 
 /// Whether lobes are so wide that the quadrature tells the bins.
 fn is_wide(s: &Scattering) -> bool {
-    s.bsdf.flags().spreads() && s.bsdf.gloss().is_none_or(|alpha| alpha > 0.19)
+    s.flags().spreads() && s.narrowest() > 0.19
 }
 
 #[test]

@@ -95,7 +95,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "reading lines can be cancelled",
         file: "crates/foton-format/src/mesh/words.rs",
-        from: "if self.cancel.is_requested() {",
+        from: "if self.watch.is_requested() {",
         to: "if false {",
         target: CANCELLING,
         test: "meshes_of_every_format_are_given_up_wherever_that_is_asked_for",
