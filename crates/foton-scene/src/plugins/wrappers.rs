@@ -57,7 +57,8 @@ const FLIP: Parameter = Parameter::ignored(
     "flip_invalid_normals",
     "Normals that would point into the surface are mirrored at it.",
 );
-const SHADOWING: Parameter = Parameter::ignored(
+/// Whether Mitsuba 3 darkens light at grazing angles.
+pub const SHADOWING: Parameter = Parameter::ignored(
     "use_shadowing_function",
     "Light at grazing angles is not darkened, as with `false` in Mitsuba 3.",
 );

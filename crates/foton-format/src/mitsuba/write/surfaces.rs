@@ -94,6 +94,8 @@ impl Writer<'_> {
         if let ReliefKind::Bump { scale } = kind {
             self.xml.value("float", wrappers::SCALE.name, &single(*scale));
         }
+        // Mitsuba 3 darkens light at grazing angles unless told not to.
+        self.xml.value("boolean", wrappers::SHADOWING.name, "false");
         true
     }
 
