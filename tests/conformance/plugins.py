@@ -62,8 +62,9 @@ class Effort:
 
 PATH = Method("path", 16, 1, 8, 1.0)
 PPM = Method("ppm", 32, 1 << 14, 16, 0.9, "x0.5")
-# For pictures eight times as large.
-LARGE = {"blender": Method("ppm", 32, 1 << 17, 16, 0.9, "x0.5")}
+# For the pictures of `blender`, which are six times as large, and for suns, whose photons are noisy.
+MORE = Method("ppm", 32, 1 << 17, 16, 0.9, "x0.5")
+NEED_MORE = ("blender", "sunsky")
 FULL = Effort(4, 512, (PATH, PPM))
 QUICK = Effort(4, 256, (Method("path", 8, 1, 8, 0.97),), ("blendbsdf", "dialect-0.5", "normalmap", "phong", "principled-plastic"))
 
@@ -81,7 +82,8 @@ def check(report, foton, theirs, repository, out, effort):
         original = twin if twin.exists() else scene
         reference = references(theirs, original, scene.parent, effort)
         for usual in effort.methods:
-            method = LARGE.get(scene.parent.name, usual) if usual == PPM else usual
+            needs_more = usual == PPM and (scene.parent.name in NEED_MORE or scene.stem in NEED_MORE)
+            method = MORE if needs_more else usual
             finding, why = compare(foton, scene, original, reference, method, effort, out)
             findings.append(finding)
             add_row(report, finding, method, why)

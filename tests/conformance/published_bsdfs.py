@@ -222,12 +222,11 @@ class Coating(Published):
             return record, weight
         mirrored = (chosen < 0.5) & (si.wi.z > 0) & active
         record.wo = dr.select(mirrored, si.wi * HALF_TURN, record.wo)
-        record.pdf *= 0.5
         record.pdf = dr.select(mirrored, 0.5, record.pdf)
         flag = mi.UInt32(int(mi.BSDFFlags.DeltaReflection))
         record.sampled_type = dr.select(mirrored, flag, record.sampled_type)
         record.sampled_component = dr.select(mirrored, mi.UInt32(1), record.sampled_component)
-        return record, dr.select(mirrored, mi.Color3f(mi.fresnel(si.wi.z, self.eta)[0] * 2), weight * 2)
+        return record, dr.select(mirrored, mi.Color3f(mi.fresnel(si.wi.z, self.eta)[0] * 2), weight)
 
     def pdf(self, ctx, si, wo, active=True):
         """Of what `sample` does not mirror."""

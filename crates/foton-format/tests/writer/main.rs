@@ -14,8 +14,8 @@ use foton_scene::description::{
     Attribute, Bitmap, Blend, Bsdf, Coating, Colour, Conductor, Crop, Dielectric, Diffuse,
     DiffuseTransmitter, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Hidden, Keyframes, Lens,
     Material, Mesh, MicrofacetDistribution, Microfacets, Mirror, Motion, Null, Number, Phong, Plastic,
-    Relief, ReliefKind, RoughDiffuse, SceneDescription, SensorDescription, ShapeDescription, Texture,
-    TextureKind, ThinDielectric, Ward, Wrap,
+    Principled, PrincipledThin, Relief, ReliefKind, RoughDiffuse, SceneDescription, SensorDescription,
+    ShapeDescription, Texture, TextureKind, ThinDielectric, Ward, Wrap,
 };
 
 use parts::{sensors, shapes};
@@ -114,7 +114,41 @@ fn bsdfs() -> Vec<Bsdf> {
         plastic(true, textured(Number::Texture(1), Number::Texture(1))),
         glass(roughness(MicrofacetDistribution::Phong, 0.1, 0.2)),
         Bsdf::Null(Null),
+        principled(),
+        sheet(),
     ]
+}
+
+fn sheet() -> Bsdf {
+    Bsdf::PrincipledThin(PrincipledThin {
+        base_color: colour(0.1, 0.2, 0.3),
+        roughness: 0.11.into(),
+        anisotropic: 0.12.into(),
+        spec_trans: 0.13.into(),
+        diff_trans: 1.14.into(),
+        eta: Number::Texture(1),
+        spec_tint: 0.15.into(),
+        sheen: 0.16.into(),
+        sheen_tint: 0.17.into(),
+        flatness: 0.18.into(),
+    })
+}
+
+fn principled() -> Bsdf {
+    Bsdf::Principled(Principled {
+        base_color: Colour::Texture(0),
+        roughness: Number::Texture(1),
+        anisotropic: 0.21.into(),
+        metallic: 0.22.into(),
+        spec_trans: Number::Texture(0),
+        eta: 1.23,
+        spec_tint: 0.24.into(),
+        sheen: 2.5.into(),
+        sheen_tint: 0.26.into(),
+        flatness: 0.27.into(),
+        clearcoat: 0.28.into(),
+        clearcoat_gloss: Number::Texture(1),
+    })
 }
 
 /// Those that Mitsuba 3 does not have.

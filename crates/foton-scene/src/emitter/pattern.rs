@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use foton_math::Rgb;
 use foton_math::glam::{Mat3, Vec2};
+use rayon::prelude::*;
 
 use super::place::Place;
 use crate::attributes::Corner;
@@ -23,7 +24,7 @@ const MAX_CELLS: usize = 1 << 18;
 const EVEN: f32 = 4.0;
 
 /// Points along a side of a cell whose mean counts.
-const POINTS: (f32, f32) = (2.0, 6.0);
+const POINTS: (f32, f32) = (2.0, 4.0);
 
 /// The share of the probability that goes by area alone.
 const DEFENSIVE_SHARE: f64 = 0.02;
@@ -127,8 +128,7 @@ impl Pattern {
     fn divide(&self, part: usize, primitive: &Primitive, most: f32) -> Divided {
         let (side, points) = self.fineness(part, primitive, most);
         let step = 1.0 / (side * points) as f32;
-        let mut mean = [0.0; 3];
-        let mut weight = |x: usize, y: usize| {
+        let of_cell = |x: usize, y: usize| {
             let mut sum = [0.0; 3];
             for i in 0..points * points {
                 let at = [x * points + i % points, y * points + i / points].map(|i| (i as f32 + 0.5) * step);
@@ -136,12 +136,16 @@ impl Pattern {
                 let radiance = self.radiance(part, primitive, &place).to_array();
                 sum.iter_mut().zip(radiance).for_each(|(sum, c)| *sum += f64::from(c));
             }
-            let of_cell = sum.map(|sum| sum / (points * points) as f64);
-            mean.iter_mut().zip(of_cell).for_each(|(mean, c)| *mean += c / (side * side) as f64);
-            of_cell.iter().sum::<f64>()
+            sum.map(|sum| sum / (points * points) as f64)
         };
-        let mut weights: Vec<Vec<f64>> =
-            (0..side).map(|y| (0..side).map(|x| weight(x, y)).collect()).collect();
+        let rows: Vec<Vec<[f64; 3]>> =
+            (0..side).into_par_iter().map(|y| (0..side).map(|x| of_cell(x, y)).collect()).collect();
+        let mut mean = [0.0; 3];
+        for cell in rows.iter().flatten() {
+            mean.iter_mut().zip(cell).for_each(|(mean, c)| *mean += c / (side * side) as f64);
+        }
+        let of_row = |row: &Vec<[f64; 3]>| row.iter().map(|cell| cell.iter().sum()).collect();
+        let mut weights: Vec<Vec<f64>> = rows.iter().map(of_row).collect();
         let even = DEFENSIVE_SHARE * mean.iter().sum::<f64>();
         weights.iter_mut().flatten().for_each(|w| *w += even);
         let cells = if side == 1 {
