@@ -1,7 +1,7 @@
 //! Walks a `<scene>` and fills a description; what each plugin means is in the file of its kind.
 
 use std::collections::{BTreeSet, HashMap};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use foton_input::{printable, quoted, shown};
@@ -143,6 +143,13 @@ impl<'a> Reader<'a> {
             self.report.error(second.place, format!("a scene has only one {what}"));
         }
         found.into_iter().next()
+    }
+
+    /// Whether the scene is a file of a version before 2.
+    pub(crate) fn is_of_version_0(&self) -> bool {
+        let root = self.document.element(self.document.root());
+        let major = root.and_then(|root| major_version(root, &mut Report::new("", Path::new(""))));
+        major.is_some_and(|major| major < 2)
     }
 
     /// Whether the root is a scene of a version that is read.

@@ -1,6 +1,5 @@
 //! Skies and suns: `sunsky`, `sky` and `sun`. The models are in `sky/`.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use foton_math::glam::{DAffine3, DMat3, DVec3};
@@ -11,8 +10,6 @@ use foton_scene::plugins::emitters::{
     SUN_SCALE, SUNSKY, TO_WORLD, TURBIDITY,
 };
 
-use crate::diagnostic::Report;
-use crate::mitsuba::read::include::major_version;
 use crate::mitsuba::read::properties::Properties;
 use crate::mitsuba::read::reader::Reader;
 use crate::mitsuba::read::transform::even_scale;
@@ -71,12 +68,5 @@ impl Reader<'_> {
         };
         let bitmap = Arc::new(Sky { sun, turbidity, albedo, scales, aperture }.bitmap());
         Some(EmitterKind::Environment { to_world: DAffine3::from_mat3(to_world), bitmap, scale: 1.0 })
-    }
-
-    /// Whether the scene is a file of a version before 2.
-    fn is_of_version_0(&self) -> bool {
-        let root = self.document.element(self.document.root());
-        let major = root.and_then(|root| major_version(root, &mut Report::new("", Path::new(""))));
-        major.is_some_and(|major| major < 2)
     }
 }
