@@ -36,7 +36,7 @@ fn textbook(wo: DVec3, here: f64, beyond: f64) -> Option<(f64, DVec3)> {
 
 /// What the code says: reflectance, and where the rest goes.
 fn found(wo: Vec3, int_ior: f32, ext_ior: f32) -> (f64, Option<DVec3>) {
-    let [reflection, refraction, _] =
+    let [reflection, refraction, ..] =
         glass(int_ior, ext_ior).lobes(wo, Transport::Importance, Vec2::ZERO, LobeFlags::ALL);
     let reflected = reflection.map_or(0.0, |l| f64::from(l.weight.r));
     (reflected, refraction.map(|l| l.wi.as_dvec3()))
