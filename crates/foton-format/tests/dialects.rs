@@ -50,6 +50,20 @@ fn a_lens_of_an_old_file_is_read_by_its_old_names() {
 }
 
 #[test]
+fn a_spectrum_of_one_number_is_white_light_in_old_files_alone() {
+    let radiance = |version: &str| {
+        let emitter = "<emitter type='constant'><spectrum name='radiance' value='2'/></emitter>";
+        match read_version(version, emitter).description.emitters.pop().map(|e| e.kind) {
+            Some(EmitterKind::Constant { radiance }) => radiance,
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(radiance("0.5.0"), Rgb::splat(2.0));
+    // The same at every wavelength, as Mitsuba 3 has it, is reddish.
+    assert!(radiance("3.0.0").r > 2.4);
+}
+
+#[test]
 fn what_moves_in_an_old_file_is_read_with_the_shutter() {
     let animation = |at: [f64; 2]| {
         let transform = |time, x| format!("<transform time='{time}'><translate x='{x}'/></transform>");

@@ -42,6 +42,10 @@ pub(crate) fn element(element: &mut Element, parent: &str) {
     match element.name.as_str() {
         "default" => return,
         "lookat" => gather_points(element),
+        // The old renderers worked with red, green and blue: one number was a grey, and is white as light.
+        "spectrum" if element.attribute("value").is_some_and(|a| a.value.trim().parse::<f64>().is_ok()) => {
+            "rgb".clone_into(&mut element.name);
+        }
         _ => {}
     }
     let tag = element.name.as_str();
