@@ -14,8 +14,11 @@ fn sky(elevation: f64, turbidity: f64, albedo: f32, scales: [f64; 2]) -> Sky {
     }
 }
 
-/// What Mitsuba prints for `sunsky`, `sun_scale` 0: elevation, turbidity, albedo, direction, radiance.
-const SKIES: [(f64, f64, f32, [f64; 3], [f64; 3]); 8] = [
+/// Elevation, turbidity, albedo, direction, radiance.
+type Looked = (f64, f64, f32, [f64; 3], [f64; 3]);
+
+/// What Mitsuba prints for `sunsky` with `sun_scale` 0.
+const SKIES: [Looked; 8] = [
     (60.0, 3.0, 0.3, [0.0, 0.0, 1.0], [0.036_503_24, 0.056_689_04, 0.106_840_32]),
     (60.0, 3.0, 0.3, [0.0, 1.0, 0.2], [0.118_735_97, 0.179_304_39, 0.273_946_32]),
     (60.0, 3.0, 0.3, [1.0, 0.0, 0.5], [0.047_036_09, 0.084_631_08, 0.156_978_98]),

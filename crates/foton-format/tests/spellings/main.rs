@@ -92,11 +92,6 @@ fn a_spectrum_of_one_number_is_that_of_mitsuba() {
         [0.602_397, 0.474_146, 0.454_458],
         "light",
     );
-    // And white where its author saw it so.
-    let old = "<scene version='0.6.0'><sensor type='perspective'/><shape type='cube'><emitter type='area'>\
-               <spectrum name='radiance' value='0.5'/></emitter></shape></scene>";
-    let opened = read_str("s.xml", old, &files, &Options::default()).expect("sound");
-    assert_eq!(opened.description.shapes[0].radiance, Some(Rgb::splat(0.5).into()));
     assert_eq!(reflectance("<spectrum name='reflectance' value='0.5'/>"), Rgb::splat(0.5));
 }
 

@@ -49,10 +49,8 @@ impl Reader<'_> {
         }
     }
 
-    /// One number, the same at every wavelength, or red, green and blue. Light of the same power at every wavelength is not white in sRGB,
-    /// as which the RGB build of Mitsuba 0.6, which the authors of old files saw, showed it all the same.
+    /// One number, the same at every wavelength, or red, green and blue.
     fn without_wavelengths(&mut self, attribute: &Attribute, meaning: Meaning) -> Option<Located<Rgb>> {
-        let is_white = meaning != Meaning::Emitted || self.is_of_version_0();
         let parse = |text: &str| {
             if text.trim().starts_with('#') {
                 return values::colour(text);
@@ -67,7 +65,7 @@ impl Reader<'_> {
                     ));
                 }
             };
-            Ok(if count == 1 && !is_white { colour * EQUAL_ENERGY } else { colour })
+            Ok(if count == 1 && meaning == Meaning::Emitted { colour * EQUAL_ENERGY } else { colour })
         };
         let value = parse_attribute(attribute, parse, &mut self.report)?;
         Some(Located { value, place: attribute.value_place })
