@@ -35,7 +35,7 @@ pub enum MicrofacetDistribution {
 }
 
 impl MicrofacetDistribution {
-    /// All of them, in the order of [`DISTRIBUTIONS`].
+    /// All of them, in the order of their names in files.
     pub const ALL: [Self; 3] = [Self::Beckmann, Self::Ggx, Self::Phong];
 
     /// Its name in files.
