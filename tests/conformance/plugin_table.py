@@ -3,6 +3,8 @@
 import re
 import xml.etree.ElementTree as xml
 
+MOST_NAMES = 7
+
 INTRODUCTION = """# Plugin checks
 
 `cargo xtask conformance --plugins` renders each scene of `tests/scenes/plugins` and `tests/scenes/blender` in foton and in Mitsuba 3,
@@ -14,7 +16,7 @@ Path tracing must agree in all blocks of 8 × 8 pixels, to {bound} and {sigmas} 
 end, and must agree in {share} of them. Both must agree in the mean to {bound}.
 
 The laws that hold for every BSDF (a white furnace, reciprocity, densities that sum to one, and χ² tests of samples) are checked by
-`crates/foton-scene/src/bsdf/tests.rs`, and values against those of Mitsuba on a grid of directions by `tests/tests/bsdf_values.rs`.
+`crates/foton-scene/src/bsdf/tests`, and values against those of Mitsuba on a grid of directions by `tests/tests/bsdf_values.rs`.
 """
 
 
@@ -39,7 +41,13 @@ def plugin_rows(by_scene):
     for (tag, plugin), scenes in sorted(scenes_of.items()):
         found = [f for scene in scenes for f in by_scene[scene]]
         verdicts = [summary([f for f in found if f.method == method]) for method in methods]
-        yield row(f"{tag} `{plugin}`", ", ".join(scene.stem for scene in scenes), *verdicts)
+        yield row(f"{tag} `{plugin}`", some([scene.stem for scene in scenes]), *verdicts)
+
+
+def some(names):
+    """The first names, and how many more there are."""
+    more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
+    return ", ".join(names[:MOST_NAMES]) + more
 
 
 def scene_rows(by_scene):

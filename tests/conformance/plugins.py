@@ -63,7 +63,7 @@ class Effort:
 PATH = Method("path", 16, 1, 8, 1.0)
 PPM = Method("ppm", 32, 1 << 14, 16, 0.9, "x0.5")
 # For the pictures of `blender`, which are six times as large, and for suns, whose photons are noisy.
-MORE = Method("ppm", 32, 1 << 17, 16, 0.9, "x0.5")
+MORE = Method("ppm", 48, 1 << 17, 16, 0.9, "x0.5")
 NEED_MORE = ("blender", "sunsky")
 FULL = Effort(4, 512, (PATH, PPM))
 QUICK = Effort(4, 256, (Method("path", 8, 1, 8, 0.97),), ("blendbsdf", "dialect-0.5", "normalmap", "phong", "principled-plastic"))
