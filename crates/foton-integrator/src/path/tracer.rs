@@ -38,8 +38,6 @@ struct Path {
     class: Option<PathClass>,
     /// Where shadow rays have been sent from for the same light, and the pdf of its direction; `None` where none have.
     sampled_at: Option<(Receiver, f32)>,
-    /// How far neighbouring samples are apart, as long as they go together.
-    differential: Option<Differential>,
 }
 
 impl PathTracer {
@@ -49,42 +47,50 @@ impl PathTracer {
 
     /// Follows an eye sample to its end.
     pub(crate) fn follow(&self, scene: &Scene, sample: EyeSample, seen: &mut Seen) {
-        let EyeSample { ray, differential, mut numbers } = sample;
-        let first = Path { ray, weight: Rgb::WHITE, edges: 1, class: None, sampled_at: None, differential };
-        let mut path = Some(first);
-        while let Some(now) = path {
-            path = self.step(scene, now, &mut numbers, seen);
-        }
+        let EyeSample { ray, mut differential, mut numbers } = sample;
+        let mut path = Path { ray, weight: Rgb::WHITE, edges: 1, class: None, sampled_at: None };
+        while self.step(scene, &mut path, &mut differential, &mut numbers, seen).is_some() {}
     }
 
-    fn step(&self, scene: &Scene, path: Path, numbers: &mut Numbers, seen: &mut Seen) -> Option<Path> {
+    /// Follows the path to the next surface and on from there; `None` where it ends. `differential` is how far neighbouring samples are apart
+    /// on it, as long as they go together.
+    fn step(
+        &self,
+        scene: &Scene,
+        path: &mut Path,
+        differential: &mut Option<Differential>,
+        numbers: &mut Numbers,
+        seen: &mut Seen,
+    ) -> Option<()> {
         seen.rays += 1;
-        let Some(surface) = scene.nearest(path.ray) else {
-            self.see_surroundings(scene, &path, seen);
+        let Some(mut surface) = scene.nearest(path.ray) else {
+            self.see_surroundings(scene, path, seen);
             return None;
         };
         if path.edges == 1 {
             seen.shape = Some(surface.shape);
         }
-        let footprint = path.differential.map(|d| d.footprint(&path.ray, &surface));
-        self.see_emitter(scene, &path, (&surface, footprint.as_ref()), seen);
+        let footprint = differential.map(|d| d.footprint(&path.ray, &surface));
+        self.see_emitter(scene, path, (&surface, footprint.as_ref()), seen);
         let wo = -path.ray.direction;
+        let outward = wo.dot(surface.normal) > 0.0;
         let u = if scene.is_mixture(&surface) { numbers.choice() } else { 0.0 };
-        let (surface, _) = scene.choose_component(surface, wo.dot(surface.normal) > 0.0, u);
+        scene.choose_component(&mut surface, outward, u);
         let vertex = Vertex::new(scene, &surface, wo, &self.policy, footprint.as_ref())?;
         seen.scatters |= path.class.is_none() && vertex.split.gathers();
         if path.edges >= self.max_depth {
             return None;
         }
         if vertex.scattering.flags().spreads() {
-            self.look_for_emitters(scene, &path, &vertex, numbers, seen);
+            self.look_for_emitters(scene, path, &vertex, numbers, seen);
         }
-        let differential = path.differential.zip(footprint);
-        self.go_on(path, &vertex, numbers, seen).map(|(path, bounce)| {
-            let goes_together = bounce != Bounce::Gathered;
-            let differential = differential.filter(|_| goes_together);
-            Path { differential: vertex.bent(scene, differential, path.ray.direction), ..path }
-        })
+        let bounce = self.go_on(path, &vertex, numbers, seen)?;
+        if differential.is_some() {
+            // Light that spreads does not go together any more.
+            let arriving = differential.zip(footprint).filter(|_| bounce != Bounce::Gathered);
+            *differential = vertex.bent(scene, arriving, path.ray.direction);
+        }
+        Some(())
     }
 
     /// Adds what the path sees of emitters that are infinitely far away.
@@ -172,11 +178,11 @@ impl PathTracer {
     /// Chooses a direction in which the path goes on.
     fn go_on(
         &self,
-        path: Path,
+        path: &mut Path,
         vertex: &Vertex<'_>,
         numbers: &mut Numbers,
         seen: &mut Seen,
-    ) -> Option<(Path, Bounce)> {
+    ) -> Option<Bounce> {
         let (choice, direction) = (numbers.choice(), numbers.direction());
         let Departure { ray, weight, bounce, pdf } = vertex.sample(choice, direction)?;
         let mut weight = path.weight * weight;
@@ -194,8 +200,8 @@ impl PathTracer {
         if weight.is_black() {
             return None;
         }
-        let sampled_at = match bounce {
-            Bounce::Straight => path.sampled_at,
+        path.sampled_at = match bounce {
+            Bounce::Straight => path.sampled_at.take(),
             _ if pdf > 0.0 => {
                 let behind =
                     !is_on_the_side_of_the_path(path.ray.direction, ray.direction, vertex.surface.normal);
@@ -203,8 +209,10 @@ impl PathTracer {
             }
             _ => None,
         };
-        let class = after(path.class, bounce);
-        Some((Path { ray, weight, edges: path.edges + 1, class, sampled_at, differential: None }, bounce))
+        (path.ray, path.weight) = (ray, weight);
+        path.edges += 1;
+        path.class = after(path.class, bounce);
+        Some(bounce)
     }
 
     /// Adds light, or notes where it is no number.

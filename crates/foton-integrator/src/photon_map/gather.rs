@@ -79,11 +79,11 @@ impl Gather<'_> {
         if way.edges >= self.max_depth {
             return None;
         }
-        let surface = scene.nearest(way.ray)?;
+        let mut surface = scene.nearest(way.ray)?;
         let wo = -way.ray.direction;
         let outward = wo.dot(surface.normal) > 0.0;
         let u = if scene.is_mixture(&surface) { scratch.stream.next_1d() } else { 0.0 };
-        let (surface, _) = scene.choose_component(surface, outward, u);
+        scene.choose_component(&mut surface, outward, u);
         let scattering = scene.scattering(&surface, outward)?;
         let (frame, local) = shading_view(scene, &surface, wo);
         let met = Met { surface: &surface, scattering, frame, wo, local };

@@ -132,25 +132,26 @@ impl Scene {
         alone.into_iter().chain(all.filter(|(_, weight)| *weight > 0.0))
     }
 
-    /// One component of a surface, chosen with its weight by `u` in [0, 1), and what the choice leaves of `u`: again in [0, 1).
-    #[must_use]
+    /// Makes of a surface one of its components, chosen with its weight by `u` in [0, 1); returns what the choice leaves of `u`: again in
+    /// [0, 1).
     #[inline(always)]
-    pub fn choose_component(&self, surface: Surface, outward: bool, u: f32) -> (Surface, f32) {
+    pub fn choose_component(&self, surface: &mut Surface, outward: bool, u: f32) -> f32 {
         if self.mixtures.is_empty() && !self.census.reliefs {
-            return (surface, u);
+            return u;
         }
         self.choose_among(surface, outward, u)
     }
 
     #[inline(never)]
-    fn choose_among(&self, surface: Surface, outward: bool, u: f32) -> (Surface, f32) {
-        if !self.is_mixture(&surface) {
-            return (self.relieved(surface, outward, None), u);
+    fn choose_among(&self, surface: &mut Surface, outward: bool, u: f32) -> f32 {
+        if !self.is_mixture(surface) {
+            *surface = self.relieved(*surface, outward, None);
+            return u;
         }
         let mut left = u;
         let mut chosen = (0, 1.0);
-        for (component, it) in (0u16..).zip(self.mixtures.of(self.own_material(&surface))) {
-            let weight = self.weight(&surface, it, None);
+        for (component, it) in (0u16..).zip(self.mixtures.of(self.own_material(surface))) {
+            let weight = self.weight(surface, it, None);
             if weight > 0.0 {
                 chosen = (component, weight);
                 if left < weight {
@@ -161,10 +162,8 @@ impl Scene {
         }
         let (component, weight) = chosen;
         // Weights sum to 1 but for rounding.
-        (
-            self.relieved(Surface { component, ..surface }, outward, None),
-            (left / weight).clamp(0.0, 1.0 - f32::EPSILON),
-        )
+        *surface = self.relieved(Surface { component, ..*surface }, outward, None);
+        (left / weight).clamp(0.0, 1.0 - f32::EPSILON)
     }
 
     /// Index of the material of a surface's shape.

@@ -76,8 +76,9 @@ impl PhotonPass<'_> {
         };
         let counts = self.scene.is_mixture(surface) && self.scene.components(surface, outward).any(gathers);
         let mut stored = if counts { self.store(path, surface, wo, chunk) } else { path.stored };
-        let (surface, u_lobe) = self.scene.choose_component(*surface, outward, draw.lobe);
-        let surface = &surface;
+        let mut chosen = *surface;
+        let u_lobe = self.scene.choose_component(&mut chosen, outward, draw.lobe);
+        let surface = &chosen;
         let Some(scattering) = self.scene.scattering(surface, outward) else {
             chunk.ledger.absorbed += energy(path.power);
             return stored;
