@@ -64,6 +64,20 @@ fn a_spectrum_of_one_number_is_white_light_in_old_files_alone() {
 }
 
 #[test]
+fn what_reflects_more_than_it_gets_is_scaled_down_in_old_files() {
+    let bsdf =
+        "<shape type='cube'><bsdf type='diffuse'><rgb name='reflectance' value='2, 1, 0.5'/></bsdf></shape>";
+    let xml = format!("<scene version='0.6.0'><sensor type='perspective'/>{bsdf}</scene>");
+    let opened = read_str("s.xml", &xml, &files, &Options::default()).expect("sound");
+    let Bsdf::Diffuse(Diffuse { reflectance, .. }) = opened.description.materials[0].front else {
+        panic!("it is diffuse")
+    };
+    assert_eq!(reflectance, Rgb::new(1.0, 0.5, 0.25).into());
+    let said = opened.warnings.iter().any(|w| w.message.contains("is larger than 1, and is scaled down"));
+    assert!(said, "{:?}", opened.warnings);
+}
+
+#[test]
 fn what_moves_in_an_old_file_is_read_with_the_shutter() {
     let animation = |at: [f64; 2]| {
         let transform = |time, x| format!("<transform time='{time}'><translate x='{x}'/></transform>");

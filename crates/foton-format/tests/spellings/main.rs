@@ -1,6 +1,7 @@
 //! One meaning in many spellings: what files of all versions write, with the values that their authors meant.
 
 mod parts;
+mod skies;
 
 use std::io;
 use std::path::Path;

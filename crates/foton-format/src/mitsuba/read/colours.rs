@@ -33,6 +33,12 @@ impl Reader<'_> {
             return colour.value;
         }
         let subject = p.subject();
+        if most > 1.0 + OUT_OF_GAMUT && least >= 0.0 && parameter.range.1 == 1.0 && self.is_of_version_0() {
+            // Mitsuba 0.6 scaled what returned more than it got.
+            let message = format!("\"{name}\" of \"{subject}\" is larger than 1, and is scaled down to that");
+            self.report.warning(colour.place, message);
+            return colour.value / most;
+        }
         if least < -OUT_OF_GAMUT * most || most > 1.0 + OUT_OF_GAMUT {
             let wanted = if parameter.range.1 > 1.0 { "not be negative" } else { "lie between 0 and 1" };
             self.report.error(colour.place, format!("\"{name}\" of \"{subject}\" must {wanted}"));
