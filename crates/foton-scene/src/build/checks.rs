@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
+use rayon::prelude::*;
 
 use super::error::BuildError;
 use super::extent::Extent;
@@ -220,14 +221,17 @@ pub(super) fn world_bounds(description: &SceneDescription) -> Result<(DVec3, DVe
     let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let mut shared = HashMap::new();
     for (mesh, _) in shared_meshes(description, Instancing::Worthwhile) {
-        shared.insert(Arc::as_ptr(mesh), Extent::new(mesh));
+        shared.insert(Arc::as_ptr(mesh) as usize, Extent::new(mesh));
     }
-    for shape in &description.shapes {
+    let bounds = |shape: &ShapeDescription| {
         let extent = match &shape.geometry {
-            Geometry::Mesh(mesh) => shared.get(&Arc::as_ptr(mesh)),
+            Geometry::Mesh(mesh) => shared.get(&(Arc::as_ptr(mesh) as usize)),
             _ => None,
         };
-        let (low, high) = extent.map_or_else(|| shape_bounds(shape), |extent| extent.under(&shape.to_world));
+        extent.map_or_else(|| shape_bounds(shape), |extent| extent.under(&shape.to_world))
+    };
+    let all: Vec<_> = description.shapes.par_iter().map(bounds).collect();
+    for (shape, (low, high)) in description.shapes.iter().zip(all) {
         if low.is_nan() {
             return Err(BuildError::NotFinite(shape.name.clone()));
         }

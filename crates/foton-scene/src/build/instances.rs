@@ -102,7 +102,7 @@ impl Instances {
                 let bounds = Aabb { min: to_scene.point(min), max: to_scene.point(max) };
                 Some((i, Instance::new(i as u32, &tree, placement, bounds)?))
             };
-            Ok(placed.into_iter().filter_map(instance).collect())
+            Ok(placed.into_par_iter().filter_map(instance).collect())
         });
         let all: Vec<Vec<(usize, Instance)>> = all.collect::<Result<_, BuildError>>()?;
         Ok(Self { of: all.into_iter().flatten().collect() })
