@@ -40,7 +40,7 @@ pub use mitsuba::document::{Attribute, Document, Element, MAX_DEPTH, Node, NodeI
 pub use mitsuba::save::{Saved, save_edited};
 pub use mitsuba::write::write_scene;
 pub use open::{import, open, read_str};
-pub use opened::{MitsubaScene, Opened, Origin, SceneNodes};
+pub use opened::{ForeignScene, MitsubaScene, Opened, Origin, SceneNodes};
 pub use options::{Options, ReadFile};
 pub use suggested::Suggested;
 pub use watch::Progress;
