@@ -1,6 +1,7 @@
 //! An edited scene goes back into its own file: what changed is changed, and the rest stays as it was.
 
 mod blends;
+mod foreign;
 
 use std::fs;
 use std::path::{Path, PathBuf};

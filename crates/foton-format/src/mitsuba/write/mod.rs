@@ -7,7 +7,9 @@
 
 pub(crate) mod beyond;
 mod files;
+mod groups;
 pub(crate) mod mesh;
+mod names;
 mod shapes;
 pub(crate) mod surfaces;
 pub(crate) mod xml;
@@ -23,7 +25,8 @@ use foton_scene::description::{
 };
 use foton_scene::plugins::{emitters, sensors};
 
-use shapes::Groups;
+use groups::Groups;
+use names::{file_name, mark};
 use xml::{Xml, colour, number, single, vector};
 
 /// Writes a description as the scene file `path`, its meshes as `meshes/NAME-….ply` and its images as
@@ -43,7 +46,7 @@ pub fn write_scene(description: &SceneDescription, path: &Path, kept: &[PathBuf]
     let stem = path.file_stem().map_or_else(|| "scene".to_owned(), |s| file_name(&s.to_string_lossy()));
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
     let mut writer = Writer::new(description, folder, stem, kept);
-    writer.mark = files::mark(path);
+    writer.mark = mark(path);
     writer.scene()?;
     let text = writer.xml.finish();
     atomic_write(path, |file| file.write_all(text.as_bytes()))
@@ -263,11 +266,4 @@ impl<'a> Writer<'a> {
         xml.close("emitter");
         Ok(())
     }
-}
-
-/// A name as it may stand in a file name anywhere.
-fn file_name(name: &str) -> String {
-    let letter = |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '_' };
-    let name: String = name.chars().take(60).map(letter).collect();
-    if name.is_empty() { "unnamed".to_owned() } else { name }
 }
