@@ -1,6 +1,7 @@
 //! An edited scene goes back into its own file: what changed is changed, and the rest stays as it was.
 
 mod blends;
+mod foreign;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -351,11 +352,11 @@ fn what_has_no_place_in_the_file_is_written_anew_with_the_reason() {
         &|_| Err(std::io::ErrorKind::NotFound.into()),
         &Options::default(),
     );
-    assert_eq!(why(&memory.unwrap(), &raise), "the scene was not opened from a scene file");
-    assert_eq!(
-        why(&read(&folder.0.join("scene/meshes/tile.obj")), &raise),
-        "the scene was not opened from a scene file"
-    );
+    assert_eq!(why(&memory.unwrap(), &raise), "the scene was not opened from a file");
+    let tile = folder.0.join("scene/meshes/tile.obj");
+    assert_eq!(why(&read(&tile), &raise), "it was opened from a mesh file");
+    // Nor is the mesh file written over.
+    assert!(save_edited(&read(&tile), &opened.description, &tile).is_err());
     let write = |name: &str, text: &str| {
         let path = folder.0.join("scene").join(name);
         fs::write(&path, text).unwrap();

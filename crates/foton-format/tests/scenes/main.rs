@@ -303,7 +303,7 @@ fn instances_show_the_shapes_of_their_group_at_their_place() {
             ("one/box", 4.0, false),
             ("one/ball", 2.0, false),
             ("two/box", -2.0, false),
-            ("two/ball", -1.0, true)
+            ("two/ball", -1.0, false)
         ]
     );
     assert_eq!(shapes[0].material, shapes[2].material);
