@@ -303,11 +303,8 @@ impl Model {
             fov_axis: FovAxis::Smaller,
             width,
             height,
-            crop: None,
             filter: Filter::Gaussian { stddev: 0.5 },
-            near_clip: None,
-            far_clip: None,
-            lens: None,
+            ..SensorDescription::default()
         });
         report.warning(Place::default(), format!("a mesh file has no camera: one is placed {place}"));
     }

@@ -15,8 +15,8 @@ use foton_scene::description::{
     Attribute, Bitmap, Blend, Bsdf, Coating, Colour, Conductor, Crop, Dielectric, Diffuse,
     DiffuseTransmitter, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Hidden, Keyframes, Lens,
     Material, Mesh, MicrofacetDistribution, Microfacets, Mirror, Motion, Null, Number, Phong, Plastic,
-    Principled, PrincipledThin, Relief, ReliefKind, RoughDiffuse, SceneDescription, SensorDescription,
-    ShapeDescription, Texture, TextureKind, ThinDielectric, Ward, Wrap,
+    Principled, PrincipledThin, Projection, Relief, ReliefKind, RoughDiffuse, SceneDescription,
+    SensorDescription, ShapeDescription, Texture, TextureKind, ThinDielectric, Ward, Wrap,
 };
 
 use parts::{sensors, shapes};

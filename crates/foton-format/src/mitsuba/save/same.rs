@@ -65,7 +65,9 @@ pub(super) fn difference(a: &SceneDescription, b: &SceneDescription) -> Option<S
 
 pub(super) fn same_sensor(a: &SensorDescription, b: &SensorDescription) -> bool {
     let film = |s: &SensorDescription| (s.width, s.height, s.filter, s.near_clip, s.far_clip);
-    let view = |s: &SensorDescription| (s.to_world, s.fov_degrees, s.fov_axis, s.lens);
+    let view = |s: &SensorDescription| {
+        (s.to_world, s.projection, s.fov_degrees, s.fov_axis, s.lens, s.principal_point_offset)
+    };
     view(a) == view(b) && film(a) == film(b)
 }
 

@@ -1,6 +1,7 @@
 //! What a scene has that Mitsuba 3 does not: it is written in words of our own or of Mitsuba 0.6, which foton reads back.
 
-use foton_scene::description::{Coating, Filter, SceneDescription};
+use foton_scene::description::{Coating, Filter, SceneDescription, SensorDescription};
+use foton_scene::plugins::sensors;
 
 /// What Mitsuba 3 will not make of a scene that is written, a sentence each; nothing is said twice.
 #[must_use]
@@ -18,6 +19,21 @@ pub fn beyond_mitsuba_3(scene: &SceneDescription) -> Vec<String> {
     let is_wide = |filter: Filter| matches!(filter, Filter::Box { radius } if radius != 0.5);
     if scene.sensors.iter().any(|sensor| is_wide(sensor.filter)) {
         said.push("box filters become half a pixel wide to each side: Mitsuba 3 has no others".to_owned());
+    }
+    if scene.sensors.iter().any(|sensor| sensors::of(sensor) == sensors::TELECENTRIC) {
+        said.push(
+            "an orthographic camera with a lens is written as the \"telecentric\" of Mitsuba 0.6: Mitsuba 3 has none and will \
+             refuse the file"
+                .to_owned(),
+        );
+    }
+    let misses_middle = |sensor: &&SensorDescription| sensor.principal_point_offset != [0.0; 2];
+    if scene.sensors.iter().filter(misses_middle).any(|sensor| sensors::of(sensor) != sensors::PERSPECTIVE) {
+        said.push(
+            "a camera without perspective or with a lens has a \"principal_point_offset\": Mitsuba 3 takes that of a \
+             \"perspective\" alone and will refuse the file"
+                .to_owned(),
+        );
     }
     said
 }

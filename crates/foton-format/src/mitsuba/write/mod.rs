@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 
 use foton_film::{WriteError, atomic_write};
 use foton_scene::description::{
-    Bitmap, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh, SceneDescription,
+    Bitmap, EmitterDescription, EmitterKind, Filter, Geometry, Material, Mesh, Projection, SceneDescription,
     SensorDescription, ShapeDescription,
 };
 use foton_scene::plugins::{emitters, sensors};
@@ -173,24 +173,21 @@ impl<'a> Writer<'a> {
     fn sensor(&mut self, index: usize, sensor: &SensorDescription) {
         let (id, motion) = (self.id(&sensor.name), &self.description.motion);
         let xml = &mut self.xml;
-        let plugin = if sensor.lens.is_some() { sensors::THINLENS } else { sensors::PERSPECTIVE };
-        xml.open("sensor", &[("type", plugin.name), ("id", &id)]);
+        xml.open("sensor", &[("type", sensors::of(sensor).name), ("id", &id)]);
         if let Some(lens) = sensor.lens {
             xml.value("float", sensors::APERTURE_RADIUS.name, &number(lens.aperture_radius));
             xml.value("float", sensors::FOCUS_DISTANCE.name, &number(lens.focus_distance));
         }
-        xml.value("float", "fov", &number(sensor.fov_degrees));
-        let axis = match sensor.fov_axis {
-            FovAxis::X => "x",
-            FovAxis::Y => "y",
-            FovAxis::Diagonal => "diagonal",
-            FovAxis::Smaller => "smaller",
-            FovAxis::Larger => "larger",
-        };
-        xml.value("string", "fov_axis", axis);
-        for (name, clip) in [("near_clip", sensor.near_clip), ("far_clip", sensor.far_clip)] {
-            if let Some(clip) = clip {
-                xml.value("float", name, &number(clip));
+        if sensor.projection == Projection::Perspective {
+            xml.value("float", sensors::FOV.name, &number(sensor.fov_degrees));
+            xml.value("string", sensors::FOV_AXIS.name, sensor.fov_axis.name());
+        }
+        for (name, clip) in sensors::clips(sensor) {
+            xml.value("float", name, &number(clip));
+        }
+        for (parameter, offset) in sensors::OFFSETS.iter().zip(sensor.principal_point_offset) {
+            if offset != 0.0 {
+                xml.value("float", parameter.name, &number(offset));
             }
         }
         xml.placement("to_world", &sensor.to_world, motion.sensors.get(&index));
