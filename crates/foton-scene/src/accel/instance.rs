@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use foton_math::glam::{DAffine3, DMat3};
+use foton_math::glam::{DAffine3, DMat3, DVec3};
 use foton_math::{Aabb, Ray};
 
 use super::mesh_tree::MeshTree;
@@ -23,6 +23,8 @@ pub(crate) struct Instance {
     pub(crate) placement: Placement,
     /// The box around it in the scene.
     pub(crate) bounds: Aabb,
+    /// Its corners in the world.
+    pub(crate) corners: (DVec3, DVec3),
     /// The index of its first primitive.
     pub(super) first: u32,
     /// Scene units to those of the tree's boxes.
@@ -30,15 +32,17 @@ pub(crate) struct Instance {
 }
 
 impl Instance {
-    /// `None` where a transform cannot be inverted. `bounds` are around its triangles, in scene units.
+    /// `None` where a transform cannot be inverted. `corners` are those of the box around its triangles in the world.
     pub(crate) fn new(
         shape: u32,
         tree: &Arc<MeshTree>,
         placement: Placement,
-        bounds: Aabb,
+        corners: (DVec3, DVec3),
     ) -> Option<Self> {
         let to_boxes = scene_to_boxes(&placement, &tree.to_boxes)?;
-        Some(Self { shape, tree: Arc::clone(tree), placement, bounds, first: 0, to_boxes })
+        let [min, max] = [corners.0, corners.1].map(|corner| placement.to_scene().point(corner));
+        let (tree, bounds) = (Arc::clone(tree), Aabb { min, max });
+        Some(Self { shape, tree, placement, bounds, corners, first: 0, to_boxes })
     }
 
     /// How many triangles it has.

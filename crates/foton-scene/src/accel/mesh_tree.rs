@@ -29,7 +29,7 @@ pub(crate) struct MeshTree {
     /// Triangles with edges that nothing in the mesh continues, a bit for each edge.
     pub(crate) free: Vec<(u32, u8)>,
     /// From the mesh to the space of the boxes.
-    pub(super) to_boxes: Normalisation,
+    pub(crate) to_boxes: Normalisation,
     /// By how much boxes are larger than what is in them.
     pub(crate) padding: f32,
 }

@@ -85,7 +85,8 @@ impl Accel {
             return Ok((Self::default(), Vec::new()));
         }
         let gauge = options.step(BuildStep::Tree, cluster::items(count));
-        let padded = |b: Aabb| obvhs::aabb::Aabb { min: (b.min - padding).into(), max: (b.max + padding).into() };
+        let padded =
+            |b: Aabb| obvhs::aabb::Aabb { min: (b.min - padding).into(), max: (b.max + padding).into() };
         let all = primitives.iter().map(Primitive::bounds).chain(instances.iter().map(|i| i.bounds));
         let boxes: Vec<_> = all.map(padded).collect();
         let tree = cluster::build(&boxes, &gauge)?;
@@ -213,7 +214,8 @@ impl Accel {
     #[inline(always)]
     fn weights_of(&self, primitive: u32, ray: &ShearedRay) -> Vec2 {
         let placed = self.placed(primitive);
-        let corners = |(instance, triangle): (usize, usize)| self.instances[instance].placed(triangle).corners;
+        let corners =
+            |(instance, triangle): (usize, usize)| self.instances[instance].placed(triangle).corners;
         placed.map_or(Vec2::ZERO, |placed| ray.weights(&corners(placed)))
     }
 
@@ -225,9 +227,23 @@ impl Accel {
 
     /// The same of all primitives, those of instances too.
     pub(crate) fn for_each_near_of_all(&self, near: &Aabb, max: usize, visit: impl FnMut(usize)) {
+        self.for_each_near_of_others(near, max, None, visit);
+    }
+
+    /// The same, but for those of one instance.
+    pub(crate) fn for_each_near_of_others(
+        &self,
+        near: &Aabb,
+        max: usize,
+        but: Option<usize>,
+        visit: impl FnMut(usize),
+    ) {
         let visit = RefCell::new(visit);
-        let of_instance = |instance: usize, left: &mut usize| {
-            let instance = &self.instances[instance];
+        let of_instance = |i: usize, left: &mut usize| {
+            if Some(i) == but {
+                return;
+            }
+            let instance = &self.instances[i];
             instance.for_each_near(near, left, |i| visit.borrow_mut()(instance.index(i) as usize));
         };
         self.walk_near(near, max, |i| visit.borrow_mut()(i), of_instance);

@@ -1,8 +1,5 @@
 //! What a description must fulfil before anything is built, and how large it is.
 
-use std::collections::HashMap;
-use std::sync::Arc;
-
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
 use rayon::prelude::*;
@@ -11,7 +8,7 @@ use super::error::BuildError;
 use super::extent::Extent;
 use super::gather::even_scale;
 use super::gauge::Instancing;
-use super::instances::shared_meshes;
+use super::instances::{Extents, Known, shared_meshes};
 use super::textures::Textures;
 use crate::description::{
     Bsdf, Coating, Colour, EmitterKind, Geometry, Material, SceneDescription, SensorDescription,
@@ -201,9 +198,7 @@ pub(super) fn shape_bounds(shape: &ShapeDescription) -> (DVec3, DVec3) {
     match &shape.geometry {
         Geometry::Mesh(mesh) => return Extent::new(mesh).under(&shape.to_world),
         Geometry::Sphere { centre, radius } => {
-            around(shape.to_world.transform_point3(*centre), radius * scale)
-                .into_iter()
-                .for_each(&mut add);
+            around(shape.to_world.transform_point3(*centre), radius * scale).into_iter().for_each(&mut add);
         }
         Geometry::Disc => {
             around(shape.to_world.translation, scale).into_iter().for_each(&mut add);
@@ -218,20 +213,16 @@ pub(super) fn shape_bounds(shape: &ShapeDescription) -> (DVec3, DVec3) {
 }
 
 /// The corners of all surfaces in world units; the origin where there are none.
-pub(super) fn world_bounds(description: &SceneDescription) -> Result<(DVec3, DVec3), BuildError> {
+pub(super) fn world_bounds(
+    description: &SceneDescription,
+    known: &Known<'_>,
+) -> Result<(DVec3, DVec3), BuildError> {
     let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let mut shared = HashMap::new();
-    for (mesh, _) in shared_meshes(description, Instancing::Worthwhile) {
-        shared.insert(Arc::as_ptr(mesh) as usize, Extent::new(mesh));
-    }
-    let bounds = |shape: &ShapeDescription| {
-        let extent = match &shape.geometry {
-            Geometry::Mesh(mesh) => shared.get(&(Arc::as_ptr(mesh) as usize)),
-            _ => None,
-        };
-        extent.map_or_else(|| shape_bounds(shape), |extent| extent.under(&shape.to_world))
+    let extents = Extents::of(&shared_meshes(description, Instancing::default()), known);
+    let bounds = |(i, shape): (usize, &ShapeDescription)| {
+        extents.of_shape(i, shape).unwrap_or_else(|| shape_bounds(shape))
     };
-    let all: Vec<_> = description.shapes.par_iter().map(bounds).collect();
+    let all: Vec<_> = description.shapes.par_iter().enumerate().map(bounds).collect();
     for (shape, (low, high)) in description.shapes.iter().zip(all) {
         if low.is_nan() {
             return Err(BuildError::NotFinite(shape.name.clone()));

@@ -80,7 +80,8 @@ impl Extent {
             *reach = search.reach(&self.levels[level][i]);
         }
         loop {
-            let farthest = (0..boxes.len()).fold(0, |best, i| if reaches[i] > reaches[best] { i } else { best });
+            let farthest =
+                (0..boxes.len()).fold(0, |best, i| if reaches[i] > reaches[best] { i } else { best });
             if reaches[farthest] <= search.most {
                 return;
             }
@@ -130,7 +131,8 @@ fn along_curve(p: DVec3, [centre, half]: Box) -> u32 {
 }
 
 fn around_boxes(boxes: &[Box]) -> Box {
-    let corners: Vec<DVec3> = boxes.iter().flat_map(|[centre, half]| [centre - half, centre + half]).collect();
+    let corners: Vec<DVec3> =
+        boxes.iter().flat_map(|[centre, half]| [centre - half, centre + half]).collect();
     let [centre, half] = around(&corners);
     // Halving and adding again may lose a digit.
     [centre, half + (centre.abs() + half) * ROUNDING]
@@ -138,9 +140,8 @@ fn around_boxes(boxes: &[Box]) -> Box {
 
 /// Centre and half-size of the box around points.
 fn around(points: &[DVec3]) -> Box {
-    let (min, max) = points
-        .iter()
-        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), &p| (min.min(p), max.max(p)));
+    let (min, max) =
+        points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), &p| (min.min(p), max.max(p)));
     // A sum has what is no number; a minimum does not.
     let sound = points.iter().all(|p| p.is_finite());
     let centre = if points.is_empty() { DVec3::ZERO } else { min * 0.5 + max * 0.5 };
@@ -167,7 +168,8 @@ mod tests {
             let [x, y, z, t] = [0, 1, 2, 3].map(|i| axes[i] * [1.0, 1e-3, 40.0, 1e4][i]);
             let to_world = DAffine3::from_cols(x, y, z, t);
             let all = mesh.positions.iter().map(|&p| to_world.transform_point3(p));
-            let by_vertices = all.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(a, b), p| (a.min(p), b.max(p)));
+            let by_vertices =
+                all.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(a, b), p| (a.min(p), b.max(p)));
             assert_eq!(extent.under(&to_world), by_vertices);
         }
         let far = DAffine3::from_scale(DVec3::splat(1e308));

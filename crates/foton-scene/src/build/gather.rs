@@ -142,7 +142,8 @@ impl Gathered {
             gauge.check_at(i)?;
             let normal = smooth.then_some(|i: u32| normals[i as usize]);
             let placed = placement.oriented(vertices, |i| positions[i as usize], normal);
-            let Some(Placed { vertices, corners, normals }) = placed.filter(|_| mesh.has_area(vertices)) else {
+            let Some(Placed { vertices, corners, normals }) = placed.filter(|_| mesh.has_area(vertices))
+            else {
                 self.census.degenerate_triangles += 1;
                 continue;
             };

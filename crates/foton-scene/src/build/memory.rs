@@ -35,7 +35,8 @@ impl SceneDescription {
     #[must_use]
     pub fn build_bytes(&self) -> usize {
         let shared = shared_meshes(self, Instancing::default());
-        let of_instances: usize = shared.iter().map(|(mesh, shapes)| mesh.triangles.len() * shapes.len()).sum();
+        let of_instances: usize =
+            shared.iter().map(|(mesh, shapes)| mesh.triangles.len() * shapes.len()).sum();
         let trees: usize = shared.iter().map(|(mesh, _)| mesh.triangles.len()).sum();
         let instances: usize = shared.iter().map(|(_, shapes)| shapes.len()).sum();
         self.bytes()
@@ -47,7 +48,8 @@ impl SceneDescription {
     #[must_use]
     pub fn primitives_to_build(&self) -> usize {
         let shared = shared_meshes(self, Instancing::default());
-        let saved: usize = shared.iter().map(|(mesh, shapes)| mesh.triangles.len() * (shapes.len() - 1)).sum();
+        let saved: usize =
+            shared.iter().map(|(mesh, shapes)| mesh.triangles.len() * (shapes.len() - 1)).sum();
         self.primitives() - saved
     }
 

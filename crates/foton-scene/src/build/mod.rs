@@ -18,7 +18,7 @@ use std::sync::Arc;
 use foton_math::glam::{DVec3, Vec3};
 use foton_math::{Aabb, Rgb};
 
-use crate::accel::{Instance, MeshTree};
+use crate::accel::Instance;
 use crate::coincident::Coincidences;
 use crate::description::{Colour, Material, SceneDescription, SensorDescription, ShapeDescription};
 use crate::emitter::{Aim, Area, Emitter, Kind};
@@ -36,7 +36,7 @@ pub use error::BuildError;
 use gather::Gathered;
 pub(crate) use gauge::Gauge;
 pub use gauge::{BuildOptions, BuildStep, Instancing, Tell};
-use instances::Instances;
+use instances::{Instances, Known};
 use orientation::orientation;
 use patches::Patches;
 pub(crate) use patches::{Patch, PlacedPatches};
@@ -59,7 +59,7 @@ impl Scene {
         description: &SceneDescription,
         options: &BuildOptions<'_>,
     ) -> Result<Self, BuildError> {
-        Self::build_knowing(description, &[], options)
+        Self::build_knowing(description, &Known::default(), options)
     }
 
     /// The scene of a description that was edited since this one was built, as [`Scene::build_with`] makes it. Trees over meshes that
@@ -72,20 +72,20 @@ impl Scene {
         description: &SceneDescription,
         options: &BuildOptions<'_>,
     ) -> Result<Self, BuildError> {
-        Self::build_knowing(description, &self.mesh_trees(), options)
+        Self::build_knowing(description, &Known::of(self), options)
     }
 
     fn build_knowing(
         description: &SceneDescription,
-        known: &[Arc<MeshTree>],
+        known: &Known<'_>,
         options: &BuildOptions<'_>,
     ) -> Result<Self, BuildError> {
         if description.motion.is_still() {
-            return Self::build_still(description, world_bounds(description)?, known, options);
+            return Self::build_still(description, world_bounds(description, known)?, known, options);
         }
         let mut bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for time in description.motion.times() {
-            let (min, max) = world_bounds(&description.at(time))?;
+            let (min, max) = world_bounds(&description.at(time), known)?;
             bounds = (bounds.0.min(min), bounds.1.max(max));
         }
         // Whoever does not ask for another time sees what the first camera's shutter sees first.
@@ -95,11 +95,21 @@ impl Scene {
         Ok(Self { moving: Some(Arc::new(moving)), ..scene })
     }
 
+    /// The scene of a description in which nothing moves, with the scene units of this one, of which something does.
+    pub(crate) fn build_at_another_time(
+        &self,
+        description: &SceneDescription,
+        bounds: (DVec3, DVec3),
+        options: &BuildOptions<'_>,
+    ) -> Result<Self, BuildError> {
+        Self::build_still(description, bounds, &Known::of(self), options)
+    }
+
     /// The same of a description in which nothing moves; all that ever is lies between `min` and `max`.
-    pub(crate) fn build_still(
+    fn build_still(
         description: &SceneDescription,
         (min, max): (DVec3, DVec3),
-        known: &[Arc<MeshTree>],
+        known: &Known<'_>,
         options: &BuildOptions<'_>,
     ) -> Result<Self, BuildError> {
         options.cancel.check()?;
@@ -121,7 +131,8 @@ impl Scene {
             parts.add((i as u32, shape), instance, description, &normalisation, &gauge)?;
         }
         let Parts { mut gathered, shapes, mut emitters, casters, instances, .. } = parts;
-        let boxes = gathered.primitives.iter().map(Primitive::bounds).chain(instances.iter().map(|i| i.bounds));
+        let boxes =
+            gathered.primitives.iter().map(Primitive::bounds).chain(instances.iter().map(|i| i.bounds));
         let bounds = boxes.fold(Aabb::EMPTY, Aabb::union);
         let bounds = if bounds.is_empty() { Aabb::around(Vec3::ZERO, 1.0) } else { bounds };
         let attributes = gathered.attributes();

@@ -45,8 +45,7 @@ impl Scene {
                 .flatten()
                 .any(|c: &Candidate| c.shape == shape && c.normal.dot(sheet.normal) > 0.0 && !is_own);
             if !known && count < MAX {
-                found[count] =
-                    Some(Candidate { primitive: j, shape, rank, normal: sheet.normal, gap });
+                found[count] = Some(Candidate { primitive: j, shape, rank, normal: sheet.normal, gap });
                 count += 1;
             }
         });

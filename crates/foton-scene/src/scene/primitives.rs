@@ -1,11 +1,8 @@
 //! What a scene knows of a primitive, by its index: looked up for its own, worked out for those of instances.
 
-use std::sync::Arc;
-
 use foton_math::glam::{Vec2, Vec3};
 
 use super::{Part, Scene};
-use crate::accel::MeshTree;
 use crate::attributes::Corner;
 use crate::surface::Surface;
 
@@ -64,10 +61,5 @@ impl Scene {
         let is_turned =
             instance.placed(triangle).vertices != instance.tree.mesh.triangles[primitive as usize];
         Corner { shape, primitive, weights, is_turned }
-    }
-
-    /// The trees over meshes that several shapes share.
-    pub(crate) fn mesh_trees(&self) -> Vec<Arc<MeshTree>> {
-        self.accel.mesh_trees().cloned().collect()
     }
 }

@@ -199,7 +199,8 @@ fn an_instance_that_lies_on_a_floor_is_settled_with_it() {
 #[test]
 fn instances_that_continue_each_other_are_one_surface() {
     const SIDE: u32 = 6;
-    let corner = |i: u32| DVec3::new(f64::from(i % (SIDE + 1)), 0.0, f64::from(i / (SIDE + 1))) / f64::from(SIDE);
+    let corner =
+        |i: u32| DVec3::new(f64::from(i % (SIDE + 1)), 0.0, f64::from(i / (SIDE + 1))) / f64::from(SIDE);
     let square = |i: u32| {
         let first = i % SIDE + i / SIDE * (SIDE + 1);
         [[first, first + SIDE + 1, first + 1], [first + 1, first + SIDE + 1, first + SIDE + 2]]

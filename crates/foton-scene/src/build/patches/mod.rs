@@ -25,8 +25,8 @@ use crate::primitive::Primitive;
 use edges::join_equal_edges;
 pub(crate) use number::Patch;
 use number::{Members, number};
-use placed::{Joined, beyond_instances, placed};
 pub(crate) use placed::PlacedPatches;
+use placed::{Joined, beyond_instances, placed};
 use probe::{Continuation, probed};
 use sets::Sets;
 
@@ -71,6 +71,7 @@ pub(super) fn find(
     let mut own = number(&members, &stores, &mut sets, !accel.instances().is_empty(), &gauge)?;
     let mut placed = placed(accel, &stores);
     joined.enter(&own.split_off(primitives.len()), &mut placed);
-    let is_open = |&(i, free): &(u32, u8)| free != 0 && matches!(primitives[i as usize], Primitive::Triangle(_));
+    let is_open =
+        |&(i, free): &(u32, u8)| free != 0 && matches!(primitives[i as usize], Primitive::Triangle(_));
     Ok(Patches { own, placed, free: (0..).zip(free).filter(is_open).collect() })
 }

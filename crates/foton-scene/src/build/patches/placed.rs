@@ -56,7 +56,8 @@ pub(super) fn placed(accel: &Accel, stores: impl Fn(u32) -> bool) -> Vec<PlacedP
     let mut shift = 0;
     for i in order {
         let instance = &instances[i];
-        patches[i] = PlacedPatches { stores: stores(instance.index(0)), shift: shift as u8, joined: Vec::new() };
+        patches[i] =
+            PlacedPatches { stores: stores(instance.index(0)), shift: shift as u8, joined: Vec::new() };
         let count = instance.tree.patch_numbers;
         shift = (shift + if count.is_multiple_of(SHARED) { 1 } else { count }) % SHARED;
     }

@@ -24,7 +24,7 @@ pub(super) struct Continuation {
     pub(super) side: u8,
 }
 
-/// What continues a primitive flush beyond its free edges.
+/// What continues a primitive flush beyond its free edges. What does within its own mesh, if that is an instance's, is known.
 pub(super) fn probed(
     accel: &Accel,
     index: u32,
@@ -32,8 +32,9 @@ pub(super) fn probed(
     stores: &(impl Fn(u32) -> bool + Sync),
 ) -> Vec<Continuation> {
     let mut found = Vec::new();
+    let own = accel.placed(index).map(|(instance, _)| instance);
     let mut probe = |edge: Rim, side: usize| {
-        if let Some((other, turned)) = edge.continued_in(accel, stores) {
+        if let Some((other, turned)) = edge.continued_in(accel, own, stores) {
             found.push(Continuation { primitive: index, other, turned, side: side as u8 });
         }
     };
@@ -84,15 +85,20 @@ struct Rim {
 impl Rim {
     /// The primitive that lies flush beyond the edge, and whether its normal is turned. One that goes on below or above the
     /// surface itself, as the floor does under a card, does not continue it.
-    fn continued_in(&self, accel: &Accel, stores: &impl Fn(u32) -> bool) -> Option<(u32, bool)> {
+    fn continued_in(
+        &self,
+        accel: &Accel,
+        own: Option<usize>,
+        stores: &impl Fn(u32) -> bool,
+    ) -> Option<(u32, bool)> {
         let Self { point, outward, normal, step } = *self;
         let height = 4.0 * step;
-        let cosine_along = |origin: Vec3, direction: Vec3| {
+        let cosine_along = |origin: Vec3, direction: Vec3, but: Option<usize>| {
             let ray = Ray { origin, direction, t_min: 0.0, t_max: 2.0 * height };
             let sheared = ShearedRay::new(ray);
             let near = Aabb::EMPTY.with(origin).with(ray.at(ray.t_max));
             let mut nearest: Option<(f32, u32, f32)> = None;
-            accel.for_each_near_of_all(&near, MAX_NEAR, |index| {
+            accel.for_each_near_of_others(&near, MAX_NEAR, but, |index| {
                 let (index, primitive) = (index as u32, &accel.primitive(index as u32));
                 let farthest = nearest.map_or(ray.t_max, |(t, ..)| t);
                 let Some(t) = sheared.hit_other(primitive, farthest).filter(|_| stores(index)) else {
@@ -106,11 +112,11 @@ impl Rim {
             });
             nearest.map(|(_, index, cosine)| (index, cosine))
         };
-        let (other, cosine) = cosine_along(point + outward * step + normal * height, -normal)?;
+        let (other, cosine) = cosine_along(point + outward * step + normal * height, -normal, own)?;
         let inside = point - outward * (2.0 * step);
         let overlaps = [normal, -normal]
             .into_iter()
-            .any(|side| cosine_along(inside + side * (step / PROBED_STEPS), side).is_some());
+            .any(|side| cosine_along(inside + side * (step / PROBED_STEPS), side, None).is_some());
         (!overlaps).then_some((other, cosine < 0.0))
     }
 }
