@@ -28,6 +28,7 @@ mod mitsuba;
 mod open;
 mod opened;
 mod options;
+mod pbrt;
 mod sky;
 mod spelling;
 mod standalone;

@@ -14,7 +14,7 @@ use crate::limits::Budget;
 use crate::mitsuba::read::reader::Reader;
 use crate::opened::{MitsubaScene, Opened, Origin};
 use crate::options::{Options, ReadFile};
-use crate::{mitsuba::read::include, standalone};
+use crate::{mitsuba::read::include, pbrt, standalone};
 
 /// Opens a scene file; the files that it names are found from its folder. An OBJ, PLY or STL file is a whole scene: what
 /// it lacks is added, and a warning says so.
@@ -48,6 +48,9 @@ pub fn import(path: &Path, options: &Options) -> Result<SceneDescription, OpenEr
 fn open_with(path: &Path, options: &Options, files: &ReadFile<'_>) -> Result<Opened, OpenError> {
     if let Some(kind) = standalone::Kind::of(path) {
         return standalone::open(path, kind, files, options);
+    }
+    if pbrt::is_named(path) {
+        return pbrt::open(path, files, options);
     }
     let name = path.to_string_lossy();
     let folder = path.parent().unwrap_or(Path::new(""));

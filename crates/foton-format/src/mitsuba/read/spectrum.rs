@@ -111,7 +111,8 @@ fn observer(nm: u32) -> [f64; 4] {
     std::array::from_fn(|i| TABLE[low][i] + (TABLE[high][i] - TABLE[low][i]) * share)
 }
 
-fn xyz_to_srgb(c: DVec3) -> DVec3 {
+/// Linear sRGB of CIE XYZ; channels outside the gamut are below zero or above 1.
+pub(crate) fn xyz_to_srgb(c: DVec3) -> DVec3 {
     DVec3::new(
         DVec3::new(3.240_479, -1.537_150, -0.498_535).dot(c),
         DVec3::new(-0.969_256, 1.875_991, 0.041_556).dot(c),
