@@ -23,13 +23,17 @@ use crate::{mitsuba::read::include, pbrt, standalone};
 /// Everything that is wrong with the file, unless it is not well-formed XML: then the first problem. Or that reading was cancelled.
 pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
     let files = RefCell::new(Vec::new());
-    let opened = open_with(path, options, &|file| {
-        // The file itself may be a pipe; what it names may not.
-        let named = if file == path { Named::ByUser } else { Named::ByFile };
-        let bytes = options.read(file, named)?;
-        files.borrow_mut().push(file.to_owned());
-        Ok(bytes)
-    })?;
+    let opened = open_from(
+        path,
+        &|file| {
+            // The file itself may be a pipe; what it names may not.
+            let named = if file == path { Named::ByUser } else { Named::ByFile };
+            let bytes = options.read(file, named)?;
+            files.borrow_mut().push(file.to_owned());
+            Ok(bytes)
+        },
+        options,
+    )?;
     Ok(Opened { files: files.into_inner(), ..opened })
 }
 
@@ -45,7 +49,11 @@ pub fn import(path: &Path, options: &Options) -> Result<SceneDescription, OpenEr
     Ok(standalone::shapes_alone(open(path, options)?.description))
 }
 
-fn open_with(path: &Path, options: &Options, files: &ReadFile<'_>) -> Result<Opened, OpenError> {
+/// Opens a scene as [`open`] does, from files that `files` has.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_from(path: &Path, files: &ReadFile<'_>, options: &Options) -> Result<Opened, OpenError> {
     if let Some(kind) = standalone::Kind::of(path) {
         return standalone::open(path, kind, files, options);
     }

@@ -4,8 +4,8 @@
 //! not mirrored is: its numbers are those of the file, and the picture is the same.
 
 use foton_input::quoted;
-use foton_math::glam::{DAffine3, DMat3, DVec3};
-use foton_scene::description::{Crop, Filter, FovAxis, Keyframes, Lens, SensorDescription};
+use foton_math::glam::{DAffine3, DMat3, DVec2, DVec3};
+use foton_scene::description::{Crop, Filter, FovAxis, Keyframes, Lens, Projection, SensorDescription};
 
 use super::parameters::{Kind, Parameters};
 use super::reader::{Camera, Reader};
@@ -22,6 +22,26 @@ struct Film {
     crop: Option<Crop>,
 }
 
+/// The part of the plane at a distance of 1 that the image shows, x to the right and y up.
+#[derive(Clone, Copy)]
+struct Window {
+    low: DVec2,
+    high: DVec2,
+}
+
+impl Window {
+    fn size(self) -> DVec2 {
+        self.high - self.low
+    }
+
+    /// Where its middle is, in shares of its width to the right and of its height down.
+    fn offset(self) -> [f64; 2] {
+        let middle = 0.5 * (self.low + self.high) / self.size();
+        let share = |c: f64| if c.abs() < 1e-9 { 0.0 } else { c };
+        [share(middle.x), share(-middle.y)]
+    }
+}
+
 impl Reader<'_> {
     /// Makes the sensor of the file.
     pub(crate) fn sensor(&mut self) {
@@ -31,7 +51,7 @@ impl Reader<'_> {
             return;
         };
         let known = ["perspective", "orthographic", "environment", "spherical", "realistic"];
-        if p.plugin != "perspective" {
+        if !matches!(p.plugin.as_str(), "perspective" | "orthographic") {
             let name = quoted(&p.plugin);
             let message = if known.contains(&p.plugin.as_str()) {
                 format!("the camera {name} is not supported yet")
@@ -41,97 +61,133 @@ impl Reader<'_> {
             self.report.error(p.place, message);
             return;
         }
-        let aspect = f64::from(film.width) / f64::from(film.height);
-        let mut fov = p.number_or("fov", 90.0, &mut self.report);
-        if let Some(half) = p.number("halffov", &mut self.report) {
-            fov = 2.0 * half.value;
-        }
-        if !(fov > 0.0 && fov < 180.0) {
-            self.report.error(p.place_of("fov"), "\"fov\" must lie between 0 and 180 degrees");
-            return;
-        }
-        // What the shorter side of the image spans, at a distance of 1.
-        let tangent = (0.5 * fov).to_radians().tan() * self.screen_window(&p, aspect);
-        let [open, close] = [("shutteropen", 0.0), ("shutterclose", 1.0)]
-            .map(|(name, default)| p.number_or(name, default, &mut self.report));
-        let places = transforms.inverse().0.map(|t| t * TO_THE_LEFT);
-        let Some((to_world, scale, stretch)) = without_scale(places[0]) else {
-            self.report.error(p.place, "the transform of a camera must not shear, nor stretch the image");
-            return;
-        };
-        let radius = p.number_or("lensradius", 0.0, &mut self.report);
-        let focus_distance = p.above_zero("focaldistance", 1e6, &mut self.report) * scale * stretch;
-        let lens = (radius > 0.0).then_some(Lens { aperture_radius: radius * scale, focus_distance });
-        if radius < 0.0 {
-            self.report.error(p.place_of("lensradius"), "\"lensradius\" must not be negative");
-        }
-        p.finish(&mut self.report);
-        let sensor = self.description.sensors.len();
-        if close > open {
-            self.description.motion.shutters.insert(sensor, [open, close]);
-        }
-        if places[0] != places[1] {
-            let keyframes = [0, 1].map(|i| (self.times[i], places[i])).to_vec();
-            match Keyframes::new(keyframes) {
-                Some(keyframes) => drop(self.description.motion.sensors.insert(sensor, keyframes)),
-                None => self.report.warning(
-                    p.place,
-                    "a camera that is mirrored or scaled does not move: it stands where it begins",
-                ),
-            }
-        }
-        self.description.sensors.push(SensorDescription {
+        let default =
+            if self.is_old() { Filter::Box { radius: 0.5 } } else { Filter::Gaussian { stddev: 0.5 } };
+        let described = SensorDescription {
             name: "sensor".to_owned(),
-            to_world,
-            fov_degrees: 2.0 * (tangent / stretch).atan().to_degrees(),
-            fov_axis: FovAxis::Smaller,
             width: film.width,
             height: film.height,
             crop: film.crop,
-            filter: self.filter.unwrap_or(if self.is_old() {
-                Filter::Box { radius: 0.5 }
-            } else {
-                Filter::Gaussian { stddev: 0.5 }
-            }),
-            near_clip: None,
-            far_clip: None,
-            lens,
-        });
+            filter: self.filter.unwrap_or(default),
+            ..SensorDescription::default()
+        };
+        let places = transforms.inverse().0.map(|t| t * TO_THE_LEFT);
+        let described = self.projected(&p, places[0], described);
+        self.motion_of_sensor(&p, places);
+        p.finish(&mut self.report);
+        self.description.sensors.extend(described);
     }
 
-    /// How much of what the field of view spans the shorter side of the image shows.
-    fn screen_window(&mut self, p: &Parameters, aspect: f64) -> f64 {
-        let window = p.numbers("screenwindow", &[Kind::Float], &mut self.report);
-        let ratio = p.number_or("frameaspectratio", aspect, &mut self.report);
-        let window = match window {
+    /// A sensor with what it sees.
+    fn projected(
+        &mut self,
+        p: &Parameters,
+        place: DAffine3,
+        sensor: SensorDescription,
+    ) -> Option<SensorDescription> {
+        let aspect = f64::from(sensor.width) / f64::from(sensor.height);
+        let window = self.screen_window(p, aspect)?;
+        let radius = p.number_or("lensradius", 0.0, &mut self.report);
+        let focus = p.above_zero("focaldistance", 1e6, &mut self.report);
+        if radius < 0.0 {
+            self.report.error(p.place_of("lensradius"), "\"lensradius\" must not be negative");
+        }
+        let Some((to_world, scale, stretch)) = without_scale(place) else {
+            self.report.error(p.place, "the transform of a camera must not shear, nor stretch the image");
+            return None;
+        };
+        let principal_point_offset = window.offset();
+        if p.plugin == "orthographic" {
+            if radius > 0.0 {
+                self.report.warning(
+                    p.place_of("lensradius"),
+                    "a camera without perspective shows everything sharp: \"lensradius\" has no effect",
+                );
+            }
+            let half = 0.5 * scale * window.size();
+            let scale = DAffine3::from_scale(DVec3::new(half.x, half.y * aspect, 1.0));
+            let projection = Projection::Orthographic;
+            return Some(SensorDescription {
+                to_world: to_world * scale,
+                projection,
+                principal_point_offset,
+                ..sensor
+            });
+        }
+        let fov = match p.number("halffov", &mut self.report) {
+            Some(half) => 2.0 * half.value,
+            None => p.number_or("fov", 90.0, &mut self.report),
+        };
+        if !(fov > 0.0 && fov < 180.0) {
+            self.report.error(p.place_of("fov"), "\"fov\" must lie between 0 and 180 degrees");
+            return None;
+        }
+        let size = window.size();
+        if (size.x / size.y / aspect - 1.0).abs() > 0.02 {
+            let name = if p.has("screenwindow") { "screenwindow" } else { "frameaspectratio" };
+            self.report.error(
+                p.place_of(name),
+                "the pixels of this camera are not square: what it sees has another shape than the film",
+            );
+        }
+        // What the shorter side of the image spans, at a distance of 1.
+        let tangent = 0.5 * size.min_element() * (0.5 * fov).to_radians().tan() / stretch;
+        let focus_distance = focus * scale * stretch;
+        let lens = (radius > 0.0).then_some(Lens { aperture_radius: radius * scale, focus_distance });
+        let fov_degrees = 2.0 * tangent.atan().to_degrees();
+        Some(SensorDescription {
+            to_world,
+            fov_degrees,
+            fov_axis: FovAxis::Smaller,
+            lens,
+            principal_point_offset,
+            ..sensor
+        })
+    }
+
+    /// When the shutter of the sensor that comes next is open, and how it moves.
+    fn motion_of_sensor(&mut self, p: &Parameters, places: [DAffine3; 2]) {
+        let sensor = self.description.sensors.len();
+        let times = [("shutteropen", 0.0), ("shutterclose", 1.0)];
+        let [open, close] = times.map(|(name, default)| p.number_or(name, default, &mut self.report));
+        // Where nothing moves a shutter has nothing to blur.
+        let moves = places[0] != places[1] || !self.description.motion.is_still();
+        if close > open && moves {
+            self.description.motion.shutters.insert(sensor, [open, close]);
+        }
+        if places[0] == places[1] {
+            return;
+        }
+        let keyframes = [0, 1].map(|i| (self.times[i], places[i])).to_vec();
+        match Keyframes::new(keyframes) {
+            Some(keyframes) => drop(self.description.motion.sensors.insert(sensor, keyframes)),
+            None => {
+                let message = "a camera that is mirrored or scaled does not move: it stands where it begins";
+                self.report.warning(p.place, message);
+            }
+        }
+    }
+
+    /// The part of the plane at a distance of 1 that the image shows.
+    fn screen_window(&mut self, p: &Parameters, aspect: f64) -> Option<Window> {
+        let ratio = p.above_zero("frameaspectratio", aspect, &mut self.report);
+        let window = match p.numbers("screenwindow", &[Kind::Float], &mut self.report) {
             None if ratio > 1.0 => [-ratio, ratio, -1.0, 1.0],
             None => [-1.0, 1.0, -1.0 / ratio, 1.0 / ratio],
             Some([x0, x1, y0, y1]) => [*x0, *x1, *y0, *y1],
             Some(other) => {
-                self.report.error(
-                    p.place_of("screenwindow"),
-                    format!("\"screenwindow\" has four numbers, not {}", other.len()),
-                );
-                return 1.0;
+                let message = format!("\"screenwindow\" has four numbers, not {}", other.len());
+                self.report.error(p.place_of("screenwindow"), message);
+                return None;
             }
         };
         let [x0, x1, y0, y1] = window;
-        let (width, height) = (x1 - x0, y1 - y0);
-        let place = p.place_of(if p.has("screenwindow") { "screenwindow" } else { "frameaspectratio" });
-        if !(width > 0.0 && height > 0.0) {
-            self.report.error(place, "a screen window has no extent");
-            return 1.0;
+        let window = Window { low: DVec2::new(x0, y0), high: DVec2::new(x1, y1) };
+        if window.size().min_element() > 0.0 {
+            return Some(window);
         }
-        if (width / height / aspect - 1.0).abs() > 0.02 {
-            self.report.error(
-                place,
-                "the pixels of this camera are not square: the screen window has another shape than the film",
-            );
-        }
-        if (x0 + x1).abs() > 1e-4 * width || (y0 + y1).abs() > 1e-4 * height {
-            self.report.error(place, "a screen window that is not around the middle is not supported yet");
-        }
-        0.5 * width.min(height)
+        self.report.error(p.place_of("screenwindow"), "the screen window has no extent");
+        None
     }
 
     fn film(&mut self) -> Film {

@@ -116,23 +116,21 @@ impl Reader<'_> {
         let mut points: Vec<(f64, f64)> =
             pairs.iter().map(|[wavelength, value]| (*wavelength, *value)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        // Version 3 goes on with the first and the last value, and so do both with a single one.
-        if self.is_old() || points.len() == 1 {
-            let (first, last) = (points[0], points[points.len() - 1]);
-            if first.0 > 300.0 {
-                points.insert(0, (300.0, first.1));
-            }
-            if last.0 < 900.0 {
-                points.push((900.0, last.1));
-            }
+        if let [(_, value)] = points[..] {
+            points = vec![(0.0, value), (1000.0, value)];
         }
-        match Spectrum::of_points(points) {
+        match Spectrum::of_points(points).map(|spectrum| self.held(spectrum)) {
             Ok(spectrum) => self.of_spectrum(&spectrum, parameter.value_place, meaning),
             Err(message) => {
                 self.report.error(parameter.value_place, message);
                 None
             }
         }
+    }
+
+    /// A spectrum as its version has it: 3 goes on with the first and the last value.
+    fn held(&self, spectrum: Spectrum) -> Spectrum {
+        if self.is_old() { spectrum.held_at_ends() } else { spectrum }
     }
 
     fn of_spectrum(
@@ -189,8 +187,9 @@ impl Reader<'_> {
             let failed = |message| {
                 self.report.error(name.place, format!("cannot read {}: {message}", shown_path(&path)));
             };
-            text.and_then(|text| Spectrum::parse_file(&text)).map_err(failed).ok().map(Rc::new)
+            text.and_then(|text| Spectrum::parse_file(&text)).map_err(failed).ok()
         });
+        let spectrum = spectrum.map(|spectrum| Rc::new(self.held(spectrum)));
         self.spectra.insert(key, spectrum.clone());
         spectrum
     }

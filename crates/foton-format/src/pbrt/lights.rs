@@ -40,6 +40,7 @@ impl Reader<'_> {
         }
         let Some(kind) = kind else { return };
         let name = format!("{}-{}", p.plugin, self.description.emitters.len() + 1);
+        self.remember(&name, p.place);
         self.description.emitters.push(EmitterDescription { name, kind });
     }
 

@@ -142,6 +142,7 @@ impl Reader<'_> {
                 });
                 self.made_materials.opacities.push(Rc::clone(opacity));
             }
+            self.remember(&definition.name, definition.parameters.place);
             self.enter(definition.name.clone(), sides)
         });
         self.made_materials.indices.insert(key, made);

@@ -49,7 +49,7 @@ use crate::encoding::decoded;
 use crate::files::Files;
 use crate::hash::Fnv1a;
 use crate::limits::Budget;
-use crate::opened::{Opened, Origin};
+use crate::opened::{ForeignScene, Opened, Origin};
 use crate::options::{Options, ReadFile};
 use reader::Reader;
 use version::Version;
@@ -96,13 +96,13 @@ pub(crate) fn open(path: &Path, files: &ReadFile<'_>, options: &Options) -> Resu
     reader.check_closed();
     reader.sensor();
     options.cancel.check()?;
-    let Reader { report, files, description, suggested, .. } = reader;
+    let Reader { report, files, description, suggested, places, .. } = reader;
     let warnings = report.finish()?;
     hash.add(&files.hash.finish().to_le_bytes());
     Ok(Opened {
         description,
-        origin: Origin::Mesh,
-        path: None,
+        origin: Origin::Foreign(ForeignScene { kind: "a pbrt scene", places }),
+        path: Some(path.to_owned()),
         files: Vec::new(),
         options: options.without_cancel(),
         suggested,

@@ -48,6 +48,7 @@ impl Reader<'_> {
             }
         };
         let place = self.place_of_motion(transforms.map(|t| t * local), &geometry, shape.place);
+        self.remember(&name, shape.place);
         let Some(material) = self.material(&shape.material, coordinates, shape.opacity.as_ref()) else {
             return true;
         };

@@ -72,6 +72,8 @@ pub(crate) struct Reader<'a> {
     /// Meshes with texture coordinates of their own, by those without.
     pub(crate) unfolded: HashMap<*const Mesh, (Arc<Mesh>, Arc<Mesh>)>,
     pub(crate) spectra: HashMap<PathBuf, Option<Rc<Spectrum>>>,
+    /// Where parts of the description stand, by their names: of the first of them.
+    pub(crate) places: HashMap<String, (String, Place)>,
 }
 
 impl<'a> Reader<'a> {
@@ -108,6 +110,7 @@ impl<'a> Reader<'a> {
             round: HashMap::new(),
             unfolded: HashMap::new(),
             spectra: HashMap::new(),
+            places: HashMap::new(),
         }
     }
 
@@ -125,6 +128,14 @@ impl<'a> Reader<'a> {
     pub(crate) fn take(&mut self, bytes: u64, place: Place) -> bool {
         let taken = self.files.budget.take(bytes);
         taken.map_err(|message| self.report.error(place, message)).is_ok()
+    }
+
+    /// Remembers where a part of the description stands.
+    pub(crate) fn remember(&mut self, name: &str, place: Place) {
+        const MOST: usize = 10_000;
+        if self.places.len() < MOST {
+            self.places.insert(name.to_owned(), self.report.in_file(place));
+        }
     }
 
     /// Opens something that an end closes later.

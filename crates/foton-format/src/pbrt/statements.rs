@@ -72,11 +72,12 @@ impl<'t> Tokens<'t> {
         Ok(numbers)
     }
 
-    /// Goes on to the next word that may be a directive.
+    /// Goes on to the next word that may be a directive: those begin with a capital.
     pub(crate) fn skip_statement(&mut self) {
         loop {
             match self.peek() {
-                None | Some(Ok((Token::Word(_), _))) => return,
+                None => return,
+                Some(Ok((Token::Word(word), _))) if !word.starts_with(char::is_lowercase) => return,
                 Some(_) => drop(self.next()),
             }
         }

@@ -65,6 +65,20 @@ impl Spectrum {
         Ok(Self(points))
     }
 
+    /// The same with its first and its last value beyond its ends, over all that is visible.
+    pub(crate) fn held_at_ends(mut self) -> Self {
+        let (low, high) = (f64::from(FIRST_NM) - 1.0, f64::from(FIRST_NM + 5 * TABLE.len() as u32));
+        if self.0[0].0 > low {
+            self.0.insert(0, (low, self.0[0].1));
+        }
+        if let Some(&(last, value)) = self.0.last()
+            && last < high
+        {
+            self.0.push((high, value));
+        }
+        self
+    }
+
     /// Whether a value is below zero.
     pub(crate) fn has_negative(&self) -> bool {
         self.0.iter().any(|(_, value)| *value < 0.0)
