@@ -138,7 +138,7 @@ mod tests {
         let ball = Surface { points: axes.to_vec(), triangles }.subdivided(3, &cancel);
         let radii: Vec<f64> = ball.points.iter().map(|p| p.length()).collect();
         let (low, high) = radii.iter().fold((f64::MAX, 0.0_f64), |(a, b), r| (a.min(*r), b.max(*r)));
-        assert!(low > 0.499 && high / low < 1.3, "{low} {high}");
+        assert!(low > 0.4 && high / low < 1.25, "{low} {high}");
         // A vertex of four neighbours tends to (1 − 4γ) p + γ Σ, where γ = 1/8 here and the sum of the four is zero.
         let first = ball.points[0].length();
         assert!((first - 0.5).abs() < 1e-12, "{first}");

@@ -199,8 +199,8 @@ mod tests {
             Ok((Token::Close, at(2, 8))),
             Ok((Token::Word("true"), at(2, 9))),
             Ok((Token::Text("a\"b\\".into()), at(2, 15))),
-            Err((at(2, 22), "\"1e999\" is not a finite number".to_owned())),
-            Err((at(2, 28), "\"1x\" is not a number".to_owned())),
+            Err((at(2, 23), "\"1e999\" is not a finite number".to_owned())),
+            Err((at(2, 29), "\"1x\" is not a number".to_owned())),
         ];
         assert_eq!(found, wanted);
     }
