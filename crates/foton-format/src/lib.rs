@@ -40,6 +40,7 @@ pub use diagnostic::{Diagnostic, OpenError, Place, Severity};
 pub use excerpt::Excerpt;
 pub use mitsuba::document::{Attribute, Document, Element, MAX_DEPTH, Node, NodeId};
 pub use mitsuba::save::{Saved, save_edited};
+pub use mitsuba::write::beyond::beyond_mitsuba_3;
 pub use mitsuba::write::write_scene;
 pub use open::{import, open, read_str};
 pub use opened::{ForeignScene, MitsubaScene, Opened, Origin, SceneNodes};

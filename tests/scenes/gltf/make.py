@@ -19,8 +19,11 @@ TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
 class File:
     """A file under construction: lists of JSON objects, and bytes."""
 
+    shows = ""
+
     def __init__(self):
-        self.json = {"asset": {"version": "2.0", "generator": "tests/scenes/gltf/make.py"}}
+        asset = {"version": "2.0", "generator": "tests/scenes/gltf/make.py", "extras": {"shows": self.shows}}
+        self.json = {"asset": asset}
         self.bytes = bytearray()
         self.roots = []
         self.known = {}
@@ -469,7 +472,7 @@ def packed():
 
 
 def cameras():
-    """Two cameras in nodes that are turned and scaled, and the bytes inside of the text."""
+    """Two cameras in nodes that are turned and scaled, one without perspective, and the bytes inside of the text."""
     f = File()
     f.floor()
     for i, colour in enumerate(([0.8, 0.2, 0.2, 1], [0.2, 0.8, 0.2, 1], [0.2, 0.2, 0.8, 1])):
@@ -481,6 +484,8 @@ def cameras():
     side = f.add("cameras", name="side", type="perspective", perspective={"yfov": 0.9, "znear": 0.1, "zfar": 100})
     inner = f.node(root=False, camera=side, translation=[0, 0, 5])
     f.node(name="arm", children=[inner], translation=[0, 0.5, 0], scale=[1.2, 1.2, 1.2], rotation=[0, math.sin(0.6), 0, math.cos(0.6)])
+    flat = f.add("cameras", name="plan", type="orthographic", orthographic={"xmag": 3, "ymag": 2, "znear": 0.1, "zfar": 50})
+    f.node(name="plan", camera=flat, matrix=look((0, 10, 0), (0, 0, 0)))
     f.finish("cameras", "inside")
 
 
@@ -555,4 +560,5 @@ def bare():
 
 if __name__ == "__main__":
     for make in (metallic_roughness, textures, alpha, normal_map, emissive, glass, coats, lights, instances, packed, cameras, colours, pose, bare):
+        File.shows = make.__doc__
         make()

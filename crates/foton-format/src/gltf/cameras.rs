@@ -1,10 +1,11 @@
 //! Cameras. One of glTF looks along its −z with +x to the right, one of ours along its +z with +x to the left.
 
-use foton_math::glam::{DAffine3, DMat3};
-use foton_scene::description::{Filter, FovAxis, SensorDescription};
+use foton_math::glam::{DAffine3, DMat3, DVec3};
+use foton_scene::description::{FovAxis, Projection, SensorDescription};
 
 use super::json::At;
 use super::reader::Reader;
+use crate::diagnostic::Report;
 
 /// Pixels of an image; a camera says only how wide it is by its height.
 const PIXELS: f64 = 768.0 * 576.0;
@@ -26,33 +27,42 @@ impl<'a> Reader<'a> {
         let Some(to_world) = looking(global) else {
             return node.error(report, "a camera stands in a node that is scaled to nothing");
         };
-        let (fov_degrees, aspect) = if kind == Some("perspective") {
-            let yfov = lens.number("yfov", report).unwrap_or(0.0).to_degrees();
-            if !(yfov > 0.0 && yfov < 180.0) {
-                return lens.error(report, "needs a \"yfov\" above 0 and below π");
-            }
-            (yfov, lens.number("aspectRatio", report))
-        } else {
-            return lens.error(report, "orthographic cameras are not read");
+        let sensor = match kind {
+            Some("perspective") => perspective(&lens, to_world, report),
+            Some("orthographic") => orthographic(&lens, to_world, report),
+            _ => None,
         };
-        let (width, height) = size(aspect.filter(|aspect| *aspect > 0.0).unwrap_or(ASPECT));
+        let Some(sensor) = sensor else { return };
         let clip = |depth: Option<f64>| depth.filter(|depth| *depth > 0.0);
+        let (near_clip, far_clip) = (clip(lens.number("znear", report)), clip(lens.number("zfar", report)));
         let name = self.unique(name);
-        let report = &mut self.report;
-        self.description.sensors.push(SensorDescription {
-            name,
-            to_world,
-            fov_degrees,
-            fov_axis: FovAxis::Y,
-            width,
-            height,
-            crop: None,
-            filter: Filter::Gaussian { stddev: 0.5 },
-            near_clip: clip(lens.number("znear", report)),
-            far_clip: clip(lens.number("zfar", report)),
-            lens: None,
-        });
+        self.description.sensors.push(SensorDescription { name, near_clip, far_clip, ..sensor });
     }
+}
+
+fn perspective(lens: &At<'_>, to_world: DAffine3, report: &mut Report) -> Option<SensorDescription> {
+    let fov_degrees = lens.number("yfov", report).unwrap_or(0.0).to_degrees();
+    if !(fov_degrees > 0.0 && fov_degrees < 180.0) {
+        lens.error(report, "needs a \"yfov\" above 0 and below π");
+        return None;
+    }
+    let aspect = lens.number("aspectRatio", report).filter(|aspect| *aspect > 0.0).unwrap_or(ASPECT);
+    let (width, height) = size(aspect);
+    let fov_axis = FovAxis::Y;
+    Some(SensorDescription { to_world, fov_degrees, fov_axis, width, height, ..SensorDescription::default() })
+}
+
+fn orthographic(lens: &At<'_>, to_world: DAffine3, report: &mut Report) -> Option<SensorDescription> {
+    let [half_width, half_height] =
+        ["xmag", "ymag"].map(|key| lens.number(key, report).map_or(0.0, f64::abs));
+    if !(half_width > 0.0 && half_height > 0.0) {
+        lens.error(report, "needs an \"xmag\" and a \"ymag\" other than 0");
+        return None;
+    }
+    let (width, height) = size(half_width / half_height);
+    let to_world = to_world * DAffine3::from_scale(DVec3::new(half_width, half_width, 1.0));
+    let projection = Projection::Orthographic;
+    Some(SensorDescription { to_world, projection, width, height, ..SensorDescription::default() })
 }
 
 /// Where a camera stands and looks, without the scale of its node; `None` where that leaves it no direction.
@@ -73,7 +83,7 @@ fn size(aspect: f64) -> (u32, u32) {
 
 #[cfg(test)]
 mod tests {
-    use foton_math::glam::{DQuat, DVec3};
+    use foton_math::glam::DQuat;
 
     use super::*;
 

@@ -91,7 +91,9 @@ impl<'a> Reader<'a> {
             let mut is_child = vec![false; nodes.len()];
             for node in &nodes {
                 for child in node.indices("children", &mut self.report) {
-                    is_child.get_mut(child).map(|is_child| *is_child = true);
+                    if let Some(is_child) = is_child.get_mut(child) {
+                        *is_child = true;
+                    }
                 }
             }
             return (0..nodes.len()).filter(|i| !is_child[*i]).map(|i| (i, "nodes".to_owned())).collect();

@@ -11,8 +11,7 @@
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DMat3, DVec3};
 use foton_scene::description::{
-    Colour, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Mesh, SceneDescription,
-    SensorDescription,
+    Colour, EmitterDescription, EmitterKind, FovAxis, Geometry, Mesh, SceneDescription, SensorDescription,
 };
 
 use super::shapes::add_shape;
@@ -177,11 +176,7 @@ impl Model {
             fov_axis: FovAxis::Smaller,
             width,
             height,
-            crop: None,
-            filter: Filter::Gaussian { stddev: 0.5 },
-            near_clip: None,
-            far_clip: None,
-            lens: None,
+            ..SensorDescription::default()
         });
         report.warning(Place::default(), format!("{file} has no camera: one is placed {place}"));
     }

@@ -87,7 +87,7 @@ fn each_fault_is_named_by_its_path() {
             r#""componentType":5126,"count":4000000000,"type":"VEC3""#,
             "accessors[0]: 4000000000 elements of 12 bytes, 12 apart, are not in bufferViews[0] of 36 bytes from byte 0",
         ),
-        ("\"bufferView\":0,", "", ""),
+        ("\"bufferView\":0,", "", "the model has no extent"),
         (
             "\"bufferView\":0,",
             "\"byteOffset\":18446744073709551615,\"bufferView\":0,",
@@ -117,15 +117,10 @@ fn each_fault_is_named_by_its_path() {
             "\"mesh\":0,\"matrix\":[1,0,0,1,0,1,0,0,0,0,1,0,0,0,0,1]",
             "nodes[0].matrix: must be affine: 0 0 0 1 in the last row",
         ),
-        ("\"mesh\":0", "\"mesh\":0,\"scale\":[1e200,1,1],\"children\":[]", ""),
     ] {
         let text = TRIANGLE.replacen(from, to, 1);
         assert_ne!(text, TRIANGLE, "{from}");
-        match read("fault", &text) {
-            Ok(opened) => assert_eq!(said, "", "{from} → {to}: {:?}", super::said(&opened)),
-            Err(error) if said.is_empty() => println!("{error}"),
-            Err(_) => assert_eq!(errors("fault", &text)[0], said, "{from} → {to}"),
-        }
+        assert_eq!(errors("fault", &text)[0], said, "{from} → {to}");
     }
 }
 

@@ -9,7 +9,7 @@ use foton_math::Rgb;
 use foton_math::glam::DVec3;
 use foton_scene::description::{
     Bitmap, Bsdf, Colour, Dielectric, EmitterKind, FovAxis, Geometry, Material, Mesh, Number, Principled,
-    PrincipledThin, ShapeDescription, Texture, TextureKind, ThinDielectric, Wrap,
+    PrincipledThin, Projection, ShapeDescription, Texture, TextureKind, ThinDielectric, Wrap,
 };
 
 mod faults;
@@ -142,7 +142,7 @@ fn nodes_and_instances_share_their_mesh() {
 #[test]
 fn cameras_and_lights_stand_where_their_nodes_do() {
     let opened = opened("cameras.gltf");
-    let [front, side] = &opened.description.sensors[..] else { panic!() };
+    let [front, side, plan] = &opened.description.sensors[..] else { panic!() };
     assert_eq!((front.name.as_str(), side.name.as_str()), ("front", "side"));
     assert_eq!((front.width, front.height, front.fov_axis), (768, 576, FovAxis::Y));
     assert_near(front.fov_degrees, 0.7_f64.to_degrees(), 1e-9);
@@ -155,6 +155,11 @@ fn cameras_and_lights_stand_where_their_nodes_do() {
     let origin = DVec3::new(6.0 * sin, 0.5, 6.0 * cos);
     assert!((side.to_world.translation - origin).length() < 1e-9, "{}", side.to_world.translation);
     assert_near(side.to_world.matrix3.determinant(), 1.0, 1e-9);
+    assert_eq!((plan.projection, plan.width, plan.height), (Projection::Orthographic, 814, 544));
+    // 6 units wide and 4 high, looking down with −z up.
+    assert!((plan.to_world.matrix3 * DVec3::X - DVec3::new(-3.0, 0.0, 0.0)).length() < 1e-9);
+    assert!((plan.to_world.matrix3 * DVec3::Y - DVec3::new(0.0, 0.0, -3.0)).length() < 1e-9);
+    assert!((plan.to_world.matrix3 * DVec3::Z - DVec3::NEG_Y).length() < 1e-9);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! An edited scene goes back into its own file: what changed is changed, and the rest stays as it was.
 
 mod blends;
+mod foreign;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -277,6 +278,19 @@ fn lights_and_cameras_change_in_place() {
     });
     assert!(lines.iter().any(|l| l.contains("thinlens")), "{lines:?}");
     assert!(fs::read_to_string(folder.saved()).unwrap().contains("Fifty millimetres"));
+}
+
+#[test]
+fn how_much_an_orthographic_camera_shows_is_its_transform() {
+    let folder = Folder::new("orthographic");
+    let sensor = fs::read_to_string(folder.path()).unwrap();
+    let (from, to) = (sensor.find("<sensor").unwrap(), sensor.find("</sensor>").unwrap());
+    let parallel = "<sensor type=\"orthographic\"><float name=\"near_clip\" value=\"0.25\"/>\n        <transform name=\"to_world\"><scale value=\"4\"/></transform>";
+    fs::write(folder.path(), format!("{}{parallel}{}", &sensor[..from], &sensor[to..])).unwrap();
+    let lines =
+        changed_lines(&folder, |d| d.sensors[0].to_world *= DAffine3::from_scale(DVec3::new(3.0, 3.0, 1.0)));
+    assert!(lines.iter().any(|l| l.contains("matrix")), "{lines:?}");
+    assert!(lines.iter().any(|l| l.contains("near_clip\" value=\"0.25\"")), "{lines:?}");
 }
 
 #[test]
