@@ -1,6 +1,6 @@
 //! What ends close, objects and their instances, and files inside of files.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::rc::Rc;
 
 use foton_input::{quoted, shown_path};
@@ -145,7 +145,7 @@ impl Reader<'_> {
     }
 
     /// The text of a file, which may be packed.
-    fn unpacked(&mut self, bytes: Vec<u8>, path: &PathBuf, place: Place) -> Result<String, Fault> {
+    fn unpacked(&mut self, bytes: Vec<u8>, path: &Path, place: Place) -> Result<String, Fault> {
         let cannot = |message: String| (place, format!("cannot read {}: {message}", shown_path(path)));
         let cancel = self.files.cancel();
         let bytes = packed::unpacked(bytes, &mut self.files.budget, cancel).map_err(cannot)?;

@@ -181,7 +181,7 @@ impl Reader<'_> {
         let Some(first) = self.description.emitters.iter_mut().find(|e| around(e)) else { return Some(kind) };
         match (&mut first.kind, kind) {
             (EmitterKind::Constant { radiance }, EmitterKind::Constant { radiance: more }) => {
-                *radiance += more
+                *radiance += more;
             }
             _ => self.report.error(
                 p.place,

@@ -1,6 +1,6 @@
 //! Shapes of triangles: stated in the scene, in PLY files, patches, subdivision surfaces and fields of heights.
 
-use std::path::PathBuf;
+use std::path::Path;
 use std::sync::Arc;
 
 use foton_input::shown_path;
@@ -117,7 +117,7 @@ impl Reader<'_> {
     }
 
     /// The mesh of a PLY file, its normals only where the file states them.
-    fn ply_file(&mut self, filename: &Located<String>, key: &PathBuf) -> Option<Mesh> {
+    fn ply_file(&mut self, filename: &Located<String>, key: &Path) -> Option<Mesh> {
         let instead = "the shape is left out";
         let place = filename.place;
         let read = self.files.read_or_do_without(&filename.value, place, instead, &mut self.report)?;

@@ -177,7 +177,7 @@ impl Reader<'_> {
         if let Some(power) = emission.power {
             let sides = if emission.two_sided { 2.0 } else { 1.0 };
             let emitted = mean * sides * area(geometry, to_world) * std::f64::consts::PI;
-            radiance = radiance * (power / emitted) as f32;
+            radiance *= (power / emitted) as f32;
         }
         if !radiance.is_finite() {
             self.report.error(place, "what this shape emits is too much for a number");
