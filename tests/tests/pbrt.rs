@@ -17,8 +17,9 @@ fn rendered(file: &str, method: Method) -> Image {
     let number = |n| NonZeroU32::new(n).expect("above 0");
     let photons = number(1 << 17);
     let ppm = PpmSettings { photons_per_pass: photons, first_pass: photons, ..PpmSettings::default() };
-    let samples = if method == Method::Path { 48 } else { 16 };
-    let settings = RenderSettings { method, samples_per_pixel: number(samples), ppm, ..RenderSettings::default() };
+    let samples = if method == Method::Path { 16 } else { 8 };
+    let settings =
+        RenderSettings { method, samples_per_pixel: number(samples), ppm, ..RenderSettings::default() };
     let cancel = Cancel::default();
     let mut render = Render::start(scene, settings, &mut |_| (), &cancel).expect("started");
     for _ in 0..8 {

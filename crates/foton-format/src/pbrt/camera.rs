@@ -114,14 +114,7 @@ impl Reader<'_> {
                 ..sensor
             });
         }
-        let fov = match p.number("halffov", &mut self.report) {
-            Some(half) => 2.0 * half.value,
-            None => p.number_or("fov", 90.0, &mut self.report),
-        };
-        if !(fov > 0.0 && fov < 180.0) {
-            self.report.error(p.place_of("fov"), "\"fov\" must lie between 0 and 180 degrees");
-            return None;
-        }
+        let fov = self.field_of_view(p)?;
         let size = window.size();
         if (size.x / size.y / aspect - 1.0).abs() > 0.02 {
             let name = if p.has("screenwindow") { "screenwindow" } else { "frameaspectratio" };
@@ -143,6 +136,19 @@ impl Reader<'_> {
             principal_point_offset,
             ..sensor
         })
+    }
+
+    /// The angle that the shorter side of the image spans, in degrees.
+    fn field_of_view(&mut self, p: &Parameters) -> Option<f64> {
+        let fov = match p.number("halffov", &mut self.report) {
+            Some(half) => 2.0 * half.value,
+            None => p.number_or("fov", 90.0, &mut self.report),
+        };
+        if fov > 0.0 && fov < 180.0 {
+            return Some(fov);
+        }
+        self.report.error(p.place_of("fov"), "\"fov\" must lie between 0 and 180 degrees");
+        None
     }
 
     /// When the shutter of the sensor that comes next is open, and how it moves.

@@ -45,16 +45,7 @@ impl Reader<'_> {
                 let roughness = self.facets(p, ROUGHNESS, (0.0, false), c);
                 both_sides(self.conductor(p, ["eta", "k"], 1.0, (c, roughness))?)
             }
-            "coatedconductor" => {
-                let roughness = self.facets(p, OF_CONDUCTOR, (0.0, false), c);
-                let int_ior = self.index(p, "interface.eta", 1.5);
-                let base = self.conductor(p, ["conductor.eta", "conductor.k"], int_ior, (c, roughness))?;
-                let roughness = self.facets(p, OF_INTERFACE, (0.0, false), c);
-                self.clear_layer(p);
-                let mut coating = Coating::default(roughness.is_some());
-                (coating.int_ior, coating.ext_ior, coating.roughness) = (int_ior, 1.0, roughness);
-                Sides { coatings: [Some(coating); 2], ..both_sides(base) }
-            }
+            "coatedconductor" => self.coated_conductor(p, c)?,
             "dielectric" => {
                 let int_ior = self.index(p, "eta", 1.5);
                 let roughness = self.facets(p, ROUGHNESS, (0.0, false), c);
@@ -88,6 +79,18 @@ impl Reader<'_> {
             // "interface", or of version 3 "none".
             _ => both_sides(Bsdf::Null(Null)),
         })
+    }
+
+    /// A metal under a clear coat.
+    fn coated_conductor(&mut self, p: &Parameters, c: Coordinates) -> Option<Sides> {
+        let roughness = self.facets(p, OF_CONDUCTOR, (0.0, false), c);
+        let int_ior = self.index(p, "interface.eta", 1.5);
+        let base = self.conductor(p, ["conductor.eta", "conductor.k"], int_ior, (c, roughness))?;
+        let roughness = self.facets(p, OF_INTERFACE, (0.0, false), c);
+        self.clear_layer(p);
+        let mut coating = Coating::default(roughness.is_some());
+        (coating.int_ior, coating.ext_ior, coating.roughness) = (int_ior, 1.0, roughness);
+        Some(Sides { coatings: [Some(coating); 2], ..both_sides(base) })
     }
 
     /// A metal by its indices or its reflectance, in a medium of an index.

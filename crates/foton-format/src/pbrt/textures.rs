@@ -58,7 +58,6 @@ impl Reader<'_> {
     }
 
     fn texture_picture(&mut self, p: &Parameters, of_colours: bool) -> Option<Rc<Picture>> {
-        let constant = |c: Rgb| Some(Rc::new(Picture::Constant(c)));
         match p.plugin.as_str() {
             "constant" => Some(self.part(p, "value", 1.0, of_colours)),
             "scale" => {
@@ -95,23 +94,8 @@ impl Reader<'_> {
                 Some(Rc::new(Picture::Corners { to_st, colours }))
             }
             "imagemap" => self.image_map(p),
-            "dots" => {
-                let outside = self.part(p, "outside", 0.0, of_colours);
-                p.ignore(&["inside"]);
-                p.ignore(MAPPING);
-                self.stands_in(p.place, "dots", "the colour outside of them");
-                Some(outside)
-            }
-            "fbm" | "wrinkled" | "windy" | "marble" | "ptex" | "uv" => {
-                p.ignore_rest();
-                let mean = match p.plugin.as_str() {
-                    "fbm" | "windy" => Rgb::BLACK,
-                    "wrinkled" => Rgb::splat(0.3),
-                    "marble" => Rgb::new(0.6, 0.59, 0.58),
-                    _ => Rgb::splat(0.5),
-                };
-                self.stands_in(p.place, &p.plugin, "its mean");
-                constant(mean)
+            "dots" | "fbm" | "wrinkled" | "windy" | "marble" | "ptex" | "uv" => {
+                Some(self.mean_of_texture(p, of_colours))
             }
             other => {
                 let hint = did_you_mean(other, PLUGINS);
@@ -120,6 +104,25 @@ impl Reader<'_> {
                 None
             }
         }
+    }
+
+    /// What stands for a texture that is not rendered.
+    fn mean_of_texture(&mut self, p: &Parameters, of_colours: bool) -> Rc<Picture> {
+        if p.plugin == "dots" {
+            p.ignore(&["inside"]);
+            p.ignore(MAPPING);
+            self.stands_in(p.place, "dots", "the colour outside of them");
+            return self.part(p, "outside", 0.0, of_colours);
+        }
+        p.ignore_rest();
+        let mean = match p.plugin.as_str() {
+            "fbm" | "windy" => Rgb::BLACK,
+            "wrinkled" => Rgb::splat(0.3),
+            "marble" => Rgb::new(0.6, 0.59, 0.58),
+            _ => Rgb::splat(0.5),
+        };
+        self.stands_in(p.place, &p.plugin, "its mean");
+        Rc::new(Picture::Constant(mean))
     }
 
     fn stands_in(&mut self, place: Place, plugin: &str, what: &str) {

@@ -44,20 +44,7 @@ impl Reader<'_> {
                 self.state.concatenate(look_at(eye, target, up).ok_or((place, message.to_owned()))?);
             }
             "Transform" | "ConcatTransform" => self.matrix(word, place, tokens)?,
-            "CoordinateSystem" => {
-                let name = tokens.text("a name of a coordinate system")?;
-                self.coordinate_systems.insert(name.value, self.state.transforms);
-            }
-            "CoordSysTransform" => {
-                let name = tokens.text("a name of a coordinate system")?;
-                let Some(&known) = self.coordinate_systems.get(&name.value) else {
-                    let names = self.coordinate_systems.keys().map(String::as_str);
-                    let hint = self.report.did_you_mean(&name.value, names);
-                    let message = format!("there is no coordinate system {}{hint}", quoted(&name.value));
-                    return Err((name.place, message));
-                };
-                self.state.set(|i| known.0[i]);
-            }
+            "CoordinateSystem" | "CoordSysTransform" => self.named_transform(word, tokens)?,
             "ActiveTransform" => self.active_transform(tokens)?,
             _ => {
                 let times = tokens.fixed::<2>()?;
@@ -73,6 +60,22 @@ impl Reader<'_> {
             self.state.set(|_| DAffine3::IDENTITY);
             return Err((place, "the transform has no inverse that numbers can tell".to_owned()));
         }
+        Ok(())
+    }
+
+    fn named_transform(&mut self, word: &str, tokens: &mut Tokens<'_>) -> Result<(), Fault> {
+        let name = tokens.text("a name of a coordinate system")?;
+        if word == "CoordinateSystem" {
+            self.coordinate_systems.insert(name.value, self.state.transforms);
+            return Ok(());
+        }
+        let Some(&known) = self.coordinate_systems.get(&name.value) else {
+            let names = self.coordinate_systems.keys().map(String::as_str);
+            let hint = self.report.did_you_mean(&name.value, names);
+            let message = format!("there is no coordinate system {}{hint}", quoted(&name.value));
+            return Err((name.place, message));
+        };
+        self.state.set(|i| known.0[i]);
         Ok(())
     }
 
