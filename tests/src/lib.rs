@@ -35,11 +35,8 @@ impl Sketch {
             fov_axis: FovAxis::X,
             width: pixels,
             height: pixels,
-            crop: None,
             filter: Filter::Box { radius: 0.5 },
-            near_clip: None,
-            far_clip: None,
-            lens: None,
+            ..SensorDescription::default()
         });
         self
     }

@@ -47,7 +47,7 @@ fn said(plugin: &Declared, contents: &str) -> String {
             r#"<bsdf type="diffuse"/>"#
         }
         "normalmap" => r#"<texture type="checkerboard"/><bsdf type="diffuse"/>"#,
-        "thinlens" if !contents.contains("aperture_radius") => {
+        "thinlens" | "telecentric" if !contents.contains("aperture_radius") => {
             r#"<float name="aperture_radius" value="0.1"/>"#
         }
         "scale" => r#"<texture type="checkerboard"/>"#,

@@ -7,7 +7,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use foton_math::glam::{DAffine3, DMat3, DVec3};
-use foton_scene::description::{Lens, SensorDescription};
+use foton_scene::description::{Lens, Projection, SensorDescription};
 use foton_scene::parameter::Parameter;
 use foton_scene::plugins::sensors;
 
@@ -130,6 +130,9 @@ pub struct Camera {
     pub fov_degrees: f64,
     /// What blurs things out of focus.
     pub lens: Option<Lens>,
+    /// Factor on the width of what an orthographic camera sees.
+    widened: f64,
+    projection: Projection,
     /// Whether left and right are exchanged in the image.
     mirrored: bool,
     /// The camera of the file, and what its transform became.
@@ -160,6 +163,8 @@ impl Camera {
             up,
             fov_degrees: sensor.fov_degrees,
             lens: sensor.lens,
+            widened: 1.0,
+            projection: sensor.projection,
             mirrored: sensor.to_world.matrix3.determinant() < 0.0,
             original: Box::new((sensor.to_world, sensor.fov_degrees)),
             is_moved: false,
@@ -194,7 +199,13 @@ impl Camera {
         }
         let [left, up, forward] = self.axes();
         let left = if self.mirrored { -left } else { left };
-        DAffine3::from_mat3_translation(DMat3::from_cols(left, up, forward), self.position().into())
+        let mut axes = DMat3::from_cols(left, up, forward);
+        if self.projection == Projection::Orthographic {
+            let was = self.original.0.matrix3;
+            let [x, y] = [was.x_axis, was.y_axis].map(|axis| axis.length() * self.widened);
+            axes *= DMat3::from_diagonal(DVec3::new(x, y, was.z_axis.length()));
+        }
+        DAffine3::from_mat3_translation(axes, self.position().into())
     }
 
     /// The sensor with this camera's place, field of view and lens.
@@ -237,15 +248,18 @@ impl Camera {
 
     /// Moves along the image by pixels, as if its target were held: to the right and down.
     pub fn pan(&mut self, sensor: &SensorDescription, right: f64, down: f64) {
-        let seen = SensorDescription { fov_degrees: self.fov_degrees, ..sensor.clone() };
+        let (fov_degrees, to_world) = (self.fov_degrees, self.to_world());
+        let seen = SensorDescription { fov_degrees, to_world, ..sensor.clone() };
         let pixel = View::new(&seen).pixel_at(self.distance);
         let side = if self.mirrored { -1.0 } else { 1.0 };
         self.shift([side * right * pixel, down * pixel, 0.0]);
     }
 
-    /// Nearer (below 1) or farther (above 1), towards the target.
+    /// Nearer (below 1) or farther (above 1), towards the target; an orthographic camera sees less or more where it stands.
     pub fn zoom(&mut self, factor: f64) {
-        if factor.is_finite() && factor > 0.0 {
+        if self.projection == Projection::Orthographic {
+            self.set_width(self.width() * factor);
+        } else if factor.is_finite() && factor > 0.0 {
             self.is_moved = true;
             self.distance = (self.distance * factor).clamp(1e-6 * self.scale, 1e6 * self.scale);
         }
@@ -280,6 +294,21 @@ impl Camera {
     pub fn set_fov(&mut self, degrees: f64) {
         if degrees.is_finite() {
             self.fov_degrees = degrees.clamp(FOV_RANGE.0, FOV_RANGE.1);
+        }
+    }
+
+    /// How much of the world the image of an orthographic camera is wide; of another one without meaning.
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        2.0 * self.original.0.matrix3.x_axis.length() * self.widened
+    }
+
+    /// Sets how wide that is, in world units: its height goes with it.
+    pub fn set_width(&mut self, width: f64) {
+        let widened = width / (2.0 * self.original.0.matrix3.x_axis.length());
+        if widened.is_finite() && widened > 0.0 {
+            self.is_moved = true;
+            self.widened = widened.clamp(1e-6, 1e6);
         }
     }
 

@@ -4,21 +4,13 @@
 
 use std::fmt::Write;
 
-use foton_scene::description::{Filter, FovAxis, SensorDescription};
+use foton_scene::description::{Filter, Projection, SensorDescription};
 use foton_scene::plugins::sensors;
 
 /// The `<sensor>` element of a camera. It reads back as an equal camera.
 #[must_use]
 pub fn camera_xml(sensor: &SensorDescription) -> String {
-    let axis = match sensor.fov_axis {
-        FovAxis::X => "x",
-        FovAxis::Y => "y",
-        FovAxis::Diagonal => "diagonal",
-        FovAxis::Smaller => "smaller",
-        FovAxis::Larger => "larger",
-    };
-    let plugin = if sensor.lens.is_some() { sensors::THINLENS } else { sensors::PERSPECTIVE };
-    let mut xml = format!("<sensor type=\"{}\">\n", plugin.name);
+    let mut xml = format!("<sensor type=\"{}\">\n", sensors::of(sensor).name);
     // Writing to a string does not fail.
     if let Some(lens) = sensor.lens {
         for (parameter, value) in
@@ -27,12 +19,17 @@ pub fn camera_xml(sensor: &SensorDescription) -> String {
             let _ = writeln!(xml, "    <float name=\"{}\" value=\"{value}\"/>", parameter.name);
         }
     }
-    let _ = writeln!(xml, "    <float name=\"fov\" value=\"{}\"/>", sensor.fov_degrees);
-    let _ = writeln!(xml, "    <string name=\"fov_axis\" value=\"{axis}\"/>");
-    for (name, clip) in [("near_clip", sensor.near_clip), ("far_clip", sensor.far_clip)] {
-        if let Some(clip) = clip {
-            let _ = writeln!(xml, "    <float name=\"{name}\" value=\"{clip}\"/>");
+    if sensor.projection == Projection::Perspective {
+        let _ = writeln!(xml, "    <float name=\"fov\" value=\"{}\"/>", sensor.fov_degrees);
+        let _ = writeln!(xml, "    <string name=\"fov_axis\" value=\"{}\"/>", sensor.fov_axis.name());
+    }
+    for (parameter, offset) in sensors::OFFSETS.iter().zip(sensor.principal_point_offset) {
+        if offset != 0.0 {
+            let _ = writeln!(xml, "    <float name=\"{}\" value=\"{offset}\"/>", parameter.name);
         }
+    }
+    for (name, clip) in sensors::clips(sensor) {
+        let _ = writeln!(xml, "    <float name=\"{name}\" value=\"{clip}\"/>");
     }
     let m = sensor.to_world.matrix3;
     let rows: Vec<String> = (0..3)

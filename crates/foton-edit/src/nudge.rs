@@ -29,7 +29,7 @@ pub fn nudge(
     mode: DragMode,
 ) -> [f64; 3] {
     let (view, up) = (View::new(sensor), up.vector());
-    let pixel = view.pixel_at((DVec3::from(at) - view.origin).dot(view.forward));
+    let pixel = view.pixel_at(view.depth(at.into()));
     let on_floor = |v: DVec3| (v - up * v.dot(up)).try_normalize();
     // Where the camera looks straight down, what is up in the image is away.
     let away = on_floor(view.forward + view.up * 1e-6).unwrap_or(view.forward);

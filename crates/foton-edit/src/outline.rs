@@ -149,7 +149,7 @@ fn silhouette(Edges { mesh, edges }: &Edges, to_world: &DAffine3, view: &View) -
         .iter()
         .map(|t| {
             let [a, b, c] = t.map(at);
-            (b - a).cross(c - a).dot(view.origin - a) > 0.0
+            (b - a).cross(c - a).dot(view.sight(a)) < 0.0
         })
         .collect();
     let facing = |face: u32| faces_camera[face as usize];
@@ -169,12 +169,12 @@ fn bounds(geometry: &Geometry, to_world: &DAffine3, view: &View) -> Vec<Segment>
 
 /// Where lines of sight touch the sphere: a circle before its middle. Nothing from inside.
 fn sphere(centre: DVec3, radius: f64, view: &View) -> Vec<Segment> {
-    let away = centre - view.origin;
+    let away = centre - view.eye_of(centre);
     let distance = away.length();
     if distance <= radius {
         return Vec::new();
     }
-    let sine = radius / distance;
+    let sine = if view.is_parallel() { 0.0 } else { radius / distance };
     let (x, y) = (away / distance).any_orthonormal_pair();
     let r = radius * (1.0 - sine * sine).sqrt();
     circle(centre - away * (sine * sine), x * r, y * r, view)
@@ -194,11 +194,11 @@ fn tube(from: DVec3, to: DVec3, radius: f64, view: &View) -> Vec<Segment> {
     let (x, y) = axis.any_orthonormal_pair();
     let mut lines = circle(from, x * radius, y * radius, view);
     lines.extend(circle(to, x * radius, y * radius, view));
-    let away = view.origin - from;
+    let away = view.eye_of(from) - from;
     let across = away - axis * away.dot(axis);
     let distance = across.length();
     if distance > radius {
-        let (u, cos) = (across / distance, radius / distance);
+        let (u, cos) = (across / distance, if view.is_parallel() { 0.0 } else { radius / distance });
         let w = axis.cross(u) * (1.0 - cos * cos).sqrt();
         let sides = [u * cos + w, u * cos - w].map(|side| side * radius);
         lines.extend(sides.iter().filter_map(|side| view.segment(from + *side, to + *side)));

@@ -58,9 +58,12 @@ pub fn pick_light(description: &SceneDescription, sensor: usize, film: [f64; 2])
     let (position, material) = match &emitter.kind {
         EmitterKind::Point { position, .. } => (*position, "point light"),
         EmitterKind::Spot { to_world, .. } => (to_world.translation, "spot light"),
-        _ => (view.origin + view.direction(at), "directional light"),
+        _ => {
+            let (eye, direction) = view.ray(at);
+            (eye + direction, "directional light")
+        }
     };
-    let away = position - view.origin;
+    let away = position - view.eye_of(position);
     Some(Picked {
         target: Target::Emitter(index),
         name: emitter.name.clone(),

@@ -3,7 +3,7 @@
 //! The same camera as [`foton_scene::Sensor`], in double precision and both ways.
 
 use foton_math::glam::{DVec2, DVec3};
-use foton_scene::description::{FovAxis, SensorDescription};
+use foton_scene::description::{FovAxis, Projection, SensorDescription};
 
 /// A camera that projects.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,8 +12,11 @@ pub(crate) struct View {
     pub(crate) left: DVec3,
     pub(crate) up: DVec3,
     pub(crate) forward: DVec3,
-    /// Tangents of half the horizontal and half the vertical field of view.
+    projection: Projection,
+    /// Half the width and height of what is seen: of a perspective at depth 1, else in world units.
     half: DVec2,
+    /// Where the middle of the film looks, in shares of its width and height.
+    offset: DVec2,
     /// The film in pixels.
     pub(crate) film: DVec2,
     near: f64,
@@ -30,21 +33,57 @@ impl View {
             FovAxis::Larger => film.max_element(),
         };
         let m = sensor.to_world.matrix3;
+        let half = match sensor.projection {
+            Projection::Perspective => film * ((sensor.fov_degrees.to_radians() * 0.5).tan() / spanned),
+            Projection::Orthographic => DVec2::new(m.x_axis.length(), m.y_axis.length() * film.y / film.x),
+        };
         Self {
             origin: sensor.to_world.translation,
             left: m.x_axis.normalize_or(DVec3::X),
             up: m.y_axis.normalize_or(DVec3::Y),
             forward: m.z_axis.normalize_or(DVec3::Z),
-            half: film * ((sensor.fov_degrees.to_radians() * 0.5).tan() / spanned),
+            projection: sensor.projection,
+            half,
+            offset: sensor.principal_point_offset.into(),
             film,
             near: sensor.near_clip.unwrap_or(0.0),
         }
     }
 
-    /// The unit direction in which a film position looks.
-    pub(crate) fn direction(&self, film: DVec2) -> DVec3 {
-        let (x, y) = (2.0 * film.x / self.film.x - 1.0, 1.0 - 2.0 * film.y / self.film.y);
-        (self.forward - self.left * (x * self.half.x) + self.up * (y * self.half.y)).normalize()
+    /// The line of sight of a film position: where it begins, and its unit direction.
+    pub(crate) fn ray(&self, film: DVec2) -> (DVec3, DVec3) {
+        let place = (film / self.film + self.offset) * 2.0 - 1.0;
+        let aside = self.up * (-place.y * self.half.y) - self.left * (place.x * self.half.x);
+        match self.projection {
+            Projection::Perspective => (self.origin, (self.forward + aside).normalize()),
+            Projection::Orthographic => (self.origin + aside, self.forward),
+        }
+    }
+
+    /// The unit direction of the line of sight to a world point.
+    pub(crate) fn sight(&self, world: DVec3) -> DVec3 {
+        match self.projection {
+            Projection::Perspective => (world - self.origin).normalize_or(self.forward),
+            Projection::Orthographic => self.forward,
+        }
+    }
+
+    /// Where the line of sight to a world point begins.
+    pub(crate) fn eye_of(&self, world: DVec3) -> DVec3 {
+        match self.projection {
+            Projection::Perspective => self.origin,
+            Projection::Orthographic => world - self.forward * self.depth(world),
+        }
+    }
+
+    /// How far along the camera's z a world point is.
+    pub(crate) fn depth(&self, world: DVec3) -> f64 {
+        (world - self.origin).dot(self.forward)
+    }
+
+    /// Whether lines of sight are parallel.
+    pub(crate) fn is_parallel(&self) -> bool {
+        self.projection == Projection::Orthographic
     }
 
     /// A vector in the camera's space: to the right, up, and depth.
@@ -53,8 +92,9 @@ impl View {
     }
 
     fn on_film(&self, p: DVec3) -> DVec2 {
-        let q = DVec2::new(p.x, -p.y) / (p.z * self.half);
-        (q + 1.0) * 0.5 * self.film
+        let scale = if self.is_parallel() { 1.0 } else { p.z };
+        let q = DVec2::new(p.x, -p.y) / (scale * self.half);
+        ((q + 1.0) * 0.5 - self.offset) * self.film
     }
 
     /// Where a world point is on the film; `None` behind the camera or nearer than its near plane.
@@ -64,11 +104,11 @@ impl View {
         (p.z > self.near && film.is_finite()).then_some(film)
     }
 
-    /// Where on the film a direction vanishes.
+    /// Where on the film a direction vanishes; `None` behind the camera, and among parallel lines of sight.
     pub(crate) fn project_direction(&self, direction: DVec3) -> Option<DVec2> {
         let p = self.in_camera(direction);
         let film = self.on_film(p);
-        (p.z > 0.0 && film.is_finite()).then_some(film)
+        (p.z > 0.0 && !self.is_parallel() && film.is_finite()).then_some(film)
     }
 
     /// A line on the film: cut at the near plane, and at the edges of a film three times as wide and high.
@@ -92,7 +132,8 @@ impl View {
 
     /// World units that a pixel covers at a depth.
     pub(crate) fn pixel_at(&self, depth: f64) -> f64 {
-        2.0 * self.half.x * depth.abs() / self.film.x
+        let scale = if self.is_parallel() { 1.0 } else { depth.abs() };
+        2.0 * self.half.x * scale / self.film.x
     }
 }
 

@@ -41,7 +41,7 @@ mod png_write;
 pub mod tone_map;
 
 pub use atomic::{
-    atomic_write, check_writable, create_log, is_same_file, stands_for, write_new, write_spare,
+    atomic_write, check_writable, create_log, head_of, is_same_file, stands_for, write_new, write_spare,
 };
 pub use error::{ContentError, ReadError, WriteError};
 pub use exr_read::{decode_exr, read_exr, read_exr_within};

@@ -1,5 +1,6 @@
 //! A scene as its file states it.
 
+use std::collections::HashMap;
 use std::path::PathBuf;
 
 use foton_scene::description::SceneDescription;
@@ -16,7 +17,7 @@ pub struct Opened {
     pub description: SceneDescription,
     /// What it was opened from.
     pub origin: Origin,
-    /// The scene file; `None` for a scene from memory and for a mesh file.
+    /// The scene file; `None` for a scene from memory.
     pub path: Option<PathBuf>,
     /// All files of the disk that were read for it, itself among them: what is written must be none of these.
     pub files: Vec<PathBuf>,
@@ -35,8 +36,25 @@ pub struct Opened {
 pub enum Origin {
     /// A Mitsuba scene.
     Mitsuba(MitsubaScene),
-    /// A mesh file, to which a camera and, if nothing in it emits, lights were added.
-    Mesh,
+    /// A file of another kind. It is never written: what is edited of it becomes a Mitsuba scene of its own.
+    Foreign(ForeignScene),
+}
+
+/// A file of another kind than Mitsuba's.
+#[derive(Clone, Debug)]
+pub struct ForeignScene {
+    /// What messages call it, with its article: "a mesh file".
+    pub kind: &'static str,
+    /// Where the parts of the scene stand, by their names, as far as that is known: the file and the place in it.
+    pub places: HashMap<String, (String, Place)>,
+}
+
+impl ForeignScene {
+    /// A file of which it is not known where parts stand.
+    #[must_use]
+    pub fn new(kind: &'static str) -> Self {
+        Self { kind, places: HashMap::new() }
+    }
 }
 
 /// The text of a Mitsuba scene.
@@ -54,7 +72,7 @@ impl Origin {
     pub const fn mitsuba(&self) -> Option<&MitsubaScene> {
         match self {
             Self::Mitsuba(scene) => Some(scene),
-            Self::Mesh => None,
+            Self::Foreign(_) => None,
         }
     }
 }
@@ -64,6 +82,11 @@ impl Opened {
     /// part's element, or of the `<include>` that brings it.
     #[must_use]
     pub fn finding(&self, severity: Severity, file: &str, part: Option<&str>, message: String) -> Diagnostic {
+        if let (Origin::Foreign(scene), Some(part)) = (&self.origin, part)
+            && let Some((file, place)) = scene.places.get(part)
+        {
+            return Diagnostic::new(severity, file.clone(), *place, message);
+        }
         let place = part.and_then(|part| self.place_of(part)).unwrap_or_default();
         Diagnostic::new(severity, file.to_owned(), place, message)
     }

@@ -45,11 +45,8 @@ pub(crate) fn description() -> SceneDescription {
             fov_axis: FovAxis::X,
             width: 32,
             height: 32,
-            crop: None,
             filter: Filter::Box { radius: 0.5 },
-            near_clip: None,
-            far_clip: None,
-            lens: None,
+            ..SensorDescription::default()
         }],
         materials: vec![material("chalk", diffuse, Some(diffuse)), material("glass", glass, None)],
         shapes: vec![

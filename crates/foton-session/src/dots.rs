@@ -34,8 +34,9 @@ pub(crate) fn dot(render: &Render, photon: &StoredPhoton, only_seen: bool) -> Op
     let (film, _) = sensor.project_on_whole(point)?;
     pixel_in(&sensor.window(), film)?;
     if only_seen {
-        let way = point - sensor.origin();
-        let ray = Ray { t_max: way.length() * (1.0 - SEEN), ..Ray::new(sensor.origin(), way.normalize()) };
+        let eye = sensor.eye_of(point);
+        let way = point - eye;
+        let ray = Ray { t_max: way.length() * (1.0 - SEEN), ..Ray::new(eye, way.normalize()) };
         if scene.occluded(ray) {
             return None;
         }

@@ -5,11 +5,7 @@
 //! use foton_session::{Interrupt, Session, StopRule};
 //! # use foton_scene::description::*;
 //! # let mut description = SceneDescription::default();
-//! # description.sensors.push(SensorDescription {
-//! #     name: "sensor".into(), to_world: Default::default(), fov_degrees: 40.0, fov_axis: FovAxis::X,
-//! #     width: 8, height: 8, crop: None, filter: Filter::Box { radius: 0.5 }, near_clip: None, far_clip: None,
-//! #     lens: None,
-//! # });
+//! # description.sensors.push(SensorDescription { width: 8, height: 8, ..SensorDescription::default() });
 //! let scene = std::sync::Arc::new(foton_scene::Scene::build(&description)?);
 //! let settings = foton_integrator::RenderSettings::default();
 //! let interrupt = Interrupt::default();

@@ -27,11 +27,8 @@ pub(crate) fn discs(radiance: Option<Rgb>) -> Scene {
             fov_axis: FovAxis::X,
             width: 8,
             height: 8,
-            crop: None,
             filter: Filter::Box { radius: 0.5 },
-            near_clip: None,
-            far_clip: None,
-            lens: None,
+            ..SensorDescription::default()
         }],
         materials: vec![Material { name: "white".into(), front: white, back: None, ..Material::default() }],
         shapes: vec![

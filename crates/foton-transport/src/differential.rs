@@ -61,8 +61,9 @@ impl Differential {
             return None;
         }
         let spacing = if renewed { 1.0 / RENEWED } else { 1.0 / (samples_per_pixel as f32).sqrt() };
-        let direction = sensor.change_of_direction(ray.direction).map(|d| d * spacing);
-        Some(Self { origin: [Vec3::ZERO; 2], direction, spacing })
+        let [origin, direction] =
+            sensor.change_of_ray(ray.direction).map(|change| change.map(|d| d * spacing));
+        Some(Self { origin, direction, spacing })
     }
 
     /// What the sample covers of a surface that its ray meets.

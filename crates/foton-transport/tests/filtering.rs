@@ -31,11 +31,8 @@ impl Sketch {
             fov_axis: FovAxis::X,
             width: SIDE,
             height: SIDE,
-            crop: None,
             filter: Filter::Box { radius: 0.5 },
-            near_clip: None,
-            far_clip: None,
-            lens: None,
+            ..SensorDescription::default()
         };
         Self(SceneDescription { sensors: vec![sensor], ..SceneDescription::default() })
     }

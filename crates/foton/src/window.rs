@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use foton_format::{OpenError, Opened, Options, Progress, Saved, Severity, save_edited};
+use foton_format::{OpenError, Opened, Options, Progress, Saved, Severity, beyond_mitsuba_3, save_edited};
 use foton_input::printable;
 use foton_integrator::Cancel;
 use foton_preview::{BuiltIn, Close, WindowError};
@@ -127,13 +127,17 @@ impl Loader for Files {
         path: &Path,
     ) -> Result<SavedScene, String> {
         let opened = origin.downcast_ref::<Opened>().ok_or("the scene was opened by another loader")?;
-        let note = match save_edited(opened, edited, path).map_err(|cause| cause.to_string())? {
-            Saved::Changed => String::new(),
+        let saved = save_edited(opened, edited, path).map_err(|cause| cause.to_string())?;
+        // What stands in the file already a person knows.
+        let (mut notes, known) = match saved {
+            Saved::Changed => (Vec::new(), beyond_mitsuba_3(&opened.description)),
             Saved::Anew { why } => {
-                format!("The whole scene was rewritten, with its meshes beside it: {why}")
+                let whole = format!("The whole scene was rewritten, with its meshes beside it: {why}");
+                (vec![whole], Vec::new())
             }
         };
-        Ok(SavedScene { note, reopened: self.reopened(path) })
+        notes.extend(beyond_mitsuba_3(edited).into_iter().filter(|note| !known.contains(note)));
+        Ok(SavedScene { note: notes.join("\n"), reopened: self.reopened(path) })
     }
 
     fn import(&self, path: &Path, cancel: &Cancel) -> Result<SceneDescription, String> {

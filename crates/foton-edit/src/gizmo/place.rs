@@ -84,11 +84,8 @@ impl Gizmo {
             fov_axis: FovAxis::X,
             width,
             height,
-            crop: None,
             filter: Filter::Box { radius: 0.5 },
-            near_clip: None,
-            far_clip: None,
-            lens: None,
+            ..SensorDescription::default()
         });
         Self {
             view,
@@ -127,12 +124,12 @@ impl Gizmo {
 
     /// Unit vector from the camera to where the handles meet.
     pub(super) fn sight(&self) -> DVec3 {
-        (self.at - self.view.origin).normalize_or(self.view.forward)
+        self.view.sight(self.at)
     }
 
     /// World units that a pixel covers there.
     pub(super) fn pixel(&self) -> f64 {
-        self.view.pixel_at((self.at - self.view.origin).dot(self.view.forward))
+        self.view.pixel_at(self.view.depth(self.at))
     }
 
     /// Where the handles meet on the film, in pixels.

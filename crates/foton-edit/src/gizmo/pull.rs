@@ -121,9 +121,9 @@ impl Pull {
     /// Where the plane through the gizmo is seen; `None` where it is not.
     fn on_plane(&self, normal: DVec3, film: DVec2) -> Option<DVec3> {
         let view = &self.gizmo.view;
-        let direction = view.direction(film);
-        let t = (self.gizmo.at - view.origin).dot(normal) / direction.dot(normal);
-        (t.is_finite() && t > 0.0).then(|| view.origin + direction * t)
+        let (eye, direction) = view.ray(film);
+        let t = (self.gizmo.at - eye).dot(normal) / direction.dot(normal);
+        (t.is_finite() && t > 0.0).then(|| eye + direction * t)
     }
 
     fn angle(&self, axis: DVec3, to: DVec2, snap: bool) -> f64 {

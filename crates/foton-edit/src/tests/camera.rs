@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use foton_math::glam::{DAffine3, DMat3, DVec3};
-use foton_scene::description::{Filter, FovAxis, SensorDescription};
+use foton_scene::description::{Filter, FovAxis, Projection, SensorDescription};
 
 use crate::{Camera, UpAxis};
 
@@ -19,11 +19,8 @@ fn sensor(forward: DVec3, up: DVec3, mirrored: bool) -> SensorDescription {
         fov_axis: FovAxis::Smaller,
         width: 400,
         height: 300,
-        crop: None,
         filter: Filter::Box { radius: 0.5 },
-        near_clip: None,
-        far_clip: None,
-        lens: None,
+        ..SensorDescription::default()
     }
 }
 
@@ -150,4 +147,39 @@ fn a_lens_is_focused_on_the_target_until_a_person_says_otherwise_and_goes_with_t
     assert_eq!(lens(&camera), Some((0.0, 2.5)), "the focus is kept for when it is opened again");
     camera.reset(&with_lens);
     assert_eq!(lens(&camera), Some((0.25, 2.5)));
+}
+
+/// It turns and moves as another, but what it shows goes with its scale, and it sees no more from nearer.
+#[test]
+fn an_orthographic_camera_keeps_its_width_until_it_is_zoomed() {
+    for sensor in sensors() {
+        let scale = DAffine3::from_scale(DVec3::new(2.0, 3.0, 1.0));
+        let projection = Projection::Orthographic;
+        let sensor = SensorDescription { to_world: sensor.to_world * scale, projection, ..sensor };
+        let mut camera = Camera::new(&sensor, 4.0);
+        assert_eq!(camera.to_world(), sensor.to_world);
+        assert!((camera.width() - 4.0).abs() < 1e-12);
+        camera.orbit(0.0, 0.0);
+        assert!(camera.to_world().abs_diff_eq(sensor.to_world, 1e-12), "{camera:?}");
+        let held = DVec3::from(camera.target);
+        camera.pan(&sensor, 30.0, 12.0);
+        let seen = |camera: &Camera| {
+            let view = crate::view::View::new(&camera.applied_to(&sensor));
+            view.project(held).unwrap() - view.film * 0.5
+        };
+        assert!((seen(&camera) - foton_math::glam::DVec2::new(30.0, 12.0 / 1.5)).length() < 1e-9);
+        camera.fly(0.5, 0.0, 0.0);
+        camera.zoom(0.5);
+        assert!((seen(&camera) - foton_math::glam::DVec2::new(60.0, 24.0 / 1.5)).length() < 1e-9);
+        let m = camera.to_world().matrix3;
+        let lengths = DVec3::new(m.x_axis.length(), m.y_axis.length(), m.z_axis.length());
+        assert!(lengths.abs_diff_eq(DVec3::new(1.0, 1.5, 1.0), 1e-12));
+        for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            camera.set_width(wrong);
+            camera.zoom(wrong);
+        }
+        assert!((camera.width() - 2.0).abs() < 1e-12);
+        camera.reset(&sensor);
+        assert_eq!(camera.to_world(), sensor.to_world);
+    }
 }

@@ -7,7 +7,7 @@ use foton_math::glam::{DAffine3, DMat3, DVec2, DVec3};
 use foton_scene::Scene;
 use foton_scene::description::{
     Bsdf, Dielectric, Diffuse, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Material, Mesh,
-    SceneDescription, SensorDescription, ShapeDescription,
+    Projection, SceneDescription, SensorDescription, ShapeDescription,
 };
 
 use crate::view::View;
@@ -35,12 +35,15 @@ fn sensor(to_world: DAffine3) -> SensorDescription {
         fov_axis: FovAxis::X,
         width: 300,
         height: 200,
-        crop: None,
         filter: Filter::Box { radius: 0.5 },
-        near_clip: None,
-        far_clip: None,
-        lens: None,
+        ..SensorDescription::default()
     }
+}
+
+/// The camera without perspective that shows 8 units along its width from the same place.
+fn orthographic(sensor: &SensorDescription) -> SensorDescription {
+    let to_world = sensor.to_world * DAffine3::from_scale(DVec3::splat(4.0));
+    SensorDescription { to_world, projection: Projection::Orthographic, ..sensor.clone() }
 }
 
 fn shape(name: &str, geometry: Geometry, to_world: DAffine3, material: usize) -> ShapeDescription {

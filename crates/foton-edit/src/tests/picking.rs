@@ -5,24 +5,43 @@ use super::*;
 #[test]
 fn the_view_projects_as_the_scenes_camera_looks() {
     let mut description = scene();
-    for (axis, near_clip) in [(FovAxis::X, None), (FovAxis::Diagonal, Some(0.5)), (FovAxis::Smaller, None)] {
-        description.sensors[0].fov_axis = axis;
-        description.sensors[0].near_clip = near_clip;
+    let plain = description.sensors[0].clone();
+    let perspective = |fov_axis, near_clip| SensorDescription { fov_axis, near_clip, ..plain.clone() };
+    let principal_point_offset = [0.1, -0.2];
+    for sensor in [
+        perspective(FovAxis::X, None),
+        perspective(FovAxis::Diagonal, Some(0.5)),
+        perspective(FovAxis::Smaller, None),
+        SensorDescription { principal_point_offset, ..perspective(FovAxis::X, None) },
+        orthographic(&plain),
+        SensorDescription { principal_point_offset, ..orthographic(&plain) },
+    ] {
+        description.sensors[0] = sensor;
         let built = Scene::build(&description).unwrap();
         let view = View::new(&description.sensors[0]);
         for film in [DVec2::new(3.0, 7.0), DVec2::new(150.0, 100.0), DVec2::new(299.0, 150.5)] {
             let ray = built.sensors()[0].ray(film.as_vec2());
             let there = built.normalisation().world_point(ray.at(500.0));
             assert!(view.project(there).unwrap().distance(film) < 1e-2);
-            assert!(view.direction(film).distance(ray.direction.as_dvec3()) < 1e-6);
+            let (eye, direction) = view.ray(film);
+            assert!(direction.distance(ray.direction.as_dvec3()) < 1e-6);
+            assert!(eye.distance(built.normalisation().world_point(ray.origin)) < 1e-5);
+            assert!(view.eye_of(there).distance(eye) < 1e-3 && view.sight(there).distance(direction) < 1e-6);
         }
     }
 }
 
 #[test]
 fn picking_meets_what_stands_there() {
-    let description = scene();
-    let built = Scene::build(&description).unwrap();
+    let mut description = scene();
+    picks(&description);
+    assert_eq!(pick(&Scene::build(&description).unwrap(), 0, [150.0, 0.0]), None);
+    description.sensors[0] = orthographic(&description.sensors[0]);
+    picks(&description);
+}
+
+fn picks(description: &SceneDescription) {
+    let built = Scene::build(description).unwrap();
     let view = View::new(&description.sensors[0]);
     for (index, name, material) in [(1, "ball", "glass"), (2, "cube", "grey")] {
         let middle = geometry::centre(&description.shapes[index]);
@@ -30,12 +49,12 @@ fn picking_meets_what_stands_there() {
         assert_eq!((picked.target, picked.name.as_str()), (Target::Shape(index), name));
         assert_eq!(picked.material, material);
         let position = DVec3::from(picked.position);
-        assert!(close(picked.distance, position.distance(view.origin)));
-        assert!(DVec3::from(picked.normal).dot(view.origin - position) > 0.0);
+        let eye = view.eye_of(position);
+        assert!((picked.distance / position.distance(eye) - 1.0).abs() < 1e-5);
+        assert!(DVec3::from(picked.normal).dot(eye - position) > 0.0);
     }
     let picked = pick(&built, 0, view.project(DVec3::new(0.0, 1.0, 0.0)).unwrap().to_array()).unwrap();
     assert!(close(DVec3::from(picked.position).distance(DVec3::Y), 1.0), "on the ball");
-    assert_eq!(pick(&built, 0, [150.0, 0.0]), None);
     assert_eq!(pick(&built, 7, [150.0, 100.0]), None);
 }
 
@@ -58,8 +77,14 @@ fn lights_without_surfaces_are_picked_by_their_markers() {
 #[test]
 fn a_spheres_outline_is_where_lines_of_sight_touch_it() {
     let description = scene();
-    let built = Scene::build(&description).unwrap();
-    let outline = Outline::new(&description, BALL).segments(&description, 0);
+    touches(&description);
+    let sensors = vec![orthographic(&description.sensors[0])];
+    touches(&SceneDescription { sensors, ..description });
+}
+
+fn touches(description: &SceneDescription) {
+    let built = Scene::build(description).unwrap();
+    let outline = Outline::new(description, BALL).segments(description, 0);
     assert_eq!(outline.len(), 64);
     let middle = View::new(&description.sensors[0]).project(DVec3::Y).unwrap();
     for [a, _] in outline {

@@ -89,6 +89,19 @@ pub fn create_log(path: &Path, begins: &str) -> Result<File, WriteError> {
     }
 }
 
+/// The first bytes of a file that is there, at most so many: for asking what kind of output would be replaced.
+///
+/// # Errors
+/// What the system says; and for anything that is no plain file.
+pub fn head_of(path: &Path, length: usize) -> io::Result<Vec<u8>> {
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(io::ErrorKind::InvalidInput.into());
+    }
+    let mut head = Vec::new();
+    File::open(path)?.take(length as u64).read_to_end(&mut head)?;
+    Ok(head)
+}
+
 /// Fills a file.
 fn put(file: File, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<File> {
     let mut writer = BufWriter::new(file);

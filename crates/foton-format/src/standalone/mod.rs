@@ -32,7 +32,7 @@ use crate::mesh::ply;
 use crate::mesh::stl;
 use crate::mesh::wanted::{Format, Wanted};
 use crate::mesh::words::Problem;
-use crate::opened::{Opened, Origin};
+use crate::opened::{ForeignScene, Opened, Origin};
 use crate::options::{BYTES_PER_BYTE, Options, ReadFile};
 use crate::suggested::Suggested;
 use crate::watch::Watch;
@@ -138,8 +138,8 @@ pub(crate) fn open(
     let warnings: Vec<Diagnostic> = report.finish()?;
     Ok(Opened {
         description,
-        origin: Origin::Mesh,
-        path: None,
+        origin: Origin::Foreign(ForeignScene::new("a mesh file")),
+        path: Some(path.to_owned()),
         files: Vec::new(),
         options: options.without_cancel(),
         suggested: Suggested::default(),
@@ -303,11 +303,8 @@ impl Model {
             fov_axis: FovAxis::Smaller,
             width,
             height,
-            crop: None,
             filter: Filter::Gaussian { stddev: 0.5 },
-            near_clip: None,
-            far_clip: None,
-            lens: None,
+            ..SensorDescription::default()
         });
         report.warning(Place::default(), format!("a mesh file has no camera: one is placed {place}"));
     }

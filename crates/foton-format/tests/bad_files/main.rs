@@ -189,6 +189,14 @@ fn sensors_and_lights_out_of_range_are_errors() {
             &["s.xml:2:93: \"far_clip\" must be farther than \"near_clip\""],
         ),
         (
+            "<sensor type='perspective'><transform name='to_world'><scale x='2'/></transform></sensor>",
+            &["s.xml:2:28: the transform of a camera must not scale or shear"],
+        ),
+        (
+            "<sensor type='orthographic'><transform name='to_world'><matrix value='1 1 0 0  0 1 0 0  0 0 1 0  0 0 0 1'/></transform></sensor>",
+            &["s.xml:2:29: the transform of a camera must not shear"],
+        ),
+        (
             "<sensor type='perspective'><film type='hdrfilm'><integer name='width' value='0'/></film></sensor>",
             &["s.xml:2:78: \"width\" must lie between 1 and 65536 pixels"],
         ),

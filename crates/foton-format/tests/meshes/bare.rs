@@ -99,7 +99,10 @@ fn a_bare_mesh_is_in_view_lit_and_on_a_floor() {
             "m.ply: nothing in the file emits light: a light, a dim sky and a floor are added"
         ]
     );
-    assert!(matches!(opened.origin, Origin::Mesh) && opened.description.shapes.len() == 3);
+    assert!(
+        matches!(&opened.origin, Origin::Foreign(scene) if scene.kind == "a mesh file")
+            && opened.description.shapes.len() == 3
+    );
     let other = folder.file("other.ply", &[&bytes[..], b"\n"].concat());
     assert_ne!(open(&other, &Options::default()).unwrap().source_hash, opened.source_hash);
     let defines = Options { defines: vec![("r".to_owned(), "1".to_owned())], ..Options::default() };

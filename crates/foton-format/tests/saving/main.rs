@@ -1,6 +1,7 @@
 //! An edited scene goes back into its own file: what changed is changed, and the rest stays as it was.
 
 mod blends;
+mod foreign;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -280,6 +281,19 @@ fn lights_and_cameras_change_in_place() {
 }
 
 #[test]
+fn how_much_an_orthographic_camera_shows_is_its_transform() {
+    let folder = Folder::new("orthographic");
+    let sensor = fs::read_to_string(folder.path()).unwrap();
+    let (from, to) = (sensor.find("<sensor").unwrap(), sensor.find("</sensor>").unwrap());
+    let parallel = "<sensor type=\"orthographic\"><float name=\"near_clip\" value=\"0.25\"/>\n        <transform name=\"to_world\"><scale value=\"4\"/></transform>";
+    fs::write(folder.path(), format!("{}{parallel}{}", &sensor[..from], &sensor[to..])).unwrap();
+    let lines =
+        changed_lines(&folder, |d| d.sensors[0].to_world *= DAffine3::from_scale(DVec3::new(3.0, 3.0, 1.0)));
+    assert!(lines.iter().any(|l| l.contains("matrix")), "{lines:?}");
+    assert!(lines.iter().any(|l| l.contains("near_clip\" value=\"0.25\"")), "{lines:?}");
+}
+
+#[test]
 fn in_another_folder_files_are_found_and_defines_have_become_defaults() {
     let folder = Folder::new("elsewhere");
     let options = Options { defines: vec![("ior".into(), "1.9".into())], ..Options::default() };
@@ -338,11 +352,11 @@ fn what_has_no_place_in_the_file_is_written_anew_with_the_reason() {
         &|_| Err(std::io::ErrorKind::NotFound.into()),
         &Options::default(),
     );
-    assert_eq!(why(&memory.unwrap(), &raise), "the scene was not opened from a scene file");
-    assert_eq!(
-        why(&read(&folder.0.join("scene/meshes/tile.obj")), &raise),
-        "the scene was not opened from a scene file"
-    );
+    assert_eq!(why(&memory.unwrap(), &raise), "the scene was not opened from a file");
+    let tile = folder.0.join("scene/meshes/tile.obj");
+    assert_eq!(why(&read(&tile), &raise), "it was opened from a mesh file");
+    // Nor is the mesh file written over.
+    assert!(save_edited(&read(&tile), &opened.description, &tile).is_err());
     let write = |name: &str, text: &str| {
         let path = folder.0.join("scene").join(name);
         fs::write(&path, text).unwrap();

@@ -1,5 +1,6 @@
 //! What is written reads back as an equal description.
 
+mod instances;
 mod parts;
 mod same;
 
@@ -14,8 +15,8 @@ use foton_scene::description::{
     Attribute, Bitmap, Blend, Bsdf, Coating, Colour, Conductor, Crop, Dielectric, Diffuse,
     DiffuseTransmitter, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Hidden, Keyframes, Lens,
     Material, Mesh, MicrofacetDistribution, Microfacets, Mirror, Motion, Null, Number, Phong, Plastic,
-    Principled, PrincipledThin, Relief, ReliefKind, RoughDiffuse, SceneDescription, SensorDescription,
-    ShapeDescription, Texture, TextureKind, ThinDielectric, Ward, Wrap,
+    Principled, PrincipledThin, Projection, Relief, ReliefKind, RoughDiffuse, SceneDescription,
+    SensorDescription, ShapeDescription, Texture, TextureKind, ThinDielectric, Ward, Wrap,
 };
 
 use parts::{sensors, shapes};
@@ -323,18 +324,36 @@ fn files_that_a_scene_is_made_of_are_known_and_not_written_to() {
     let meshes = ["meshes/s-__b-3.ply", "meshes/s-__b-4.ply", "meshes/s-unnamed-4.ply"];
     assert_eq!(files, [&meshes[..], &["s.xml", "textures/s-t.exr"]].concat());
     // Whatever was overwritten would not be this any more.
+    const OURS: &str = "written by foton for s.xml";
     let marked: Vec<PathBuf> = meshes.iter().chain(&["textures/s-t.exr"]).map(|f| folder.0.join(f)).collect();
+    let are_marked = || marked.iter().all(|file| fs::read(file).unwrap() == OURS.as_bytes());
     for file in &marked {
-        fs::write(file, "kept").unwrap();
+        fs::write(file, OURS).unwrap();
     }
     write_scene(&opened.description, &path, &opened.files).unwrap();
-    for file in &marked {
-        assert_eq!(fs::read_to_string(file).unwrap(), "kept", "{}", file.display());
-    }
+    assert!(are_marked());
     assert_same(&opened.description, &read(&path));
     // Without a word they are replaced, as those of an earlier conversion are.
     write_scene(&opened.description, &path, &[]).unwrap();
-    assert!(marked.iter().all(|file| fs::read(file).unwrap() != b"kept"));
+    assert!(!are_marked());
+}
+
+/// How many files there are in the folders beside a scene.
+fn files_beside(folder: &Folder) -> usize {
+    let inside = ["meshes", "textures"].map(|inside| fs::read_dir(folder.0.join(inside)).unwrap().count());
+    inside.iter().sum()
+}
+
+#[test]
+fn files_of_an_earlier_conversion_to_the_same_file_are_replaced_and_no_others() {
+    let folder = Folder::new("twice");
+    write_scene(&everything(), &folder.0.join("s.xml"), &[]).unwrap();
+    let before = files_beside(&folder);
+    write_scene(&everything(), &folder.0.join("s.xml"), &[]).unwrap();
+    assert_eq!(files_beside(&folder), before);
+    // Another scene file whose parts would have the same names.
+    write_scene(&everything(), &folder.0.join("s.XML"), &[]).unwrap();
+    assert_eq!(files_beside(&folder), 2 * before);
 }
 
 #[test]

@@ -60,11 +60,11 @@ pub(super) fn sensors() -> Vec<SensorDescription> {
         fov_axis,
         width: 320,
         height: 200,
-        crop: None,
         filter,
         near_clip,
         far_clip: near_clip.map(|near| near + 100.0),
-        lens: None,
+        principal_point_offset: [odd(3), odd(4)],
+        ..SensorDescription::default()
     };
     vec![
         sensor(FovAxis::Larger, Filter::Box { radius: 0.5 }, Some(odd(1))),
@@ -74,6 +74,16 @@ pub(super) fn sensors() -> Vec<SensorDescription> {
             ..sensor(FovAxis::X, Filter::Box { radius: 0.5 }, None)
         },
         sensor(FovAxis::Diagonal, Filter::Tent { radius: 1.1 }, None),
+        SensorDescription {
+            to_world: odd_transform() * DAffine3::from_scale(DVec3::new(3.0, 2.5, 1.0)),
+            projection: Projection::Orthographic,
+            ..sensor(FovAxis::X, Filter::Box { radius: 0.5 }, Some(odd(1)))
+        },
+        SensorDescription {
+            projection: Projection::Orthographic,
+            lens: Some(Lens { aperture_radius: odd(3), focus_distance: odd(4).abs() }),
+            ..sensor(FovAxis::X, Filter::Box { radius: 0.5 }, None)
+        },
         sensor(FovAxis::Y, Filter::Gaussian { stddev: 0.3 }, None),
     ]
 }

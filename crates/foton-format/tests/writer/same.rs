@@ -16,7 +16,11 @@ pub(super) fn assert_same(a: &SceneDescription, b: &SceneDescription) {
     assert_eq!(a.sensors.len(), b.sensors.len());
     for (a, b) in a.sensors.iter().zip(&b.sensors) {
         assert_eq!(a.to_world, b.to_world);
-        assert_eq!((a.fov_degrees, a.fov_axis, a.filter), (b.fov_degrees, b.fov_axis, b.filter));
+        assert_eq!((a.projection, a.filter), (b.projection, b.filter));
+        if a.projection == Projection::Perspective {
+            assert_eq!((a.fov_degrees, a.fov_axis), (b.fov_degrees, b.fov_axis));
+        }
+        assert_eq!(a.principal_point_offset, b.principal_point_offset);
         assert_eq!(
             (a.width, a.height, a.near_clip, a.far_clip, a.lens),
             (b.width, b.height, b.near_clip, b.far_clip, b.lens)

@@ -1,6 +1,6 @@
 //! What menu, toolbar and keys have in common: each thing that they do, once.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use foton_edit::{Item, Make};
 use foton_session::engine::{Activity, Command, Frame, SceneEdit};
@@ -128,8 +128,17 @@ pub(super) fn open_dialog(state: &mut State) {
 
 pub(super) fn save_dialog(state: &mut State) {
     let is_edited_file = state.frame.as_ref().is_some_and(|f| f.scene.name.ends_with("-edited.xml"));
-    let path = beside_the_scene(state, if is_edited_file { ".xml" } else { "-edited.xml" });
+    let mut path = beside_the_scene(state, if is_edited_file { ".xml" } else { "-edited.xml" });
+    // Scenes of other formats are saved as Mitsuba's: `teapot.obj` as `teapot-edited.xml`.
+    let file = state.frame.as_ref().and_then(|f| f.scene.file.clone());
+    if let Some(stem) = file.filter(|file| !is_xml(file)).as_deref().and_then(Path::file_stem) {
+        path.set_file_name(format!("{}-edited.xml", stem.to_string_lossy()));
+    }
     state.dialog = Some((DialogPurpose::SaveScene, FileDialog::save(&path, &["xml"])));
+}
+
+fn is_xml(file: &Path) -> bool {
+    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xml"))
 }
 
 pub(super) fn checkpoint_dialog(state: &mut State) {

@@ -22,7 +22,19 @@ const HELP: &str = "Angle of view along the camera's own axis, 1° to 170°";
 
 pub(super) fn show(ui: &mut Ui, state: &mut State) {
     let sensor = state.frame.as_ref().and_then(|f| f.scene.sensors.get(f.settings.sensor));
-    let Some(degrees) = sensor.map(|s| s.fov_degrees) else { return };
+    let Some((degrees, width)) = sensor.map(|s| (s.fov_degrees, s.width)) else { return };
+    match width {
+        Some(width) => show_width(ui, state, width),
+        None => field_of_view(ui, state, degrees),
+    }
+    lens(ui, state);
+    sides(ui, state);
+    if ui.button("Reset camera").on_hover_text("Back to where the scene's file has it (H)").clicked() {
+        state.ask(Command::ResetCamera);
+    }
+}
+
+fn field_of_view(ui: &mut Ui, state: &mut State, degrees: f64) {
     row(ui, "Field of view", HELP, |ui, _| {
         let number =
             Number::new("Field of view", 1.0..=170.0).unit("°").digits(Digits::Decimals(1)).speed(0.2);
@@ -35,16 +47,29 @@ pub(super) fn show(ui: &mut Ui, state: &mut State) {
             None => {}
         }
     });
-    lens(ui, state);
-    sides(ui, state);
-    if ui.button("Reset camera").on_hover_text("Back to where the scene's file has it (H)").clicked() {
-        state.ask(Command::ResetCamera);
-    }
+}
+
+/// How much an orthographic camera sees.
+fn show_width(ui: &mut Ui, state: &mut State, width: f64) {
+    const HELP: &str = "How wide the image is in the scene's units. This camera has no perspective; the mouse wheel changes it too";
+    row(ui, "Width", HELP, |ui, _| {
+        let number = Number::new("Width", f64::MIN_POSITIVE..=MOST).speed(1e-3 * width);
+        let size = state.frame.as_ref().map_or(1.0, |f| f.scene.radius);
+        let slider = Slider::new("Width", NEAREST * size..=FARTHEST * size).logarithmic(true);
+        let ([slider, field], change) = slider.show(ui, number, width);
+        (slider | field).on_hover_text(HELP);
+        let turn = |width, moving| Command::Camera { gesture: Gesture::Width(width), moving };
+        match change {
+            Some(Change::Moving(width)) => state.ask(turn(width, true)),
+            Some(Change::Done(width)) => state.ask(turn(width, false)),
+            None => {}
+        }
+    });
 }
 
 /// Views along the axes.
 pub(super) fn sides(ui: &mut Ui, state: &mut State) {
-    const HELP: &str = "Looks along an axis at what the camera turns around, from the same distance. The camera stays a perspective one; \
+    const HELP: &str = "Looks along an axis at what the camera turns around, from the same distance. A perspective camera stays one; \
                         a narrow field of view from afar comes near to an orthographic view";
     row(ui, "View from", HELP, |ui, _| {
         tight(ui);

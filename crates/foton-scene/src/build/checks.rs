@@ -39,6 +39,7 @@ pub(super) fn check_sensors(
             && determinant.is_finite()
             && determinant != 0.0
             && s.to_world.translation.is_finite()
+            && s.principal_point_offset.iter().all(|offset| offset.is_finite())
             && s.lens.is_none_or(|lens| lens.is_sound());
         if !good {
             return Err(BuildError::BadSensor(s.name.clone()));

@@ -20,7 +20,7 @@ pub use emitter::{EmitterDescription, EmitterKind};
 pub use hidden::Hidden;
 pub use material::{Blend, Material, Relief, ReliefKind};
 pub use motion::{Keyframes, Motion};
-pub use sensor::{Crop, Filter, FovAxis, Lens, SensorDescription};
+pub use sensor::{Crop, Filter, FovAxis, Lens, Projection, SensorDescription};
 pub use shape::{Attribute, Geometry, Mesh, ShapeDescription};
 pub use texture::{Amount, Colour, Number, Texture, TextureKind};
 

@@ -4,14 +4,17 @@ use std::fmt;
 
 use foton_math::glam::DAffine3;
 
-/// A camera.
+/// A camera. [`SensorDescription::default`] is Mitsuba's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensorDescription {
     /// The id in the file, or `sensor`, `sensor-2`, …
     pub name: String,
-    /// Camera to world. The camera looks along its +z; +y is up in the image and +x points to the image's *left*.
+    /// Camera to world. The camera looks along its +z; +y is up in the image and +x points to the image's *left*. Its scale matters
+    /// to [`Projection::Orthographic`] alone.
     pub to_world: DAffine3,
-    /// Field of view in degrees along `fov_axis`, in (0, 180).
+    /// How what it sees gets onto its film.
+    pub projection: Projection,
+    /// Field of view of a perspective in degrees along `fov_axis`, in (0, 180).
     pub fov_degrees: f64,
     /// What `fov_degrees` spans.
     pub fov_axis: FovAxis,
@@ -29,6 +32,39 @@ pub struct SensorDescription {
     pub far_clip: Option<f64>,
     /// What blurs things away from the plane in focus. `None`: a pinhole, which shows everything sharp.
     pub lens: Option<Lens>,
+    /// Where the middle of the image looks, in shares of its width to the right and of its height down from the camera's z.
+    pub principal_point_offset: [f64; 2],
+}
+
+impl Default for SensorDescription {
+    fn default() -> Self {
+        Self {
+            name: "sensor".to_owned(),
+            to_world: DAffine3::IDENTITY,
+            projection: Projection::default(),
+            fov_degrees: 40.0,
+            fov_axis: FovAxis::default(),
+            width: 768,
+            height: 576,
+            crop: None,
+            filter: Filter::Gaussian { stddev: 0.5 },
+            near_clip: None,
+            far_clip: None,
+            lens: None,
+            principal_point_offset: [0.0; 2],
+        }
+    }
+}
+
+/// How what a camera sees gets onto its film.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Projection {
+    /// By rays through one point, within the field of view.
+    #[default]
+    Perspective,
+    /// By parallel rays along the camera's z. Half the width of the image shows as many world units as the camera's x axis is long in
+    /// the world; its height as many as its y axis is long, times height over width: an even scale shows squares as squares.
+    Orthographic,
 }
 
 /// A thin lens: a disc around the camera's position, perpendicular to its z, that brings one plane into focus.
@@ -121,6 +157,23 @@ pub enum FovAxis {
     Smaller,
     /// The longer side.
     Larger,
+}
+
+impl FovAxis {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::X, Self::Y, Self::Diagonal, Self::Smaller, Self::Larger];
+
+    /// What files call it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::Y => "y",
+            Self::Diagonal => "diagonal",
+            Self::Smaller => "smaller",
+            Self::Larger => "larger",
+        }
+    }
 }
 
 /// A separable reconstruction filter, sampled in proportion to its height. Widths in pixels.

@@ -34,11 +34,8 @@ pub(super) fn described(materials: Vec<Material>) -> SceneDescription {
         fov_axis: FovAxis::X,
         width: 1,
         height: 1,
-        crop: None,
         filter: Filter::Box { radius: 0.5 },
-        near_clip: None,
-        far_clip: None,
-        lens: None,
+        ..SensorDescription::default()
     };
     let board = TextureKind::Checkerboard { colours: [0.2, 0.7].map(|c| Rgb::splat(c).into()) };
     SceneDescription {

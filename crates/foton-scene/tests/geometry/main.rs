@@ -79,11 +79,8 @@ fn describe(shapes: Vec<ShapeDescription>) -> SceneDescription {
         fov_axis: FovAxis::X,
         width: 8,
         height: 8,
-        crop: None,
         filter: Filter::Box { radius: 0.5 },
-        near_clip: None,
-        far_clip: None,
-        lens: None,
+        ..SensorDescription::default()
     };
     let white = Bsdf::Diffuse(Diffuse { reflectance: Rgb::splat(0.5).into() });
     let material = Material { name: "white".into(), front: white, back: Some(white), ..Material::default() };

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
-use foton_edit::{DragMode, FieldId, Handle, Make, NewThing, Target, Value, ViewSide};
+use foton_edit::{DragMode, FieldId, Handle, Make, NewThing, Target, Value};
 use foton_integrator::{DirectLight, Method, RadiusFloor, RadiusRule, RenderSettings};
 pub use foton_scene::description::Crop as Region;
 
+use super::gesture::Gesture;
 use crate::snapshot::Look;
 use crate::stop::StopRule;
 
@@ -76,53 +77,6 @@ impl Configuration {
         settings.sensor = self.sensor;
         settings.max_depth = self.max_depth;
     }
-}
-
-/// A move of the camera. Angles in radians.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Gesture {
-    /// Around what it looks at.
-    Orbit {
-        /// Around the up axis.
-        yaw: f64,
-        /// Above the horizon.
-        pitch: f64,
-    },
-    /// Where it stands.
-    Turn {
-        /// Around the up axis.
-        yaw: f64,
-        /// Above the horizon.
-        pitch: f64,
-    },
-    /// Across the view, in pixels of what it looks at.
-    Pan {
-        /// To the image's right.
-        right: f64,
-        /// Downwards.
-        down: f64,
-    },
-    /// Multiplies the distance to what it looks at.
-    Zoom(f64),
-    /// As shares of the distance to what it looks at.
-    Fly {
-        /// The way it looks.
-        forward: f64,
-        /// To the image's right.
-        right: f64,
-        /// Up.
-        up: f64,
-    },
-    /// In degrees along the sensor's own axis.
-    FieldOfView(f64),
-    /// Looks at the same along an axis of the world.
-    Face(ViewSide),
-    /// Radius of the lens in world units, 0 for a pinhole.
-    Aperture(f64),
-    /// Depth at which the lens shows things sharp, in world units.
-    FocusDistance(f64),
-    /// Focuses the lens on what is seen at a film position.
-    FocusAt([f64; 2]),
 }
 
 /// An edit of the scene. Film positions are pixels from the image's top left corner.

@@ -8,7 +8,8 @@ use std::thread;
 
 use foton_film::read_exr;
 
-use super::command::{Event, Gesture};
+use super::command::Event;
+use super::gesture::Gesture;
 use super::history::{Film, Kept, Turntable};
 use super::worker::{Flow, Worker};
 use crate::metadata;

@@ -121,6 +121,8 @@ pub struct SensorFacts {
     pub name: String,
     /// Field of view in degrees along its own axis.
     pub fov_degrees: f64,
+    /// How wide its image is in world units, where it has no perspective.
+    pub width: Option<f64>,
     /// Its lens, if it has one.
     pub lens: Option<Lens>,
     /// Width and height in pixels.

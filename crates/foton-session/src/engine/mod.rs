@@ -9,6 +9,7 @@ mod command;
 mod editable_scene;
 mod filming;
 mod frame;
+mod gesture;
 mod history;
 mod keeping;
 mod kept;
@@ -34,12 +35,13 @@ use std::time::{Duration, Instant};
 use crossbeam_channel::{Receiver, Sender, bounded};
 
 use cancels::Cancels;
-pub use command::{Command, Configuration, ErrorPart, Event, Gesture, Region, SceneEdit, Source, ViewMode};
+pub use command::{Command, Configuration, ErrorPart, Event, Region, SceneEdit, Source, ViewMode};
 pub use foton_scene::BuildStep;
 pub use frame::{
     Activity, BuildProgress, Dot, DrawnPath, Frame, Picture, Probe, RenderStats, SceneFacts, Selection,
     SensorFacts, SurfaceNames,
 };
+pub use gesture::Gesture;
 pub use history::{HistoryEntry, Thumbnail, shrunk};
 pub use loader::{Loaded, Loader, Reopened, SavedScene, TellReading};
 pub use setup::Setup;

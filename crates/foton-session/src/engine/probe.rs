@@ -7,7 +7,7 @@ use foton_edit::Segment;
 use foton_integrator::{Disc, PhotonPath, Render};
 use foton_math::Ray;
 use foton_math::glam::{DVec3, Vec2};
-use foton_scene::Scene;
+use foton_scene::{Scene, Sensor};
 
 use super::frame::{DrawnPath, Probe, SurfaceNames};
 use crate::dots::{dot, pixel_in};
@@ -31,19 +31,24 @@ pub(super) fn probe(render: &Render, pixel: [u32; 2]) -> Option<Probe> {
     let discs = render.discs(index);
     let first = discs.first();
     let photons = first.map_or_else(Vec::new, |d| render.photons_near(d.position, d.radius, DISC_DOTS));
-    let eye = scene.normalisation().world_point(sensor.origin());
     Some(Probe {
         pixel,
         radiance: render.radiance(index),
         radius: (!discs.is_empty()).then(|| discs.iter().map(|d| d.radius).sum::<f64>() / discs.len() as f64),
         photons_found: discs.iter().map(|d| d.photons_found).sum(),
         hit_points: discs.len(),
-        distance: first.map(|d| d.position.distance(eye)),
+        distance: first.map(|d| distance(scene, sensor, d.position)),
         surface: surface(scene, sensor.ray_of_whole(film)),
         disc: first.map_or_else(Vec::new, |d| outline(scene, render.settings().sensor, d)),
         photons: photons.iter().filter_map(|p| dot(render, p, false)).collect(),
         paths: Arc::default(),
     })
+}
+
+/// From where a sensor's line of sight to a point begins, in world units.
+fn distance(scene: &Scene, sensor: &Sensor, world: DVec3) -> f64 {
+    let to_world = scene.normalisation();
+    world.distance(to_world.world_point(sensor.eye_of(to_world.point(world))))
 }
 
 /// Paths of photons that lit a pixel of the whole image, as the camera sees them.

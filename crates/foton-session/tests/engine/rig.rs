@@ -66,11 +66,8 @@ pub(crate) fn room() -> SceneDescription {
             fov_axis: FovAxis::X,
             width: SIZE[0],
             height: SIZE[1],
-            crop: None,
             filter: Filter::Box { radius: 0.5 },
-            near_clip: None,
-            far_clip: None,
-            lens: None,
+            ..SensorDescription::default()
         }],
         materials: vec![material("grey", grey), material("glass", glass)],
         shapes: vec![

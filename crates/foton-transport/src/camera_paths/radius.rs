@@ -59,11 +59,6 @@ impl FirstRadius {
     }
 }
 
-/// The area that a pixel of `solid_angle` covers on a surface which it sees after `distance` in all, at `cosine` to the normal.
-pub(super) fn footprint(solid_angle: f32, distance: f32, cosine: f32) -> f32 {
-    on_surface(distance * distance * solid_angle, cosine)
-}
-
 /// An area across the line of sight, on a surface that is seen at `cosine` to its normal.
 pub(super) fn on_surface(area: f32, cosine: f32) -> f32 {
     area / cosine.max(MIN_COSINE)
@@ -86,6 +81,11 @@ pub(super) fn slab2(surface: &Surface) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What a pixel of so many steradians covers.
+    fn footprint(solid_angle: f32, distance: f32, cosine: f32) -> f32 {
+        on_surface(distance * distance * solid_angle, cosine)
+    }
 
     #[test]
     fn the_radius_grows_with_the_footprint_and_is_clamped() {

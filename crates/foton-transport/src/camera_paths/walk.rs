@@ -10,7 +10,7 @@ use super::eye_pass::{EyePass, EyePaths};
 use super::highlights::{EmitterDraw, Glossy};
 use super::hit_point::{Gloss, HitPoint};
 use super::pixel_samples::SamplePoints;
-use super::radius::{footprint, on_surface, slab2};
+use super::radius::{on_surface, slab2};
 use crate::differential::{Bend, Differential};
 use crate::lobes::LobeSplit;
 use crate::not_finite::{self, LeftOut, Quantity};
@@ -59,7 +59,6 @@ pub(super) struct Walk<'a, 'b> {
     facet: Option<Vec2>,
     /// The same for the point on an area emitter that is sampled from there.
     emitter_point: Option<Vec2>,
-    solid_angle: f32,
     /// Direction in which the sample leaves the camera.
     view: Vec3,
     /// Whether the pixel's shape is still to be noted.
@@ -86,7 +85,6 @@ impl<'a, 'b> Walk<'a, 'b> {
             stream,
             facet: Some(points.facet),
             emitter_point: Some(points.emitter),
-            solid_angle: 0.0,
             view: Vec3::ZERO,
             first,
             paths,
@@ -107,7 +105,6 @@ impl<'a, 'b> Walk<'a, 'b> {
     /// The same from the sensor on.
     pub(super) fn follow_ray(&mut self, ray: Ray) -> Rgb {
         self.view = ray.direction;
-        self.solid_angle = self.pass.sensor().pixel_solid_angle(ray.direction);
         let Self { pass, .. } = self;
         let (samples, renewed) = (pass.samples_per_pixel.get(), pass.pass.is_some());
         let differential = Differential::of_eye(pass.scene, pass.sensor(), &ray, samples, renewed);
@@ -204,8 +201,9 @@ impl<'a, 'b> Walk<'a, 'b> {
         let side = behind * 1f32.copysign(wo.dot(surface.normal));
         let normal = surface.normal * side;
         let cosine = wo.dot(normal).abs();
-        let footprint = footprint(self.solid_angle, distance, cosine);
-        let confusion = on_surface(self.pass.sensor().confusion(self.view, distance), cosine);
+        let sensor = self.pass.sensor();
+        let footprint = on_surface(sensor.pixel_area(self.view, distance), cosine);
+        let confusion = on_surface(sensor.confusion(self.view, distance), cosine);
         let (radius2, smallest2) =
             self.pass.radius.first_and_smallest2(footprint, confusion, surface.position);
         self.paths.hit_points.push(HitPoint {

@@ -153,11 +153,8 @@ mod tests {
             fov_axis: FovAxis::X,
             width: 1,
             height: 1,
-            crop: None,
             filter: Filter::Box { radius: 0.5 },
-            near_clip: None,
-            far_clip: None,
-            lens: None,
+            ..SensorDescription::default()
         };
         let material = |front| Material { name: "material".into(), front, back: None, ..Material::default() };
         let lamp = EmitterKind::Point { position: DVec3::ZERO, intensity: Rgb::WHITE };

@@ -62,11 +62,8 @@ fn sources() -> Sources {
             fov_axis: FovAxis::X,
             width: 4,
             height: 4,
-            crop: None,
             filter: Filter::Box { radius: 0.5 },
-            near_clip: None,
-            far_clip: None,
-            lens: None,
+            ..SensorDescription::default()
         }],
         emitters: vec![
             point(1.0, 3.0),

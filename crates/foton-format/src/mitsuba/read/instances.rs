@@ -1,5 +1,5 @@
 //! `<shape type="instance">`: the shapes of a `shapegroup` once more, at another place. Each becomes a shape of its own; meshes share
-//! their vertices.
+//! their vertices. Mitsuba 3 was asked: an instance that is mirrored is not turned inside out, whatever its shapes are.
 
 use std::collections::HashSet;
 
@@ -10,7 +10,6 @@ use foton_scene::plugins::shapes::{INSTANCE, SHAPEGROUP, TO_WORLD};
 use crate::mitsuba::document::{Element, NodeId};
 use crate::mitsuba::read::properties::Object;
 use crate::mitsuba::read::reader::Reader;
-use crate::mitsuba::read::shapes::is_turned_inside_out;
 
 impl Reader<'_> {
     /// Reads an instance.
@@ -30,19 +29,23 @@ impl Reader<'_> {
         };
         let name = self.name(element, "instance", self.description.shapes.len() + 1);
         let members: Vec<NodeId> = self.members(group.node);
-        for member in members {
+        let is_hidden = self.document.is_hidden(node);
+        for member in members.iter().copied() {
             if self.files.cancel().is_requested() || self.report.is_full() {
                 return;
             }
             let first = self.description.shapes.len();
             self.shape(member);
+            // What is moved or taken away is the instance.
+            self.nodes.shapes.truncate(first);
+            self.nodes.shapes.resize(self.description.shapes.len(), node);
             for (i, shape) in self.description.shapes.iter_mut().enumerate().skip(first) {
-                let mirrored = to_world.matrix3.determinant() < 0.0;
-                let plugin = self.document.element(member).and_then(|e| e.attribute("type"));
-                let plugin = plugin.map_or("", |t| t.value.as_str());
-                shape.flip_normals ^= mirrored && is_turned_inside_out(plugin, &shape.geometry);
                 shape.to_world = to_world * shape.to_world;
-                shape.name = format!("{name}/{}", shape.name);
+                // One that is alone in its group has the name of the instance.
+                shape.name = if members.len() == 1 { name.clone() } else { format!("{name}/{}", shape.name) };
+                if is_hidden {
+                    self.description.hidden.shapes.insert(i);
+                }
                 if self.description.motion.shapes.contains_key(&i) {
                     self.report.error(group.place, "what moves cannot stand inside a shapegroup yet");
                 }

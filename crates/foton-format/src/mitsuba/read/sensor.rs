@@ -1,11 +1,11 @@
-//! `<sensor>`, `<film>` and `<rfilter>`: a perspective camera with or without a lens, its image size and filter.
+//! `<sensor>`, `<film>` and `<rfilter>`: a camera with or without perspective and a lens, its image size and filter.
 
 use foton_input::quoted;
-use foton_math::glam::{DAffine3, DMat3};
-use foton_scene::description::{Crop, Filter, FovAxis, Keyframes, Lens, SensorDescription};
+use foton_math::glam::{DAffine3, DMat3, DVec3};
+use foton_scene::description::{Crop, Filter, FovAxis, Keyframes, Lens, Projection, SensorDescription};
 use foton_scene::plugins::sensors::{
-    APERTURE_RADIUS, FAR_CLIP, FOCAL_LENGTH, FOCUS_DISTANCE, FOV, FOV_AXIS, NEAR_CLIP, PERSPECTIVE,
-    SHUTTER_CLOSE, SHUTTER_OPEN, THINLENS, TO_WORLD,
+    APERTURE_RADIUS, FAR_CLIP, FOCAL_LENGTH, FOCUS_DISTANCE, FOV, FOV_AXIS, NEAR_CLIP, OFFSETS, ORTHOGRAPHIC,
+    SHUTTER_CLOSE, SHUTTER_OPEN, TELECENTRIC, THINLENS, TO_WORLD,
 };
 
 use crate::diagnostic::Place;
@@ -19,6 +19,8 @@ use crate::mitsuba::read::transform::even_scale;
 const DEFAULT_FILTER: Filter = Filter::Gaussian { stddev: 0.5 };
 /// Half the diagonal of a 36 mm × 24 mm frame, in mm: what a focal length refers to.
 const HALF_DIAGONAL: f64 = 21.633_307_652_783_937;
+/// The angle of view of a camera that has none: what an editor begins with.
+const FOV_OF_NONE: f64 = 40.0;
 
 struct Film {
     width: u32,
@@ -32,28 +34,31 @@ impl Reader<'_> {
     pub(crate) fn sensor(&mut self, node: NodeId) {
         let Some(element) = self.document.element(node) else { return };
         let Some(plugin) = self.plugin(element, &SENSORS) else { return };
+        let is_parallel = plugin == ORTHOGRAPHIC.name || plugin == TELECENTRIC.name;
+        let has_lens = plugin == THINLENS.name || plugin == TELECENTRIC.name;
         let mut p = self.properties(node, plugin);
         let (transform, keyframes) = p.placement(TO_WORLD.name, &mut self.report).unzip();
         let keyframes = keyframes.flatten();
-        let on_the_way = keyframes.iter().flat_map(Keyframes::all).any(|(_, place)| scales(place.matrix3));
-        if let Some(transform) = transform.filter(|t| on_the_way || scales(t.value.matrix3)) {
-            self.report.error(transform.place, "the transform of a camera must not scale or shear");
-        }
-        self.motion_of_sensor(&mut p, keyframes);
-        let (fov_degrees, fov_axis) = self.field_of_view(&mut p);
-        let (near_clip, far_clip) = self.clips(&mut p);
-        let lens = (plugin == THINLENS.name).then(|| self.lens(&mut p, far_clip));
-        let film = self.films(&mut p);
-        if plugin == PERSPECTIVE.name
-            && let Some(focus) = p.number(FOCUS_DISTANCE.name, &mut self.report)
+        let on_the_way: Vec<_> = keyframes.iter().flat_map(Keyframes::all).map(|(_, m)| m.matrix3).collect();
+        let stands_well: fn(&DMat3) -> bool = if is_parallel { is_unsheared } else { is_unscaled };
+        if let Some(transform) = transform
+            && !on_the_way.iter().chain([&transform.value.matrix3]).all(stands_well)
         {
-            let message = "a pinhole camera shows everything sharp: \"focus_distance\" has no effect";
-            self.report.warning(focus.place, message);
+            let scales = if is_parallel { "" } else { "scale or " };
+            self.report.error(transform.place, format!("the transform of a camera must not {scales}shear"));
         }
+        let to_world = transform.map_or(DAffine3::IDENTITY, |t| t.value);
+        self.motion_of_sensor(&mut p, keyframes);
+        let (fov_degrees, fov_axis) =
+            if is_parallel { (FOV_OF_NONE, FovAxis::X) } else { self.field_of_view(&mut p) };
+        let depth_scale = if is_parallel { to_world.matrix3.z_axis.length() } else { 1.0 };
+        let (near_clip, far_clip) = self.clips(&mut p, depth_scale);
+        let lens = has_lens.then(|| self.lens(&mut p, far_clip));
+        let principal_point_offset =
+            [0, 1].map(|i| p.number(OFFSETS[i].name, &mut self.report).map_or(0.0, |offset| offset.value));
+        let film = self.films(&mut p);
+        self.say_without_effect(&mut p, is_parallel, has_lens);
         p.nested("sampler");
-        self.refuse_shift(&mut p, "principal_point_offset_x");
-        self.refuse_shift(&mut p, "principal_point_offset_y");
-        p.leave_out(PERSPECTIVE.parameters, &mut self.report);
         p.finish(&mut self.report);
         let number = self.description.sensors.len() + 1;
         let name = match element.attribute("id") {
@@ -63,7 +68,8 @@ impl Reader<'_> {
         self.nodes.sensors.push(node);
         self.description.sensors.push(SensorDescription {
             name,
-            to_world: transform.map_or(DAffine3::IDENTITY, |t| t.value),
+            to_world,
+            projection: if is_parallel { Projection::Orthographic } else { Projection::Perspective },
             fov_degrees,
             fov_axis,
             width: film.width,
@@ -73,7 +79,25 @@ impl Reader<'_> {
             near_clip,
             far_clip,
             lens,
+            principal_point_offset,
         });
+    }
+
+    /// Warns of what a camera of its kind has no use for.
+    fn say_without_effect(&mut self, p: &mut Properties<'_>, is_parallel: bool, has_lens: bool) {
+        if !has_lens && let Some(focus) = p.number(FOCUS_DISTANCE.name, &mut self.report) {
+            let message = "a pinhole camera shows everything sharp: \"focus_distance\" has no effect";
+            self.report.warning(focus.place, message);
+        }
+        let angle = if is_parallel { &[FOV.name, FOV_AXIS.name, FOCAL_LENGTH.name][..] } else { &[] };
+        for name in angle {
+            if let Some((_, angle)) = p.take(name, &["float", "integer", "string"], &mut self.report) {
+                let message = format!(
+                    "a camera without perspective sees as much as the scale of \"to_world\" says: \"{name}\" has no effect"
+                );
+                self.report.warning(angle.place, message);
+            }
+        }
     }
 
     /// How the camera that is read next moves, and when its shutter is open.
@@ -100,7 +124,7 @@ impl Reader<'_> {
             self.report.error(aperture.place, "\"aperture_radius\" must not be negative");
         }
         if aperture.is_none() && !p.has(APERTURE_RADIUS.name) {
-            let message = "a \"thinlens\" needs an \"aperture_radius\", in world units";
+            let message = format!("a \"{}\" needs an \"aperture_radius\", in world units", p.subject());
             self.report.error(p.place, message);
         }
         if let Some(focus) = focus.filter(|f| !FOCUS_DISTANCE.holds(f.value)) {
@@ -135,19 +159,12 @@ impl Reader<'_> {
     }
 
     fn fov_axis(&mut self, p: &mut Properties<'_>) -> Option<Located<FovAxis>> {
-        const AXES: [(&str, FovAxis); 5] = [
-            ("x", FovAxis::X),
-            ("y", FovAxis::Y),
-            ("diagonal", FovAxis::Diagonal),
-            ("smaller", FovAxis::Smaller),
-            ("larger", FovAxis::Larger),
-        ];
         let axis = p.string(FOV_AXIS.name, &mut self.report)?;
-        let found = AXES.iter().find(|(name, _)| *name == axis.value);
+        let found = FovAxis::ALL.into_iter().find(|known| known.name() == axis.value);
         if found.is_none() {
             self.report.error(axis.place, "\"fov_axis\" must be x, y, diagonal, smaller or larger");
         }
-        found.map(|(_, value)| Located { value: *value, place: axis.place })
+        found.map(|value| Located { value, place: axis.place })
     }
 
     fn millimetres(&mut self, focal: &Located<String>) -> Option<f64> {
@@ -161,7 +178,9 @@ impl Reader<'_> {
         length
     }
 
-    fn clips(&mut self, p: &mut Properties<'_>) -> (Option<f64>, Option<f64>) {
+    /// The depths between which it sees, in world units. Where the camera's z is so many times as long in the world, Mitsuba stretches
+    /// the nearer one by that, but not what lies between them.
+    fn clips(&mut self, p: &mut Properties<'_>, depth_scale: f64) -> (Option<f64>, Option<f64>) {
         let near = p.number(NEAR_CLIP.name, &mut self.report);
         let far = p.number(FAR_CLIP.name, &mut self.report);
         if let Some(near) = near.filter(|n| n.value <= 0.0) {
@@ -170,17 +189,9 @@ impl Reader<'_> {
         if let Some(far) = far.filter(|f| f.value <= near.map_or(0.0, |n| n.value)) {
             self.report.error(far.place, "\"far_clip\" must be farther than \"near_clip\"");
         }
-        (near.map(|n| n.value), far.map(|f| f.value))
-    }
-
-    fn refuse_shift(&mut self, p: &mut Properties<'_>, name: &'static str) {
-        if p.is_written_as(name, &["string"]) {
-            return;
-        }
-        if let Some(shift) = p.number(name, &mut self.report).filter(|s| s.value != 0.0) {
-            let message = format!("\"{name}\" of \"{}\" is not supported yet", p.subject());
-            self.report.error(shift.place, message);
-        }
+        let (near, far) = (near.map(|n| n.value), far.map(|f| f.value));
+        let moved_by = near.map_or(0.0, |near| near * depth_scale - near);
+        (near.map(|near| near * depth_scale), far.map(|far| far + moved_by))
     }
 
     fn films(&mut self, p: &mut Properties<'_>) -> Film {
@@ -295,7 +306,14 @@ impl Reader<'_> {
     }
 }
 
-/// Whether a transform does more than turn and mirror.
-fn scales(m: DMat3) -> bool {
-    even_scale(m, 2e-3).is_none_or(|scale| (scale - 1.0).abs() > 1e-3)
+/// Whether a transform only turns and mirrors.
+fn is_unscaled(m: &DMat3) -> bool {
+    even_scale(*m, 2e-3).is_some_and(|scale| (scale - 1.0).abs() <= 1e-3)
+}
+
+/// Whether axes stay at right angles under a transform, and have a length.
+fn is_unsheared(m: &DMat3) -> bool {
+    let [x, y, z] = [m.x_axis, m.y_axis, m.z_axis].map(DVec3::normalize_or_zero);
+    let right = |a: DVec3, b: DVec3| a.dot(b).abs() < 2e-3;
+    m.determinant() != 0.0 && right(x, y) && right(y, z) && right(z, x)
 }

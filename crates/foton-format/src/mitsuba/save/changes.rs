@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use foton_math::Rgb;
 use foton_math::glam::DAffine3;
 use foton_scene::description::{
-    Colour, EmitterKind, FovAxis, Geometry, Lens, SceneDescription, SensorDescription, ShapeDescription,
+    Colour, EmitterKind, Geometry, Lens, SceneDescription, SensorDescription, ShapeDescription,
 };
 use foton_scene::plugins::{emitters, sensors, shapes};
 
@@ -105,16 +105,9 @@ impl<'a> Changes<'a> {
             self.transform(node, &new.to_world)?;
         }
         if (old.fov_degrees, old.fov_axis) != (new.fov_degrees, new.fov_axis) {
-            let axis = match new.fov_axis {
-                FovAxis::X => "x",
-                FovAxis::Y => "y",
-                FovAxis::Diagonal => "diagonal",
-                FovAxis::Smaller => "smaller",
-                FovAxis::Larger => "larger",
-            };
             self.remove(node, "focal_length")?;
             self.value(node, "float", "fov", &number(new.fov_degrees))?;
-            self.value(node, "string", "fov_axis", axis)?;
+            self.value(node, "string", "fov_axis", new.fov_axis.name())?;
         }
         for (name, old, new) in
             [("near_clip", old.near_clip, new.near_clip), ("far_clip", old.far_clip, new.far_clip)]
@@ -124,6 +117,9 @@ impl<'a> Changes<'a> {
                 None if old != new => self.remove(node, name)?,
                 _ => {}
             }
+        }
+        if sensors::of(old) != sensors::of(new) {
+            self.document.set_attribute(node, "type", sensors::of(new).name);
         }
         self.lens(node, old.lens, new.lens)?;
         if (old.width, old.height) != (new.width, new.height) {
@@ -140,8 +136,6 @@ impl<'a> Changes<'a> {
         if old == new {
             return Ok(());
         }
-        let plugin = if new.is_some() { sensors::THINLENS } else { sensors::PERSPECTIVE };
-        self.document.set_attribute(node, "type", plugin.name);
         let values = [
             (sensors::APERTURE_RADIUS.name, new.map(|lens| lens.aperture_radius)),
             (sensors::FOCUS_DISTANCE.name, new.map(|lens| lens.focus_distance)),

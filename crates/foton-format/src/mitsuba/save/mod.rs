@@ -24,7 +24,7 @@ use crate::diagnostic::Report;
 use crate::mitsuba::document::{Document, Element};
 use crate::mitsuba::write::write_scene;
 use crate::open::read;
-use crate::opened::Opened;
+use crate::opened::{Opened, Origin};
 use crate::options::Options;
 use changes::Changes;
 use tree::Obstacle;
@@ -54,8 +54,10 @@ pub fn save_edited(opened: &Opened, edited: &SceneDescription, path: &Path) -> R
     if let Some(folder) = path.parent().filter(|f| !f.as_os_str().is_empty() && !f.is_dir()) {
         return Err(WriteError::NoFolder { path: path.to_owned(), folder: folder.to_owned() });
     }
-    let of_others = opened.files.iter().filter(|file| Some(*file) != opened.path.as_ref());
-    if of_others.into_iter().any(|file| is_same_file(file, path)) {
+    // A Mitsuba scene may be saved over itself, nothing else over what it was read from.
+    let own = opened.path.as_ref().filter(|_| opened.origin.mitsuba().is_some());
+    let mut of_others = opened.files.iter().filter(|file| Some(*file) != own);
+    if of_others.any(|file| is_same_file(file, path)) {
         return Err(WriteError::Special { path: path.to_owned(), what: "a file that the scene reads" });
     }
     match changed_text(opened, edited, path) {
@@ -72,8 +74,12 @@ pub fn save_edited(opened: &Opened, edited: &SceneDescription, path: &Path) -> R
 
 /// The text of the opened file with what changed, proven by reading it.
 fn changed_text(opened: &Opened, edited: &SceneDescription, path: &Path) -> Result<String, Obstacle> {
-    let (Some(from), Some(scene)) = (opened.path.as_deref(), opened.origin.mitsuba()) else {
-        return Err("the scene was not opened from a scene file".to_owned());
+    let scene = match &opened.origin {
+        Origin::Mitsuba(scene) => scene,
+        Origin::Foreign(scene) => return Err(format!("it was opened from {}", scene.kind)),
+    };
+    let Some(from) = opened.path.as_deref() else {
+        return Err("the scene was not opened from a file".to_owned());
     };
     if is_old(&scene.document) {
         return Err("the file is of an old version, with other names".to_owned());

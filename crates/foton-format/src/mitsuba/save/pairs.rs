@@ -1,5 +1,7 @@
 //! Which things of an edited scene are which things of its file.
 
+use std::collections::{HashMap, HashSet};
+
 use foton_scene::description::{SceneDescription, ShapeDescription};
 
 use super::same;
@@ -17,7 +19,12 @@ impl Pairs {
             }
             at
         };
-        let by_name = |new: &T| old.iter().position(|old| name(old) == name(new));
+        // The first of a name is the one that is meant; there may be very many instances.
+        let mut named = HashMap::new();
+        for (i, old) in old.iter().enumerate() {
+            named.entry(name(old)).or_insert(i);
+        }
+        let by_name = |new: &T| named.get(name(new)).copied();
         let mut pairs: Vec<Option<usize>> = new.iter().map(|new| take(by_name(new))).collect();
         for (pair, new) in pairs.iter_mut().zip(new) {
             if pair.is_none() {
@@ -47,7 +54,8 @@ impl Pairs {
 
     /// Those of the old list that are gone.
     pub(super) fn gone(&self, old: usize) -> impl Iterator<Item = usize> {
-        (0..old).filter(|i| !self.0.contains(&Some(*i)))
+        let there: HashSet<usize> = self.0.iter().flatten().copied().collect();
+        (0..old).filter(move |i| !there.contains(i))
     }
 }
 

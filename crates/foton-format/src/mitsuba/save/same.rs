@@ -1,5 +1,6 @@
 //! Whether two descriptions are of one scene: names and the order of materials and textures do not count.
 
+use std::collections::HashSet;
 use std::sync::Arc;
 
 use foton_math::Rgb;
@@ -38,16 +39,24 @@ pub(super) fn difference(a: &SceneDescription, b: &SceneDescription) -> Option<S
     if let Some((a, _)) = a.emitters.iter().zip(&b.emitters).find(|(a, b)| !same_emitter(&a.kind, &b.kind)) {
         return Some(format!("emitter \"{}\"", a.name));
     }
+    // Instances share meshes and materials: each pair is compared once.
+    let (mut meshes, mut materials) = (HashSet::new(), HashSet::new());
     for (x, y) in a.shapes.iter().zip(&b.shapes) {
         let shines = match (x.radiance, y.radiance) {
             (Some(x), Some(y)) => same_colour((a, x), (b, y)),
             (x, y) => x.is_none() && y.is_none(),
         };
         let placed = (x.to_world, x.flip_normals) == (y.to_world, y.flip_normals) && shines;
-        if !placed || !same_geometry(&x.geometry, &y.geometry) {
+        let pair = match (&x.geometry, &y.geometry) {
+            (Geometry::Mesh(x), Geometry::Mesh(y)) => Some((Arc::as_ptr(x), Arc::as_ptr(y))),
+            _ => None,
+        };
+        let is_known = pair.is_some_and(|pair| !meshes.insert(pair));
+        if !placed || !(is_known || same_geometry(&x.geometry, &y.geometry)) {
             return Some(format!("shape \"{}\"", x.name));
         }
-        if !same_material((a, x.material), (b, y.material)) {
+        let is_known = !materials.insert((x.material, y.material));
+        if !is_known && !same_material((a, x.material), (b, y.material)) {
             return Some(format!("the material of shape \"{}\"", x.name));
         }
     }
@@ -56,7 +65,9 @@ pub(super) fn difference(a: &SceneDescription, b: &SceneDescription) -> Option<S
 
 pub(super) fn same_sensor(a: &SensorDescription, b: &SensorDescription) -> bool {
     let film = |s: &SensorDescription| (s.width, s.height, s.filter, s.near_clip, s.far_clip);
-    let view = |s: &SensorDescription| (s.to_world, s.fov_degrees, s.fov_axis, s.lens);
+    let view = |s: &SensorDescription| {
+        (s.to_world, s.projection, s.fov_degrees, s.fov_axis, s.lens, s.principal_point_offset)
+    };
     view(a) == view(b) && film(a) == film(b)
 }
 

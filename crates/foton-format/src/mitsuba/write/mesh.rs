@@ -14,13 +14,14 @@ pub(crate) fn same(a: &Mesh, b: &Mesh) -> bool {
         && a.attributes == b.attributes
 }
 
-/// Writes a mesh.
-pub(crate) fn write_ply(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
+/// Writes a mesh with a comment.
+pub(crate) fn write_ply(mesh: &Mesh, comment: &str, out: &mut impl Write) -> io::Result<()> {
     let Mesh { positions, normals, texture_coordinates, triangles, .. } = mesh;
     let is_narrow = positions.iter().chain(normals).all(|v| v.to_array().into_iter().all(is_single))
         && texture_coordinates.iter().all(|v| v.to_array().into_iter().all(is_single));
     let kind = if is_narrow { "float" } else { "double" };
-    writeln!(out, "ply\nformat binary_little_endian 1.0\nelement vertex {}", positions.len())?;
+    writeln!(out, "ply\nformat binary_little_endian 1.0\ncomment {comment}")?;
+    writeln!(out, "element vertex {}", positions.len())?;
     let mut names = vec!["x", "y", "z"];
     names.extend(if normals.is_empty() { &[][..] } else { &["nx", "ny", "nz"] });
     names.extend(if texture_coordinates.is_empty() { &[][..] } else { &["u", "v"] });

@@ -2,42 +2,43 @@
 //!
 //! What is written reads back as an equal description, and Mitsuba renders the same picture from it. Numbers are the
 //! shortest that read back to the same bits. What the description does not hold (samplers, integrators by name) is
-//! written as parameters with defaults, so that the file serves both programs. Nothing is validated here.
+//! written as parameters with defaults, so that the file serves both programs. Shapes that share a mesh are instances of
+//! one group, so that both hold the mesh once. Nothing is validated here; [`beyond`] says what Mitsuba 3 does not have.
 
+pub(crate) mod beyond;
+mod files;
+mod groups;
 pub(crate) mod mesh;
+mod names;
+mod shapes;
 pub(crate) mod surfaces;
 pub(crate) mod xml;
 
 use std::collections::{HashMap, HashSet};
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use foton_film::{Image, Metadata, WriteError, atomic_write, is_same_file, write_exr};
-use foton_math::glam::DAffine3;
+use foton_film::{WriteError, atomic_write};
 use foton_scene::description::{
-    Bitmap, EmitterDescription, EmitterKind, Filter, FovAxis, Geometry, Keyframes, Material, Mesh,
-    SceneDescription, SensorDescription, ShapeDescription,
+    Bitmap, EmitterDescription, EmitterKind, Filter, Geometry, Material, Mesh, Projection, SceneDescription,
+    SensorDescription, ShapeDescription,
 };
-use foton_scene::plugins::{emitters, sensors, shapes};
+use foton_scene::plugins::{emitters, sensors};
 
-use crate::mitsuba::read::shapes::is_turned_inside_out;
+use groups::Groups;
+use names::{file_name, mark};
 use xml::{Xml, colour, number, single, vector};
-
-/// Folders beside the scene file.
-const MESHES: &str = "meshes";
-const TEXTURES: &str = "textures";
 
 /// Writes a description as the scene file `path`, its meshes as `meshes/NAME-….ply` and its images as
 /// `textures/NAME-….exr` beside it, where `NAME` is that of the file. The scene file comes last.
 ///
-/// Meshes and images get other names where theirs is that of a file in `kept`, by whatever link: those that a scene is made of.
+/// Meshes and images get other names where theirs is that of a file in `kept`, by whatever link: those that a scene is made of;
+/// and where it is that of a file which this did not write for the same scene file.
 ///
 /// A box filter of another radius than half a pixel, which Mitsuba does not have, becomes one of half a pixel.
 ///
 /// # Errors
-/// [`WriteError`] with the path. Files that were there before are replaced one by one, each by a whole one.
+/// [`WriteError`] with the path. Files of an earlier conversion are replaced one by one, each by a whole one.
 ///
 /// # Panics
 /// If an index in the description refers to nothing.
@@ -45,6 +46,7 @@ pub fn write_scene(description: &SceneDescription, path: &Path, kept: &[PathBuf]
     let stem = path.file_stem().map_or_else(|| "scene".to_owned(), |s| file_name(&s.to_string_lossy()));
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
     let mut writer = Writer::new(description, folder, stem, kept);
+    writer.mark = mark(path);
     writer.scene()?;
     let text = writer.xml.finish();
     atomic_write(path, |file| file.write_all(text.as_bytes()))
@@ -86,6 +88,8 @@ struct Writer<'a> {
     stem: String,
     /// Files that are not written to.
     kept: &'a [PathBuf],
+    /// What stands in meshes and images that are written for this scene file.
+    mark: String,
     xml: Xml,
     /// Ids that are taken.
     ids: HashSet<String>,
@@ -105,6 +109,7 @@ impl<'a> Writer<'a> {
             folder,
             stem,
             kept,
+            mark: String::new(),
             xml: Xml::new(),
             ids: HashSet::new(),
             files: HashSet::new(),
@@ -141,9 +146,13 @@ impl<'a> Writer<'a> {
         for (i, emitter) in self.description.emitters.iter().enumerate() {
             self.emitter(emitter, self.description.hidden.emitters.contains(&i))?;
         }
+        let mut groups = Groups::of_scene(self.description);
         for (i, (shape, id)) in self.description.shapes.iter().zip(&shape_ids).enumerate() {
             let hidden = self.description.hidden.shapes.contains(&i);
-            self.shape(shape, id, (hidden, self.description.motion.shapes.get(&i)))?;
+            match groups.of(shape, i) {
+                Some(group) => self.instance(shape, (id, hidden), group)?,
+                None => self.shape(shape, id, (hidden, self.description.motion.shapes.get(&i)))?,
+            }
         }
         self.xml.close("scene");
         Ok(())
@@ -161,60 +170,24 @@ impl<'a> Writer<'a> {
         id
     }
 
-    /// A file beside the scene for something of a name: as it stands in the scene, and its path.
-    fn file(&mut self, folder: &str, name: &str, extension: &str) -> Result<(String, PathBuf), WriteError> {
-        let base = format!("{}-{}", self.stem, file_name(name));
-        let mut number = 1;
-        let mut file = format!("{folder}/{base}.{extension}");
-        while !self.files.insert(file.to_lowercase()) || self.is_kept(&self.folder.join(&file)) {
-            number += 1;
-            file = format!("{folder}/{base}-{number}.{extension}");
-        }
-        let inside = self.folder.join(folder);
-        fs::create_dir_all(&inside).map_err(|cause| WriteError::Io { path: inside, cause })?;
-        let path = self.folder.join(&file);
-        Ok((file, path))
-    }
-
-    /// Whether writing there would overwrite a file that is to be kept.
-    fn is_kept(&self, path: &Path) -> bool {
-        path.exists() && self.kept.iter().any(|kept| is_same_file(kept, path))
-    }
-
-    fn bitmap(&mut self, bitmap: &Arc<Bitmap>, name: &str) -> Result<String, WriteError> {
-        let key = Arc::as_ptr(bitmap);
-        if let Some(file) = self.bitmaps.get(&key) {
-            return Ok(file.clone());
-        }
-        let (file, path) = self.file(TEXTURES, name, "exr")?;
-        let Bitmap { width, height, pixels, .. } = &**bitmap;
-        let image = Image { width: *width, height: *height, pixels: pixels.clone() };
-        write_exr(&path, &image, &[], &Metadata::default())?;
-        self.bitmaps.insert(key, file.clone());
-        Ok(file)
-    }
-
     fn sensor(&mut self, index: usize, sensor: &SensorDescription) {
         let (id, motion) = (self.id(&sensor.name), &self.description.motion);
         let xml = &mut self.xml;
-        let plugin = if sensor.lens.is_some() { sensors::THINLENS } else { sensors::PERSPECTIVE };
-        xml.open("sensor", &[("type", plugin.name), ("id", &id)]);
+        xml.open("sensor", &[("type", sensors::of(sensor).name), ("id", &id)]);
         if let Some(lens) = sensor.lens {
             xml.value("float", sensors::APERTURE_RADIUS.name, &number(lens.aperture_radius));
             xml.value("float", sensors::FOCUS_DISTANCE.name, &number(lens.focus_distance));
         }
-        xml.value("float", "fov", &number(sensor.fov_degrees));
-        let axis = match sensor.fov_axis {
-            FovAxis::X => "x",
-            FovAxis::Y => "y",
-            FovAxis::Diagonal => "diagonal",
-            FovAxis::Smaller => "smaller",
-            FovAxis::Larger => "larger",
-        };
-        xml.value("string", "fov_axis", axis);
-        for (name, clip) in [("near_clip", sensor.near_clip), ("far_clip", sensor.far_clip)] {
-            if let Some(clip) = clip {
-                xml.value("float", name, &number(clip));
+        if sensor.projection == Projection::Perspective {
+            xml.value("float", sensors::FOV.name, &number(sensor.fov_degrees));
+            xml.value("string", sensors::FOV_AXIS.name, sensor.fov_axis.name());
+        }
+        for (name, clip) in sensors::clips(sensor) {
+            xml.value("float", name, &number(clip));
+        }
+        for (parameter, offset) in sensors::OFFSETS.iter().zip(sensor.principal_point_offset) {
+            if offset != 0.0 {
+                xml.value("float", parameter.name, &number(offset));
             }
         }
         xml.placement("to_world", &sensor.to_world, motion.sensors.get(&index));
@@ -290,82 +263,4 @@ impl<'a> Writer<'a> {
         xml.close("emitter");
         Ok(())
     }
-
-    fn shape(
-        &mut self,
-        shape: &ShapeDescription,
-        id: &str,
-        (is_hidden, keyframes): (bool, Option<&Keyframes>),
-    ) -> Result<(), WriteError> {
-        let (plugin, filename) = match &shape.geometry {
-            Geometry::Sphere { .. } => ("sphere", None),
-            Geometry::Disc => ("disk", None),
-            Geometry::Cylinder { .. } => ("cylinder", None),
-            Geometry::Mesh(mesh) if mesh::same(mesh, &Mesh::rectangle()) => ("rectangle", None),
-            Geometry::Mesh(mesh) if mesh::same(mesh, &Mesh::cube()) => ("cube", None),
-            Geometry::Mesh(mesh) => ("ply", Some(self.mesh(mesh, id)?)),
-        };
-        let xml = &mut self.xml;
-        xml.open("shape", &[("type", plugin), ("id", id)]);
-        if is_hidden {
-            xml.hidden();
-        }
-        match &shape.geometry {
-            Geometry::Sphere { centre, radius } => {
-                xml.value("point", shapes::CENTER.name, &vector(*centre));
-                xml.value("float", shapes::RADIUS.name, &number(*radius));
-            }
-            Geometry::Cylinder { from, to, radius } => {
-                xml.value("point", shapes::P0.name, &vector(*from));
-                xml.value("point", shapes::P1.name, &vector(*to));
-                xml.value("float", shapes::RADIUS.name, &number(*radius));
-            }
-            Geometry::Disc => {}
-            Geometry::Mesh(mesh) => {
-                if let Some(file) = filename {
-                    xml.value("string", shapes::FILENAME.name, &file);
-                    if mesh.normals.is_empty() {
-                        xml.value("boolean", shapes::FACE_NORMALS.name, "true");
-                    }
-                }
-            }
-        }
-        xml.placement("to_world", &shape.to_world, keyframes);
-        let turned = is_mirrored(&shape.to_world) && is_turned_inside_out(plugin, &shape.geometry);
-        if shape.flip_normals != turned {
-            xml.value("boolean", shapes::FLIP_NORMALS.name, "true");
-        }
-        if let Some(material) = self.material_ids.get(shape.material) {
-            xml.leaf("ref", &[("id", material)]);
-        }
-        if let Some(radiance) = shape.radiance {
-            xml.open("emitter", &[("type", emitters::AREA.name)]);
-            self.colour(emitters::RADIANCE.name, radiance);
-            self.xml.close("emitter");
-        }
-        self.xml.close("shape");
-        Ok(())
-    }
-
-    fn mesh(&mut self, mesh: &Arc<Mesh>, name: &str) -> Result<String, WriteError> {
-        let key = Arc::as_ptr(mesh);
-        if let Some(file) = self.meshes.get(&key) {
-            return Ok(file.clone());
-        }
-        let (file, path) = self.file(MESHES, name, "ply")?;
-        atomic_write(&path, |out| mesh::write_ply(mesh, out))?;
-        self.meshes.insert(key, file.clone());
-        Ok(file)
-    }
-}
-
-fn is_mirrored(to_world: &DAffine3) -> bool {
-    to_world.matrix3.determinant() < 0.0
-}
-
-/// A name as it may stand in a file name anywhere.
-fn file_name(name: &str) -> String {
-    let letter = |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '_' };
-    let name: String = name.chars().take(60).map(letter).collect();
-    if name.is_empty() { "unnamed".to_owned() } else { name }
 }

@@ -50,6 +50,7 @@ fn frame() -> Frame {
     let sensor = |name: &str| SensorFacts {
         name: name.into(),
         fov_degrees: 40.0,
+        width: None,
         lens: None,
         size: SIZE,
         xml: "<sensor type=\"perspective\"/>".into(),

@@ -89,6 +89,19 @@ fn a_field_that_is_opened_and_left_sends_nothing() {
 }
 
 #[test]
+fn an_orthographic_camera_has_a_width_in_place_of_an_angle() {
+    let mut harness = window(|state| {
+        let frame = state.frame.as_mut().expect("there");
+        let mut scene = SceneFacts::clone(&frame.scene);
+        scene.sensors[0].width = Some(4.5);
+        frame.scene = Arc::new(scene);
+    });
+    assert!(harness.query_by_role_and_label(Role::SpinButton, "Field of view").is_none());
+    type_number(&mut harness, "Width", "6");
+    assert_asked(&mut harness, &Command::Camera { gesture: Gesture::Width(6.0), moving: false });
+}
+
+#[test]
 fn what_is_out_of_range_goes_to_its_end_and_what_is_no_number_is_said() {
     let half = Alpha::new(0.5).expect("an alpha");
     let mut harness = window(|state| state.frame.as_mut().expect("there").settings.ppm.alpha = half);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use foton_edit::{Edit, Make, Site, Target, UpAxis, anchor, focus_distance};
 use foton_math::glam::DVec3;
-use foton_scene::description::SceneDescription;
+use foton_scene::description::{Projection, SceneDescription};
 
 use super::chosen::Chosen;
 use super::sensors::standing;
@@ -122,7 +122,11 @@ impl EditableScene {
         let seen = &self.sensors[sensor];
         let distance = focus_distance(&self.scene, sensor);
         let forward = seen.to_world.matrix3.z_axis.normalize_or(DVec3::Z);
-        let half = distance * (0.5 * seen.fov_degrees.to_radians()).tan() * NEW_SIZE;
+        let half = NEW_SIZE
+            * match seen.projection {
+                Projection::Perspective => distance * (0.5 * seen.fov_degrees.to_radians()).tan(),
+                Projection::Orthographic => seen.to_world.matrix3.x_axis.length(),
+            };
         Site {
             at: (seen.to_world.translation + forward * distance).to_array(),
             half,
@@ -135,6 +139,10 @@ impl EditableScene {
         let seen = &self.sensors[sensor].to_world;
         let Some(middle) = anchor(&self.description, target) else { return DVec3::ZERO };
         let right = -seen.matrix3.x_axis.normalize_or(DVec3::X);
-        right * (middle.distance(seen.translation) * BESIDE)
+        let reach = match self.sensors[sensor].projection {
+            Projection::Perspective => middle.distance(seen.translation),
+            Projection::Orthographic => 2.0 * seen.matrix3.x_axis.length(),
+        };
+        right * (reach * BESIDE)
     }
 }

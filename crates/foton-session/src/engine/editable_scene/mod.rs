@@ -16,12 +16,13 @@ use std::sync::Arc;
 
 use foton_edit::{Camera, History, Item, Target, camera_xml, contents, focus_distance};
 use foton_scene::Scene;
-use foton_scene::description::{Crop, SceneDescription, SensorDescription};
+use foton_scene::description::{Crop, Projection, SceneDescription, SensorDescription};
 
 use self::chosen::Chosen;
 use super::cancels::Cancels;
-use super::command::{Gesture, Source};
+use super::command::Source;
 use super::frame::{SceneFacts, Selection, SensorFacts};
+use super::gesture::Gesture;
 use super::loader::{Ready, SavedScene};
 use crate::metadata::SceneIdentity;
 
@@ -205,6 +206,7 @@ impl EditableScene {
                 moved.fly(forward * step, right * step, up * step);
             }
             Gesture::FieldOfView(degrees) => moved.set_fov(degrees),
+            Gesture::Width(width) => moved.set_width(width),
             Gesture::Face(side) => moved.face(side),
             Gesture::Aperture(radius) => moved.set_aperture(radius),
             Gesture::FocusDistance(distance) => moved.set_focus(distance),
@@ -283,6 +285,8 @@ impl EditableScene {
         let sensor = |s: &SensorDescription| SensorFacts {
             name: s.name.clone(),
             fov_degrees: s.fov_degrees,
+            width: (s.projection == Projection::Orthographic)
+                .then(|| 2.0 * s.to_world.matrix3.x_axis.length()),
             lens: s.lens,
             size: [s.width, s.height],
             xml: camera_xml(s),

@@ -42,11 +42,8 @@ fn wall() -> SceneDescription {
             fov_axis: FovAxis::X,
             width: 64,
             height: 64,
-            crop: None,
             filter: Filter::Box { radius: 0.5 },
-            near_clip: None,
-            far_clip: None,
-            lens: None,
+            ..SensorDescription::default()
         }],
         materials: vec![Material {
             name: "grey".into(),

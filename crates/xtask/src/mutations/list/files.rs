@@ -110,11 +110,19 @@ pub(super) const LIST: &[Mutation] = &[
     },
     Mutation {
         what: "converting writes over nothing that the scene reads",
-        file: "crates/foton-format/src/mitsuba/write/mod.rs",
-        from: "path.exists() && self.kept",
-        to: "path.exists() && self.kept[..0]",
+        file: "crates/foton-format/src/mitsuba/write/files.rs",
+        from: "!self.kept.iter()",
+        to: "!self.kept[..0].iter()",
         target: WRITER,
         test: "files_that_a_scene_is_made_of_are_known_and_not_written_to",
+    },
+    Mutation {
+        what: "converting writes over nothing that others have made",
+        file: "crates/foton-format/src/mitsuba/write/files.rs",
+        from: " && is_ours()",
+        to: " && (is_ours() || true)",
+        target: SAVING,
+        test: "meshes_of_others_that_lie_where_a_scene_is_saved_stay",
     },
     Mutation {
         what: "saving writes over no mesh that the scene reads",
