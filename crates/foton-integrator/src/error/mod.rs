@@ -25,7 +25,7 @@ pub use estimate::{ErrorEstimate, TileError};
 pub(crate) use independent::{Independent, PassPixel};
 pub(crate) use pass::{Pass, PassFacts};
 
-use crate::ppm::{Direct, HitPoints, Noise, Radiance};
+use crate::ppm::{Direct, HitPoints, Noise, Radiance, SlotMoments};
 use crate::sppm::Renewal;
 use classes::Classes;
 use estimate::Sums;
@@ -37,15 +37,6 @@ const TILE: usize = 8;
 
 /// The bias plane averages squares over this many pixels to each side.
 const SMOOTHED: usize = 2;
-
-/// What a pass has found of noise and bias at a slot, in luminance.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct SlotMoments {
-    /// 6(s − ½)Φ/(π r²).
-    pub(crate) bias: f32,
-    /// The answer about one class.
-    pub(crate) answer: f32,
-}
 
 /// The second moments of a pixel, beside its sum.
 #[derive(Clone, Copy, Debug, Default)]

@@ -6,9 +6,9 @@ use super::classes::Question;
 use super::estimate::{ErrorEstimate, Sums};
 use super::moments::{Halves, Shares, Weights};
 use super::unlit::Unlit;
-use super::{ErrorSums, Pixel, SlotMoments, TILE, Tile};
+use super::{ErrorSums, Pixel, TILE, Tile};
 use crate::ppm::adaptive::RadiusStatistics;
-use crate::ppm::{Arrived, Direct, HitPoints, Noise, Radiance};
+use crate::ppm::{Arrived, Direct, HitPoints, Noise, Radiance, SlotMoments};
 use crate::sppm::Renewal;
 
 /// A pass that has been added to the image.

@@ -4,7 +4,6 @@ use foton_math::Rgb;
 use foton_transport::photon_map::LANES;
 
 use super::hit_points::Irradiance;
-use crate::error::SlotMoments;
 
 /// Packets of one task.
 pub(crate) const BLOCK: usize = 256;
@@ -38,6 +37,15 @@ impl Lanes {
         }
         Some(self.first as usize + (self.mask & (bit - 1)).count_ones() as usize)
     }
+}
+
+/// What a pass has found of noise and bias at a slot, in luminance.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct SlotMoments {
+    /// 6(s − ½)Φ/(π r²).
+    pub(crate) bias: f32,
+    /// The answer about one class.
+    pub(crate) answer: f32,
 }
 
 /// The entries of a block, in the order of slots.

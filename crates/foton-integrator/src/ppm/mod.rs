@@ -36,7 +36,7 @@ pub(crate) mod under_way;
 mod variants;
 
 pub(crate) use algorithm::Ppm;
-pub(crate) use arrived::Arrived;
+pub(crate) use arrived::{Arrived, SlotMoments};
 pub(crate) use direct::{Direct, Noise};
 pub use eye_samples::EyeSamples;
 pub(crate) use features::features;

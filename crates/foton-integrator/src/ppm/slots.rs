@@ -7,10 +7,10 @@ use foton_math::Rgb;
 use foton_transport::photon_map::{LANES, Packet, PathClass, Photon};
 
 use super::adaptive::{DiscMoments, RadiusStatistics};
-use super::arrived::{BatchSums, Entries, Lanes};
+use super::arrived::{BatchSums, Entries, Lanes, SlotMoments};
 use super::hit_points::BlockSums;
 use super::statistics::Statistics;
-use crate::error::{Question, SlotMoments};
+use crate::error::Question;
 
 /// Light found by a packet's lanes.
 pub(crate) struct Found<const LAYERS: usize> {

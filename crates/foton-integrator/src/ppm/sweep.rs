@@ -3,7 +3,7 @@
 
 use foton_math::Aabb;
 use foton_transport::camera_paths::Gloss;
-use foton_transport::photon_map::{Grid, LANES, Packet, PhotonMap};
+use foton_transport::photon_map::{Grid, LANES, Packet, Photon, PhotonMap};
 use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
@@ -134,23 +134,8 @@ impl<const LAYERS: usize, const MOMENTS: bool> WithSimd for OfBlock<'_, LAYERS, 
             }
             *found = Found::NONE;
             let term = ClassTerm::new(rule.question, packet);
-            if let Some(glossy) = index.checked_sub(first_glossy) {
-                let gloss = &gloss_slots[glossy * LANES..(glossy + 1) * LANES];
-                for photons in &runs {
-                    collect_gloss::<LAYERS, MOMENTS>(packet, gloss, photons, &term, &mut found, &mut tally);
-                }
-            } else if let Some(normals) = shading.get(index) {
-                for photons in &runs {
-                    collect::<LAYERS, true, MOMENTS>(packet, normals, photons, &term, &mut found, &mut tally);
-                }
-            } else {
-                let normals = &[[0.0; LANES]; 3];
-                for photons in &runs {
-                    collect::<LAYERS, false, MOMENTS>(
-                        packet, normals, photons, &term, &mut found, &mut tally,
-                    );
-                }
-            }
+            let how = Weighing { index, first_glossy, shading, gloss_slots, term: &term };
+            collect_runs::<LAYERS, MOMENTS>(packet, &how, &runs, &mut found, &mut tally);
             for (l, place) in before.each() {
                 found.add_earlier(l, &earlier[place]);
             }
@@ -173,5 +158,42 @@ impl<const LAYERS: usize, const MOMENTS: bool> WithSimd for OfBlock<'_, LAYERS, 
             (tally.unknown, tally.radius2) = (slots.sums.unknown, slots.sums.radius2);
         }
         tally
+    }
+}
+
+/// How the hit points of a packet weigh photons.
+struct Weighing<'a> {
+    /// Of the packet.
+    index: usize,
+    first_glossy: usize,
+    shading: &'a [[[f32; LANES]; 3]],
+    gloss_slots: &'a [Option<Gloss>],
+    term: &'a ClassTerm,
+}
+
+/// Sums the photons of all runs of cells that a packet touches.
+#[inline(always)]
+fn collect_runs<const LAYERS: usize, const MOMENTS: bool>(
+    packet: &Packet,
+    how: &Weighing<'_>,
+    runs: &[&[Photon]],
+    found: &mut Found<LAYERS>,
+    tally: &mut Tally,
+) {
+    let &Weighing { index, first_glossy, shading, gloss_slots, term } = how;
+    if let Some(glossy) = index.checked_sub(first_glossy) {
+        let gloss = &gloss_slots[glossy * LANES..(glossy + 1) * LANES];
+        for photons in runs {
+            collect_gloss::<LAYERS, MOMENTS>(packet, gloss, photons, term, found, tally);
+        }
+    } else if let Some(normals) = shading.get(index) {
+        for photons in runs {
+            collect::<LAYERS, true, MOMENTS>(packet, normals, photons, term, found, tally);
+        }
+    } else {
+        let normals = &[[0.0; LANES]; 3];
+        for photons in runs {
+            collect::<LAYERS, false, MOMENTS>(packet, normals, photons, term, found, tally);
+        }
     }
 }
