@@ -3,10 +3,7 @@
 use foton_math::Rgb;
 use foton_transport::photon_map::LANES;
 
-use super::hit_points::Irradiance;
-
-/// Packets of one task.
-pub(crate) const BLOCK: usize = 256;
+use super::hit_points::{BLOCK, Irradiance};
 
 /// Which lanes of a packet have an entry, and where the first of these lies among those of its block.
 #[derive(Clone, Copy, Debug, Default)]

@@ -13,12 +13,14 @@ use foton_transport::{Cancel, Cancelled, LeftOut, Quantity};
 use rayon::prelude::*;
 
 use super::adaptive::RadiusStatistics;
-use super::arrived::BLOCK;
 use super::statistics::Statistics;
 
 /// Light that arrives at a hit point, all of it and then, where classes are asked for, caustic and indirect light: Σ Φ/(π r²) over the
 /// photons of one pass (W·m⁻²), each photon weighed by the BSDF's value where that is not Lambertian (W·m⁻²·sr⁻¹).
 pub(crate) type Irradiance<const LAYERS: usize> = [Rgb; LAYERS];
+
+/// Packets of one task.
+pub(crate) const BLOCK: usize = 256;
 
 /// What shadow rays need of a slot.
 #[derive(Clone, Copy, Debug)]

@@ -7,9 +7,9 @@ use foton_transport::photon_map::{Grid, LANES, Packet, Photon, PhotonMap};
 use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
-use super::arrived::{Arrived, BLOCK, Lanes};
+use super::arrived::{Arrived, Lanes};
 use super::gather::{collect, collect_gloss};
-use super::hit_points::HitPoints;
+use super::hit_points::{BLOCK, HitPoints};
 use super::refine::refine;
 use super::rule::Rule;
 use super::slots::{ClassTerm, Found, Slots};
