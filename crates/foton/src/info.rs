@@ -130,7 +130,8 @@ fn as_text(scene: &Scene, settings: &RenderSettings, name: &str, hash: u64) -> V
         ),
     ];
     if c.instances > 0 {
-        lines.push(format!("{} of the shapes are instances: they share trees over their meshes", c.instances));
+        lines
+            .push(format!("{} of the shapes are instances: they share trees over their meshes", c.instances));
     }
     for s in scene.sensors() {
         let mut line = format!("sensor {}: {} x {} pixels", s.name, s.width, s.height);
