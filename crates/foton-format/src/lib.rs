@@ -21,6 +21,7 @@ mod encoding;
 mod excerpt;
 mod files;
 mod hash;
+mod ies;
 mod image;
 mod limits;
 mod mesh;
