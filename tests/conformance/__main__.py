@@ -31,7 +31,7 @@ def main():
     parser.add_argument("--repository", type=Path, required=True, help="where assets/ is")
     parser.add_argument("--out", type=Path, required=True, help="folder for pictures and cached references")
     parser.add_argument("--quick", action="store_true", help="only a diffuse box of assets/ and some plugins, small")
-    parser.add_argument("--plugins", nargs="*", metavar="SCENE", help="only these scenes of tests/scenes/plugins and blender, or all")
+    parser.add_argument("--plugins", nargs="*", metavar="SCENE", help="only these scenes of plugins and formats, or all")
     parser.add_argument("--table", type=Path, help="with --plugins: where to write what was found, as a page of docs/")
     options = parser.parse_args()
 
@@ -47,7 +47,7 @@ def main():
         effort = replace(plugins.FULL, names=tuple(options.plugins))
         findings = plugins.check(report, foton, mitsuba, options.repository, options.out, effort)
         if options.table:
-            plugin_table.write(findings, plugins.BOUND, plugins.SIGMAS, plugins.PPM.share, options.table)
+            plugin_table.write(findings, (plugins.BOUND, plugins.FORMAT_BOUND), plugins.SIGMAS, plugins.PPM.share, options.table)
     elif options.quick:
         diffuse_box.check(report, foton, mitsuba, diffuse[0], options.out, diffuse_box.QUICK)
         path_tracing.check(report, foton, mitsuba, diffuse[0], path_tracing.QUICK)

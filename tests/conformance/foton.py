@@ -18,13 +18,15 @@ class Foton:
         """What the program says of itself."""
         return self.run("--version").strip()
 
-    def render(self, prepared, seed, passes, photons, spp, radius=None, direct="photons", method="ppm"):
-        """Renders and returns the image as (height, width, 3) float64. Without a radius the program takes its own."""
+    def render(self, prepared, seed, passes, photons, spp, radius=None, direct="photons", method="ppm", size=None):
+        """Renders and returns the image as (height, width, 3) float64. Without a radius or a size the program takes its own."""
         image = self.folder / f"foton-{method}-{prepared.stem}-s{seed}.exr"
         arguments = ["render", prepared, "-o", image, "--passes", passes, "--photons", photons, "--seed", seed]
         arguments += ["--spp", spp, "--integrator", method]
         if method == "ppm":
             arguments += ["--direct", direct]
+        if size is not None:
+            arguments += ["--size", "x".join(map(str, size))]
         if radius is not None:
             arguments += ["--radius", radius]
         self.run(*arguments)

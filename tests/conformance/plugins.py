@@ -1,11 +1,13 @@
-"""Check (f): the scenes of `tests/scenes/plugins`, one a plugin or dialect, and of `blender`, pixel block by pixel block.
+"""Check (f): the scenes of `tests/scenes/plugins`, one a plugin or dialect, of `blender` and of other formats, block by block.
 
 A scene that Mitsuba 3 reads is its own reference. What only older versions read has a twin of the same name in `twins/`: in the words
-of version 3 where it has them, else with a BSDF of `published_bsdfs.py`. Path tracing must agree in every block. Progressive photon
-mapping is blurred where surfaces end, by design, so that a share of its blocks must agree, and the mean.
+of version 3 where it has them, else with a BSDF of `published_bsdfs.py`. A scene of another format is compared with what
+`foton convert` makes of it, and with a twin written by hand where there is one: `FORMAT-NAME.xml`. Path tracing must agree in every
+block. Progressive photon mapping is blurred where surfaces end, by design, so that a share of its blocks must agree, and the mean.
 """
 
 import hashlib
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,9 +20,15 @@ from pictures import write_triptych
 from statistics_of_seeds import blocks, compare_means, mean_and_error
 
 FOLDERS = ("plugins", "blender")
+# Folders of scenes of other formats, and what those end in.
+FORMATS = {"models": ("obj", "ply", "stl"), "gltf": ("gltf", "glb"), "pbrt": ("pbrt",)}
 TWINS = Path(__file__).parent / "twins"
 BLOCK = 8
 BOUND = 0.02
+# How far the mean of a scene of another format may lie from that of its twin.
+FORMAT_BOUND = 0.01
+# So wide are the pictures of scenes of other formats.
+WIDTH = 64
 SIGMAS = 3
 
 
@@ -65,29 +73,73 @@ PPM = Method("ppm", 32, 1 << 14, 16, 0.9, "x0.5")
 # For the pictures of `blender`, which are six times as large, and for suns, whose photons are noisy.
 MORE = Method("ppm", 48, 1 << 17, 16, 0.9, "x0.5")
 NEED_MORE = ("blender", "sunsky")
+
+
+def needs_more(scene):
+    """Whether a scene is one of those."""
+    return scene.parent.name in NEED_MORE or scene.stem.startswith(NEED_MORE)
+
+
 FULL = Effort(4, 512, (PATH, PPM))
 QUICK = Effort(4, 256, (Method("path", 8, 1, 8, 0.97),), ("blendbsdf", "dialect-0.5", "normalmap", "phong", "principled-plastic"))
+
+
+@dataclass
+class Pair:
+    """A scene, the file that Mitsuba renders for it, where the files lie that they share, and what the first is made smaller to."""
+
+    scene: Path
+    original: Path
+    folder: Path
+    kind: str
+    size: tuple | None = None
 
 
 def check(report, foton, theirs, repository, out, effort):
     """A row for each scene and method, and a picture; returns the findings."""
     published_bsdfs.register()
-    folders = [repository / "tests" / "scenes" / name for name in FOLDERS]
-    scenes = [scene for folder in folders for scene in sorted(folder.glob("*.xml"))]
+    scenes = repository / "tests" / "scenes"
+    of_mitsuba = [scene for name in FOLDERS for scene in sorted((scenes / name).glob("*.xml"))]
+    others = [scene for name, kinds in FORMATS.items() for kind in kinds for scene in sorted((scenes / name).glob(f"*.{kind}"))]
+    wanted = [scene for scene in (*of_mitsuba, *others) if not effort.names or scene.stem in effort.names]
     findings = []
-    for scene in scenes:
-        if effort.names and scene.stem not in effort.names:
-            continue
-        twin = TWINS / scene.name
-        original = twin if twin.exists() else scene
-        reference = references(theirs, original, scene.parent, effort)
+    for pair in (pair for scene in wanted for pair in pairs(foton, scene, out)):
+        reference = references(theirs, pair.original, pair.folder, effort)
         for usual in effort.methods:
-            needs_more = usual == PPM and (scene.parent.name in NEED_MORE or scene.stem in NEED_MORE)
-            method = MORE if needs_more else usual
-            finding, why = compare(foton, scene, original, reference, method, effort, out)
+            method = MORE if usual == PPM and needs_more(pair.scene) else usual
+            finding, why = compare(foton, pair, reference, method, effort, out)
             findings.append(finding)
             add_row(report, finding, method, why)
     return findings
+
+
+def pairs(foton, scene, out):
+    """What a scene is compared with."""
+    if scene.parent.name in FOLDERS:
+        twin = TWINS / scene.name
+        original = twin if twin.exists() else scene
+        yield Pair(scene, original, scene.parent, kind_of(scene, original))
+        return
+    # Files that Mitsuba's words name lie beside them.
+    converted = out / "converted" / f"{scene.parent.name}-{scene.stem}.xml"
+    converted.parent.mkdir(parents=True, exist_ok=True)
+    foton.run("convert", scene, converted)
+    size = make_small(converted)
+    yield Pair(scene, converted, converted.parent, "its conversion", size)
+    twin = TWINS / converted.name
+    if twin.exists():
+        yield Pair(scene, twin, scene.parent, "Mitsuba 3, its words", size)
+
+
+def make_small(scene):
+    """Gives the film of a scene file few pixels, and returns how many."""
+    text = scene.read_text(encoding="utf-8")
+    width, height = (int(re.search(f'name="{name}" value="([0-9]+)"', text).group(1)) for name in ("width", "height"))
+    size = (WIDTH, round(WIDTH * height / width))
+    for name, number in zip(("width", "height"), size):
+        text = re.sub(f'name="{name}" value="[0-9]+"', f'name="{name}" value="{number}"', text)
+    scene.write_text(text, encoding="utf-8")
+    return size
 
 
 def references(theirs, scene, folder, effort):
@@ -108,23 +160,27 @@ def digest(folder):
     return hashlib.sha256(b"".join(path.read_bytes() for path in shared)).hexdigest()[:8]
 
 
-def compare(foton, scene, original, reference, method, effort, out):
+def compare(foton, pair, reference, method, effort, out):
     """The finding, and why there is no picture where there is none."""
-    kind = kind_of(scene, original)
+    scene, kind = pair.scene, pair.kind
     try:
-        ours = np.stack([render(foton, scene, seed, method) for seed in range(1, effort.seeds + 1)])
+        ours = np.stack([render(foton, pair, seed, method) for seed in range(1, effort.seeds + 1)])
     except SystemExit as cause:
         return Finding(scene, kind, method.name, False), str(cause).splitlines()[-1]
-    write_triptych(out / f"plugins-{scene.stem}-{method.name}.png", ours.mean(axis=0), reference.mean(axis=0))
+    name = pair.original.stem if pair.size else scene.stem
+    write_triptych(out / f"plugins-{name}-{method.name}.png", ours.mean(axis=0), reference.mean(axis=0))
     mean, error = mean_and_error([blocks(image, BLOCK) for image in ours])
     expected, expected_error = mean_and_error([blocks(image, BLOCK) for image in reference])
     sigma = pooled(np.hypot(error, expected_error))
     agree = (np.abs(mean - expected) <= SIGMAS * sigma + BOUND * expected).mean()
     deviations = compare_means(*(images.mean(axis=(1, 2)) for images in (ours, reference)))[0]
     deviation = deviations[np.abs(deviations).argmax()]
-    typical = np.median(sigma / expected)
-    good = bool(agree >= method.share and abs(deviation) <= BOUND and typical <= BOUND / 2)
-    worst = np.abs(mean / expected - 1).max()
+    # Behind a model there may be nothing, but for what a filter brings.
+    lit = expected > 0.01 * expected.mean()
+    typical = np.median((sigma / np.where(lit, expected, 1))[lit])
+    bound = FORMAT_BOUND if pair.size and method.name == PATH.name else BOUND
+    good = bool(agree >= method.share and abs(deviation) <= bound and typical <= BOUND / 2)
+    worst = np.abs(mean[lit] / expected[lit] - 1).max()
     return Finding(scene, kind, method.name, good, deviation, worst, agree, typical), ""
 
 
@@ -137,7 +193,9 @@ def kind_of(scene, original):
 
 def add_row(report, finding, method, why):
     """The finding as a row of the report."""
-    row, bound = f"plugins: {finding.scene.stem}, {method.name}", f"{BOUND:.0%} + {SIGMAS} σ, {method.share:.0%}"
+    scene = finding.scene
+    name = scene.stem if scene.parent.name in FOLDERS else f"{scene.name} and {finding.reference}"
+    row, bound = f"plugins: {name}, {method.name}", f"{BOUND:.0%} + {SIGMAS} σ, {method.share:.0%}"
     if finding.deviation is None:
         report.add(row, "is not rendered", bound, why, False)
     else:
@@ -145,6 +203,6 @@ def add_row(report, finding, method, why):
         report.add(row, measured, bound, f"block σ {finding.sigma:.2%}", finding.good)
 
 
-def render(foton, scene, seed, method):
+def render(foton, pair, seed, method):
     """One foton image."""
-    return foton.render(scene, seed, method.passes, method.photons, method.spp, method.radius, "auto", method.name)
+    return foton.render(pair.scene, seed, method.passes, method.photons, method.spp, method.radius, "auto", method.name, pair.size)

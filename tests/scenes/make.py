@@ -1,4 +1,4 @@
-"""Makes the textures and meshes of `plugins/` and `blender/`: `python make.py`, with numpy, Pillow, OpenEXR and Mitsuba 3.
+"""Makes the textures and meshes of `plugins/`, `blender/` and `models/`: `python make.py`, with numpy, Pillow, OpenEXR and Mitsuba 3.
 
 All are small, smooth and made of formulas. Those who need one in another format add a line here.
 """
@@ -27,6 +27,7 @@ def main():
     write_spectra(textures)
     write_meshes(meshes)
     write_blender(HERE / "blender")
+    write_model(HERE / "models")
 
 
 def coordinates(side=SIDE):
@@ -251,6 +252,63 @@ def write_mesh(path, points, uvs, faces):
     parameters.update()
     mesh.recompute_vertex_normals()
     mesh.write_ply(str(path))
+
+
+MATERIALS = """# Materials of dish.obj.
+newmtl painted
+Kd 1 1 1
+map_Kd ../plugins/textures/colours.png
+newmtl glossy
+Kd 0.1 0.3 0.6
+Ks 0.5 0.5 0.5
+Ns 80
+illum 2
+newmtl table
+Kd 0.5 0.45 0.4
+newmtl lamp
+Kd 0 0 0
+Ke 3 2.7 2.3
+"""
+
+
+def write_model(folder):
+    """An OBJ file that is a scene of its own: a dish, a ball, a table and a lamp, with normals and texture coordinates."""
+    folder.mkdir(exist_ok=True)
+    (folder / "dish.mtl").write_text(MATERIALS)
+    lines, first = ["# A dish with a picture and a glossy ball on a table, under a lamp of the model's own.", "mtllib dish.mtl"], 1
+    parts = {"painted": (25, 7, dish_point), "glossy": (25, 13, marble_point), "table": (2, 2, table_point), "lamp": (2, 2, lamp_point)}
+    for name, (columns, rows, point) in parts.items():
+        points, uvs, faces = sheet(columns, rows, lambda u, v, point=point: np.concatenate(point(u, v)))
+        lines += [f"v {x:.6g} {y:.6g} {z:.6g}" for x, y, z in points[:, :3]]
+        lines += [f"vn {x:.6g} {y:.6g} {z:.6g}" for x, y, z in points[:, 3:]]
+        lines += [f"vt {u:.6g} {v:.6g}" for u, v in uvs] + [f"usemtl {name}"]
+        lines += ["f " + " ".join(f"{i}/{i}/{i}" for i in face + first) for face in faces]
+        first += len(points)
+    (folder / "dish.obj").write_text("\n".join(lines) + "\n")
+
+
+def dish_point(u, v):
+    """Point and normal of a bowl."""
+    across = np.array([np.sin(2 * np.pi * u), 0, np.cos(2 * np.pi * u)])
+    normal = np.array([0, 0.75, 0]) - 0.7 * v * across
+    return np.array([-0.9, 0.02 + 0.35 * v * v, 0]) + (0.15 + 0.75 * v) * across, normal / np.linalg.norm(normal)
+
+
+def marble_point(u, v):
+    """Point and normal of a ball."""
+    across = np.array([np.sin(2 * np.pi * u), 0, np.cos(2 * np.pi * u)])
+    normal = np.sin(np.pi * v) * across - np.array([0, np.cos(np.pi * v), 0])
+    return np.array([0.9, 0.6, 0]) + 0.6 * normal, normal
+
+
+def table_point(u, v):
+    """Point and normal of a square that looks up."""
+    return np.array([4.4 * u - 2.2, 0, 2.2 - 4.4 * v]), np.array([0, 1, 0])
+
+
+def lamp_point(u, v):
+    """Point and normal of a square that looks down."""
+    return np.array([1.2 * u - 1, 3, 1.2 * v]), np.array([0, -1, 0])
 
 
 if __name__ == "__main__":
