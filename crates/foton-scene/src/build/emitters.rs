@@ -7,7 +7,7 @@ use foton_math::glam::{DAffine3, DVec3, Mat3, Vec3};
 use foton_math::{Aabb, Frame, Rgb};
 
 use super::orientation::orientation;
-use crate::description::{Colour, EmitterDescription, EmitterKind, projected_half};
+use crate::description::{Bitmap, Colour, EmitterDescription, EmitterKind, projected_half};
 use crate::discrete::Discrete;
 use crate::emitter::{
     Aim, Ball, Beam, Cone, Constant, Directional, Emitter, Environment, EnvironmentMap, Goniometric, Kind,
@@ -59,16 +59,19 @@ pub(super) fn unattached_emitter(
                 Kind::Spot(Spot { position, frame: Frame::from_normal(axis), intensity, cone })
             }
         }
-        kind @ EmitterKind::Projector { to_world, .. } => {
-            Kind::Beam(Box::new(projector(kind, scale2, textures, (place(to_world), axes(to_world)))))
+        EmitterKind::Projector { to_world, irradiance, scale, fov_degrees, fov_axis } => {
+            let (picture, colour) = match irradiance {
+                Colour::Constant(c) => (Picture::Even, *c),
+                Colour::Texture(i) => (Picture::Texture(Arc::clone(&textures[*i])), Rgb::WHITE),
+            };
+            let half = projected_half(*fov_degrees, *fov_axis, picture.shape()).map(|c| c as f32);
+            let factor = colour.map(|c| (f64::from(c) * scale * scale2 * PI) as f32);
+            let light = Light::Projected { half: half.into(), factor };
+            Kind::Beam(Box::new(Beam::new(place(to_world), axes(to_world), picture, light)))
         }
         EmitterKind::Goniometric { to_world, bitmap, scale } => {
-            // Rows of a map are angles to its +y, columns begin at its −z and grow towards +x.
-            let axes = axes(to_world);
-            let of_map = Mat3::from_cols(axes.bitangent, axes.normal, -axes.tangent);
             let scale = (f64::from(*scale) * scale2) as f32;
-            let map = Box::new(EnvironmentMap::new(bitmap.clone(), scale, of_map));
-            Kind::Goniometric(Goniometric { position: place(to_world), map })
+            Kind::Goniometric(lamp(place(to_world), &axes(to_world), bitmap, scale))
         }
         EmitterKind::Constant { radiance } => Kind::Constant(Constant { radiance: *radiance, scene }),
         EmitterKind::Directional { direction, irradiance } => Kind::Directional(Directional {
@@ -86,23 +89,12 @@ pub(super) fn unattached_emitter(
     if emitter.is_at_infinity() { Emitter { aim: aim_at_casters(casters), ..emitter } } else { emitter }
 }
 
-/// A projector at its place in the scene, where intensities are so many times as large.
-fn projector(
-    kind: &EmitterKind,
-    scale2: f64,
-    textures: &[Arc<Sampler>],
-    (position, axes): (Vec3, Frame),
-) -> Beam {
-    let EmitterKind::Projector { irradiance, scale, fov_degrees, fov_axis, .. } = kind else {
-        unreachable!("a projector")
-    };
-    let (picture, colour) = match irradiance {
-        Colour::Constant(c) => (Picture::Even, *c),
-        Colour::Texture(i) => (Picture::Texture(Arc::clone(&textures[*i])), Rgb::WHITE),
-    };
-    let half = projected_half(*fov_degrees, *fov_axis, picture.shape()).map(|c| c as f32);
-    let factor = colour.map(|c| (f64::from(c) * scale * scale2 * PI) as f32);
-    Beam::new(position, axes, picture, Light::Projected { half: half.into(), factor })
+/// A measured lamp.
+fn lamp(position: Vec3, axes: &Frame, bitmap: &Arc<Bitmap>, scale: f32) -> Goniometric {
+    // Rows of a map are angles to its +y, columns begin at its −z and grow towards +x.
+    let of_map = Mat3::from_cols(axes.bitangent, axes.normal, -axes.tangent);
+    let map = Box::new(EnvironmentMap::new(Arc::clone(bitmap), scale, of_map));
+    Goniometric { position, map }
 }
 
 /// The unit axes of an emitter in the scene; they may be left-handed.

@@ -155,10 +155,8 @@ fn what_no_number_holds_is_refused_by_name_and_with_what_would_do() {
                     | EmitterKind::Spot { intensity: e, .. }
                     | EmitterKind::Constant { radiance: e }
                     | EmitterKind::Directional { irradiance: e, .. } => *e *= fit,
-                    EmitterKind::Environment { scale, .. } | EmitterKind::Goniometric { scale, .. } => {
-                        *scale *= fit
-                    }
-                    EmitterKind::Projector { scale, .. } => *scale *= f64::from(fit),
+                    EmitterKind::Environment { scale, .. } => *scale *= fit,
+                    other => panic!("{other:?}"),
                 }
             }
             assert_eq!(Scene::build(&fitted).is_ok(), sound, "{most} of {:?}", fitted.emitters);
