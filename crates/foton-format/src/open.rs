@@ -1,6 +1,7 @@
 //! Opens scene files, and scenes from memory.
 
 use std::cell::RefCell;
+use std::collections::HashSet;
 use std::path::Path;
 
 use foton_input::Named;
@@ -14,40 +15,53 @@ use crate::limits::Budget;
 use crate::mitsuba::read::reader::Reader;
 use crate::opened::{MitsubaScene, Opened, Origin};
 use crate::options::{Options, ReadFile};
-use crate::{mitsuba::read::include, standalone};
+use crate::refused::refused;
+use crate::{gltf, mitsuba::read::include, standalone};
 
-/// Opens a scene file; the files that it names are found from its folder. An OBJ, PLY or STL file is a whole scene: what
-/// it lacks is added, and a warning says so.
+/// Opens a scene file: of Mitsuba, or glTF; the files that it names are found from its folder. An OBJ, PLY, STL or OFF file is a whole scene:
+/// what it lacks is added, and a warning says so.
 ///
 /// # Errors
 /// Everything that is wrong with the file, unless it is not well-formed XML: then the first problem. Or that reading was cancelled.
 pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
-    let files = RefCell::new(Vec::new());
+    let files = RefCell::new((Vec::new(), HashSet::new()));
     let opened = open_with(path, options, &|file| {
         // The file itself may be a pipe; what it names may not.
         let named = if file == path { Named::ByUser } else { Named::ByFile };
         let bytes = options.read(file, named)?;
-        files.borrow_mut().push(file.to_owned());
+        let (in_order, known) = &mut *files.borrow_mut();
+        if known.insert(file.to_owned()) {
+            in_order.push(file.to_owned());
+        }
         Ok(bytes)
     })?;
-    Ok(Opened { files: files.into_inner(), ..opened })
+    Ok(Opened { files: files.into_inner().0, ..opened })
 }
 
-/// Reads the shapes of an OBJ, PLY or STL file, with their materials and textures, to add them to another scene.
+/// Reads the shapes of an OBJ, PLY, STL, OFF or glTF file, with their materials and textures, to add them to another scene.
 ///
 /// # Errors
 /// As [`open`], and where the file is of another kind.
 pub fn import(path: &Path, options: &Options) -> Result<SceneDescription, OpenError> {
-    if standalone::Kind::of(path).is_none() {
+    if standalone::Kind::of(path).is_none() && !gltf::is_named(path) && refused(path).is_none() {
         let report = Report::new(&path.to_string_lossy(), path.parent().unwrap_or(Path::new("")));
-        return Err(report.fail(Place::default(), "only OBJ, PLY and STL files can be imported"));
+        return Err(report.fail(Place::default(), "only OBJ, PLY, STL, OFF and glTF files can be imported"));
     }
     Ok(standalone::shapes_alone(open(path, options)?.description))
 }
 
 fn open_with(path: &Path, options: &Options, files: &ReadFile<'_>) -> Result<Opened, OpenError> {
+    if let Some((message, way_out)) = refused(path) {
+        let mut report = Report::new(&path.to_string_lossy(), path.parent().unwrap_or(Path::new("")));
+        report.error(Place::default(), message);
+        report.help(way_out);
+        report.finish()?;
+    }
     if let Some(kind) = standalone::Kind::of(path) {
         return standalone::open(path, kind, files, options);
+    }
+    if gltf::is_named(path) {
+        return gltf::open(path, files, options);
     }
     let name = path.to_string_lossy();
     let folder = path.parent().unwrap_or(Path::new(""));

@@ -32,7 +32,7 @@ const MAX_PIXELS_PER_BYTE: u64 = 8 * 1032;
 const BYTES_PER_PIXEL: u64 = size_of::<Rgb>() as u64;
 
 /// What stands for an image that is not there.
-const MAGENTA: Rgb = Rgb::new(1.0, 0.0, 1.0);
+pub(crate) const MAGENTA: Rgb = Rgb::new(1.0, 0.0, 1.0);
 
 /// The most characters of what a library says of a file.
 const MAX_REASON: usize = 160;
@@ -80,6 +80,8 @@ pub(crate) enum Channel {
     Rgb(usize),
     /// The share of the pixel that is covered.
     Alpha,
+    /// The same, and 1 in an image that does not say.
+    Opacity,
     /// Of CIE XYZ, by number.
     Xyz(usize),
 }
@@ -173,7 +175,7 @@ fn read(
             return None;
         }
     };
-    if bytes.starts_with(&JPEG_START) && is_cut_jpeg(&bytes) {
+    if is_cut_jpeg(&bytes) {
         let message =
             format!("{} ends before its picture does: what is missing has no detail", shown_path(&path));
         report.warning(place, message);
@@ -188,7 +190,11 @@ fn read(
     Some(bitmap)
 }
 
-fn decode(
+/// The pixels of an image file. Factor and purpose of the reading are the caller's.
+///
+/// # Errors
+/// What is wrong with it.
+pub(crate) fn decode(
     path: &Path,
     bytes: &[u8],
     reading: Reading,
@@ -197,7 +203,7 @@ fn decode(
 ) -> Result<Bitmap, String> {
     let is_exr = bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]);
     if is_exr || pfm::is_pfm(bytes) {
-        if reading.channel == Some(Channel::Alpha) {
+        if matches!(reading.channel, Some(Channel::Alpha | Channel::Opacity)) {
             return Err("alpha is not read from EXR and PFM files".to_owned());
         }
         let read = if is_exr { decode_exr(path, bytes, budget, cancel) } else { decode_pfm(bytes, budget) };
@@ -223,8 +229,8 @@ fn decode(
     budget.check(pixels.saturating_mul(BYTES_PER_PIXEL + as_rgb).saturating_add(decoder.total_bytes()))?;
     budget.take(pixels * BYTES_PER_PIXEL)?;
     let image = image::DynamicImage::from_decoder(decoder).map_err(said)?;
-    if reading.channel == Some(Channel::Alpha) {
-        if !colour.has_alpha() {
+    if matches!(reading.channel, Some(Channel::Alpha | Channel::Opacity)) {
+        if !colour.has_alpha() && reading.channel == Some(Channel::Alpha) {
             return Err("it has no alpha channel".to_owned());
         }
         let pixels = image.into_rgba32f().pixels().map(|p| Rgb::splat(p.0[3])).collect();
@@ -267,7 +273,7 @@ fn of_channel(mut bitmap: Bitmap, channel: Option<Channel>) -> Bitmap {
     let of = |p: Rgb| match channel {
         Some(Channel::Rgb(i)) => Rgb::splat(p.to_array()[i]),
         Some(Channel::Xyz(i)) => Rgb::splat(XYZ[i].iter().zip(p.to_array()).map(|(a, b)| a * b).sum()),
-        Some(Channel::Alpha) | None => p,
+        Some(Channel::Alpha | Channel::Opacity) | None => p,
     };
     bitmap.pixels.iter_mut().for_each(|p| *p = of(*p));
     bitmap
@@ -293,9 +299,12 @@ fn format(path: &Path, bytes: &[u8]) -> Option<ImageFormat> {
 
 const JPEG_START: [u8; 2] = [0xff, 0xd8];
 
-/// Whether a JPEG file lacks the mark of its end: going from segment to segment, since pictures within, as cameras write
+/// Whether a file is JPEG and lacks the mark of its end: going from segment to segment, since pictures within, as cameras write
 /// them, have marks of their own.
-fn is_cut_jpeg(bytes: &[u8]) -> bool {
+pub(crate) fn is_cut_jpeg(bytes: &[u8]) -> bool {
+    if !bytes.starts_with(&JPEG_START) {
+        return false;
+    }
     let mut at = JPEG_START.len();
     // A byte of 255 is a mark's beginning; behind it more of them may fill up, or there is the kind of mark.
     while let Some(offset) = bytes.get(at..).and_then(|rest| rest.iter().position(|&b| b == 0xff)) {

@@ -4,6 +4,7 @@ pub(crate) mod files;
 pub(crate) mod mtl;
 pub(crate) mod normals;
 pub(crate) mod obj;
+pub(crate) mod off;
 pub(crate) mod ply;
 pub(crate) mod polygons;
 pub(crate) mod serialized;

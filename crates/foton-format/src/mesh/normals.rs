@@ -83,7 +83,7 @@ pub(crate) fn build(obj: &Obj, wanted: Wanted, to_world: &DAffine3, cancel: &Can
 }
 
 /// What textures call the colours of vertices.
-pub(crate) const VERTEX_COLOUR: &str = "vertex_color";
+const VERTEX_COLOUR: &str = "vertex_color";
 
 /// The texture coordinate of a corner; the origin if it has none.
 fn texture(obj: &Obj, key: Corner, flip_v: bool) -> DVec2 {

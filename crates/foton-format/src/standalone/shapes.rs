@@ -9,40 +9,37 @@ use foton_scene::description::{
 };
 
 use crate::mesh::mtl;
-use crate::mesh::normals::VERTEX_COLOUR;
 
 /// Finds a file of materials: its path, and its contents or why it cannot be read.
 pub(super) type Library<'a> = dyn FnMut(&str) -> Option<(String, Result<Vec<u8>, String>)> + 'a;
 
-/// Grey, from both sides.
-pub(super) fn grey(name: &str) -> Material {
-    let front = Bsdf::Diffuse(Diffuse { reflectance: Rgb::splat(0.5).into() });
+/// Colours that a mesh may have of its vertices or faces.
+const COLOURS: [&str; 2] = ["vertex_color", "face_color"];
+
+/// Dull, from both sides: grey, or of the colours that the mesh has.
+fn dull(name: &str, mesh: &Mesh, scene: &mut SceneDescription) -> Material {
+    let found = mesh.attributes.iter().find(|a| a.channels == 3 && COLOURS.contains(&a.name.as_str()));
+    let reflectance = match found {
+        Some(colours) => {
+            let name = colours.name.clone();
+            let known = scene.textures.iter().position(|t| t.name == name);
+            Colour::Texture(known.unwrap_or_else(|| {
+                let kind = TextureKind::Attribute { name: name.clone(), scale: 1.0, most: 1.0 };
+                scene.textures.push(Texture { name, to_uv: DAffine2::IDENTITY, kind });
+                scene.textures.len() - 1
+            }))
+        }
+        None => Rgb::splat(0.5).into(),
+    };
+    let front = Bsdf::Diffuse(Diffuse { reflectance });
     Material { name: name.to_owned(), front, back: Some(front), ..Material::default() }
 }
 
-/// Whether a mesh states colours of its vertices.
-fn has_colours(mesh: &Mesh) -> bool {
-    mesh.attributes.iter().any(|a| a.name == VERTEX_COLOUR && a.channels == 3)
-}
-
-/// In the colours of the mesh's vertices, from both sides.
-fn painted(name: &str, scene: &mut SceneDescription) -> Material {
-    let kind = TextureKind::Attribute { name: VERTEX_COLOUR.to_owned(), scale: 1.0, most: 1.0 };
-    let known = scene.textures.iter().position(|t| t.name == VERTEX_COLOUR);
-    let texture = known.unwrap_or_else(|| {
-        let name = VERTEX_COLOUR.to_owned();
-        scene.textures.push(Texture { name, to_uv: DAffine2::IDENTITY, kind });
-        scene.textures.len() - 1
-    });
-    let front = Bsdf::Diffuse(Diffuse { reflectance: Colour::Texture(texture) });
-    Material { front, back: Some(front), ..grey(name) }
-}
-
 pub(super) fn add_shape(name: &str, mesh: Mesh, known: Option<&mtl::Entry>, scene: &mut SceneDescription) {
-    let material = known.map_or_else(
-        || if has_colours(&mesh) { painted(name, scene) } else { grey(name) },
-        |entry| entry.material.clone(),
-    );
+    let material = match known {
+        Some(entry) => entry.material.clone(),
+        None => dull(name, &mesh, scene),
+    };
     scene.materials.push(material);
     scene.shapes.push(ShapeDescription {
         name: name.to_owned(),

@@ -15,10 +15,10 @@ use foton_input::shown_path;
 use listing::Entry;
 
 /// What scenes and meshes end in.
-pub(crate) const SCENES: &[&str] = &["xml", "obj", "ply", "stl"];
+pub(crate) const SCENES: &[&str] = &["xml", "gltf", "glb", "obj", "ply", "stl", "off"];
 
 /// What meshes end in.
-pub(crate) const MESHES: &[&str] = &["obj", "ply", "stl"];
+pub(crate) const MESHES: &[&str] = &["gltf", "glb", "obj", "ply", "stl", "off"];
 
 /// What checkpoints end in.
 pub(crate) const CHECKPOINTS: &[&str] = &["checkpoint"];
