@@ -3,6 +3,7 @@
 mod blends;
 mod foreign;
 mod lights;
+mod stand_ins;
 
 use std::fs;
 use std::path::{Path, PathBuf};
