@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 
-use foton_math::glam::{DAffine3, DVec2, DVec3};
+use foton_math::glam::{DAffine3, DMat3, DVec2, DVec3};
 use foton_scene::description::Mesh;
 
 use crate::diagnostic::Report;
@@ -63,8 +63,21 @@ impl Contents {
     }
 }
 
-/// The bits of a transform without its translation, of which computed normals depend; zeros where nothing does.
+/// The bits of a transform without its translation, of which computed normals depend; zeros where nothing does, ones for all that turn
+/// and scale evenly: the normals go along with those.
 type Linear = [u64; 9];
+
+/// How far, in shares of its largest number, a transform may be from one that turns and scales evenly.
+const UNEVEN: f64 = 1e-12;
+
+/// Whether a transform only turns, moves and scales evenly, and mirrors nothing.
+fn is_even(to_world: &DAffine3) -> bool {
+    let m = to_world.matrix3;
+    let scale = m.determinant().cbrt();
+    let product = m.transpose() * m - DMat3::from_diagonal(DVec3::splat(scale * scale));
+    let largest = product.to_cols_array().into_iter().fold(0.0, |most: f64, c| most.max(c.abs()));
+    scale > 0.0 && largest <= UNEVEN * scale * scale
+}
 
 /// The mesh files read so far.
 #[derive(Default)]
@@ -89,7 +102,8 @@ impl Meshes {
     ) -> Option<Arc<Mesh>> {
         let path = Files::key(&filename.value, filename.place, report);
         let linear = to_world.matrix3.to_cols_array().map(f64::to_bits);
-        let keys = [Linear::default(), linear].map(|linear| (path.clone(), wanted, linear));
+        let of_this = if is_even(to_world) { [1; 9] } else { linear };
+        let keys = [Linear::default(), of_this].map(|linear| (path.clone(), wanted, linear));
         if let Some(mesh) = keys.iter().find_map(|key| self.built.get(key)) {
             return Some(Arc::clone(mesh));
         }

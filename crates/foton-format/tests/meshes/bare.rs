@@ -186,6 +186,35 @@ fn a_mesh_in_several_shapes_is_stored_once() {
     assert!(Arc::ptr_eq(&a, &b));
 }
 
+/// Normals that are computed turn with the shape, but a stretched shape has others.
+#[test]
+fn a_mesh_without_normals_is_stored_once_for_all_turns_of_it() {
+    let bytes = ply("binary_little_endian", little);
+    let files = |_: &Path| Ok(bytes.clone());
+    let one = |transform: &str| {
+        format!(
+            "<shape type='ply'><string name='filename' value='m'/><transform name='to_world'>{transform}</transform></shape>"
+        )
+    };
+    let shapes = [
+        "<rotate x='1' y='2' angle='33'/><scale value='0.3'/><translate x='4'/>",
+        "<rotate z='1' angle='-70'/><scale value='7'/>",
+        "<scale x='2'/>",
+        "<scale x='-1'/>",
+    ];
+    let shapes = shapes.map(one).concat();
+    let xml = format!("<scene version='3.0.0'><sensor type='perspective'/>{shapes}</scene>");
+    let opened = read_str("s.xml", &xml, &files, &Options::default()).unwrap();
+    let meshes = [0, 1, 2, 3].map(|i| &opened.description.shapes[i].geometry);
+    let [Geometry::Mesh(turned), Geometry::Mesh(again), Geometry::Mesh(stretched), Geometry::Mesh(mirrored)] =
+        meshes
+    else {
+        panic!("not meshes")
+    };
+    assert!(!turned.normals.is_empty() && Arc::ptr_eq(turned, again));
+    assert!(!Arc::ptr_eq(turned, stretched) && !Arc::ptr_eq(turned, mirrored));
+}
+
 /// Scans state colours of their vertices, which are seen without asking.
 #[test]
 fn a_model_with_colours_of_vertices_is_painted_in_them() {
