@@ -4,13 +4,14 @@
 //! Two drivers share this: `mutate`, which any stable compiler builds, and libFuzzer's targets.
 
 pub mod memory;
+pub mod pbrt;
 pub mod seeds;
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use foton_format::{Opened, Options, read_str};
+use foton_format::{OpenError, Opened, Options, read_str};
 use foton_integrator::{Cancel, PpmSettings, RenderSettings};
 use foton_scene::Scene;
 use foton_session::{SceneIdentity, Session, checkpoint};
@@ -22,8 +23,14 @@ static COUNTED: memory::Counted = memory::Counted;
 pub type Reader = fn(&[u8]) -> String;
 
 /// Everything that is fuzzed: its name, and what reads. A reader says in a line how it ended, for drivers to tell runs apart.
-pub const TARGETS: [(&str, Reader); 5] =
-    [("xml", xml), ("obj", obj), ("ply", ply), ("image", image), ("checkpoint", read_checkpoint)];
+pub const TARGETS: [(&str, Reader); 6] = [
+    ("xml", xml),
+    ("pbrt", pbrt::pbrt),
+    ("obj", obj),
+    ("ply", ply),
+    ("image", image),
+    ("checkpoint", read_checkpoint),
+];
 
 /// The longest that any input may take: these are inputs of kilobytes.
 pub const TIME_LIMIT: Duration = Duration::from_secs(5);
@@ -82,7 +89,12 @@ fn no_files(_: &Path) -> std::io::Result<Vec<u8>> {
 
 /// Reads a scene, and builds it if it is one.
 fn scene(xml: &str, files: &dyn Fn(&Path) -> std::io::Result<Vec<u8>>) -> String {
-    let said = match read_str("f.xml", xml, files, &Options::default()) {
+    outcome(read_str("f.xml", xml, files, &Options::default()))
+}
+
+/// How reading ended; what was read is built.
+fn outcome(opened: Result<Opened, OpenError>) -> String {
+    let said = match opened {
         Ok(Opened { description, warnings, .. }) => {
             let built = Scene::build(&description).map(|s| format!("{:?}", s.census()));
             format!("{built:?} {warnings:?}")

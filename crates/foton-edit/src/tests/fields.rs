@@ -138,8 +138,12 @@ fn a_number_that_comes_from_a_texture_is_no_field_until_its_kind_changes() {
 
 #[test]
 fn a_coating_has_fields_of_its_own_and_both_sides_keep_it_alike() {
-    let mut coated = set(&scene(), BALL, FieldId::Material(Side::Front, Property::Kind), Value::Choice(0));
-    coated.materials[1].coatings = [Some(Coating::default(false)); 2];
+    let bare = set(&scene(), BALL, FieldId::Material(Side::Front, Property::Kind), Value::Choice(0));
+    let coat = FieldId::Material(Side::Coating, Property::Coated);
+    let coated = set(&bare, BALL, coat, Value::Toggle(true));
+    assert_eq!(coated.materials[1].coatings, [Some(Coating::default(false)); 2]);
+    let uncoated = set(&coated, BALL, coat, Value::Toggle(false));
+    assert!(!uncoated.materials[1].scatters_differently(&bare.materials[1]));
     let thickness = FieldId::Material(Side::Coating, Property::Parameter("thickness"));
     let index = FieldId::Material(Side::Coating, Property::Parameter("int_ior"));
     let thick = set(&coated, BALL, thickness, Value::Number(2.5));
@@ -147,6 +151,18 @@ fn a_coating_has_fields_of_its_own_and_both_sides_keep_it_alike() {
     let [Some(front), back] = thick.materials[1].coatings else { panic!("a coating") };
     assert_eq!((front.thickness, front.int_ior, back), (2.5.into(), 1.7, Some(front)));
     assert_eq!(thick.materials[1].front, coated.materials[1].front);
+    // No two fields have one label.
+    let rough = set(&thick, BALL, FieldId::Material(Side::Coating, Property::Rough), Value::Toggle(true));
+    let rough = set(&rough, BALL, FieldId::Material(Side::Front, Property::Kind), Value::Choice(3));
+    let mut labels: Vec<_> = inspect(&rough, BALL).unwrap().fields.iter().map(|f| f.label).collect();
+    let all = labels.len();
+    labels.sort_unstable();
+    labels.dedup();
+    assert_eq!(labels.len(), all, "{labels:?}");
+    // Glass has one coating, that of its front.
+    let glass = set(&bare, BALL, FieldId::Material(Side::Front, Property::Kind), Value::Choice(1));
+    let coated = set(&glass, BALL, coat, Value::Toggle(true));
+    assert!(coated.materials[1].coatings[0].is_some() && coated.materials[1].coatings[1].is_none());
 }
 
 #[test]
@@ -231,4 +247,38 @@ fn colour_roughness_and_index_survive_a_change_to_the_principled_model_and_back(
         plain.collect::<Vec<_>>(),
         ["roughness", "metallic", "spec_trans", "eta", "clearcoat", "base_color"]
     );
+}
+
+#[test]
+fn a_projector_moves_turns_and_has_a_brightness_and_a_field_of_view() {
+    let mut description = scene();
+    let to_world = looking(DVec3::new(2.0, 2.5, 2.0), DVec3::ZERO, DVec3::Y);
+    let slide = |irradiance| EmitterKind::Projector {
+        to_world,
+        irradiance,
+        scale: 3.0,
+        fov_degrees: 30.0,
+        fov_axis: FovAxis::X,
+    };
+    let target = Target::Emitter(1);
+    description.emitters[1].kind = slide(Rgb::new(0.5, 0.25, 0.0).into());
+    assert!(close(number(&description, target, FieldId::Brightness), 1.5));
+    let changed = set(&description, target, FieldId::Brightness, Value::Number(4.0));
+    assert!(close(number(&changed, target, FieldId::Brightness), 4.0));
+    let wide = set(&changed, target, FieldId::Cutoff, Value::Number(55.0));
+    assert!(close(number(&wide, target, FieldId::Cutoff), 55.0));
+    // A picture keeps its colours.
+    description.emitters[1].kind = slide(Colour::Texture(0));
+    let changed = set(&description, target, FieldId::Brightness, Value::Number(4.0));
+    let EmitterKind::Projector { irradiance, scale, .. } = &changed.emitters[1].kind else {
+        panic!("a projector")
+    };
+    assert_eq!((*irradiance, *scale), (Colour::Texture(0), 4.0));
+    let turned = set(&changed, target, FieldId::Elevation, Value::Number(60.0));
+    assert!(close(number(&turned, target, FieldId::Elevation), 60.0));
+    let by = [1.0, 0.0, -0.5];
+    let moved = Edit::Move { target, by }.apply(&turned).unwrap();
+    let [from, to] = [&turned, &moved].map(|d| anchor(d, target).unwrap());
+    assert!((to - from).distance(by.into()) < 1e-12);
+    assert!(Gizmo::new(&moved, target, 0, None).is_some_and(|g| g.has(Tool::Move) && g.has(Tool::Rotate)));
 }

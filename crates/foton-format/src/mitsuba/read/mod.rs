@@ -2,6 +2,7 @@
 
 mod animation;
 mod attributes;
+mod beams;
 pub(crate) mod bsdfs;
 pub(crate) mod colours;
 pub(crate) mod emitters;
@@ -11,6 +12,7 @@ mod instances;
 pub(crate) mod integrator;
 pub(crate) mod known;
 pub(crate) mod materials;
+mod mesh_attributes;
 pub(crate) mod metals;
 pub(crate) mod properties;
 pub(crate) mod reader;
