@@ -1,7 +1,7 @@
 //! Hit points: where eye paths end on surfaces that spread light, laid out for the gather.
 //!
 //! Three orders meet here. *Sample order* is that of the eye pass: a pixel's hit points are neighbours in it. *Slot order* is
-//! that of the packets, 16 slots each, some empty. Statistics have slots of their own, apart from the query records.
+//! that of the packets, 16 slots each, some empty. What hit points keep lies in the same order without those, apart from the query records.
 
 use std::ops::Range;
 

@@ -57,18 +57,7 @@ impl Ppm {
             out.u64(self.shapes.len() as u64);
             renewal.write(&mut out);
         } else {
-            // By slot, with those that are empty.
-            let slots = self.hit_points.packets.len() * LANES;
-            out.u64(slots as u64);
-            for slot in 0..slots {
-                self.hit_points.statistics_at(slot).unwrap_or(Statistics::EMPTY_SLOT).write(&mut out);
-            }
-            let slots = if self.hit_points.radius_statistics.is_empty() { 0 } else { slots };
-            for slot in 0..slots {
-                let of_hit_point = |_| self.hit_points.radius_statistics[self.hit_points.place(slot)];
-                let kept = self.hit_points.statistics_at(slot).map_or_else(KeptRadius::default, of_hit_point);
-                kept.write(&mut out);
-            }
+            self.write_hit_points(&mut out);
         }
         self.light.write(&mut out);
         if let Some(direct) = &self.direct {
@@ -151,6 +140,21 @@ impl Ppm {
             *loss = Loss { truncated: input.finite()?, dropped: input.count()? };
         }
         Ok(())
+    }
+
+    /// What hit points keep, by slot, with those that are empty.
+    fn write_hit_points(&self, out: &mut Writer) {
+        let slots = self.hit_points.packets.len() * LANES;
+        out.u64(slots as u64);
+        for slot in 0..slots {
+            self.hit_points.statistics_at(slot).unwrap_or(Statistics::EMPTY_SLOT).write(out);
+        }
+        let slots = if self.hit_points.radius_statistics.is_empty() { 0 } else { slots };
+        for slot in 0..slots {
+            let of_hit_point = |_| self.hit_points.radius_statistics[self.hit_points.place(slot)];
+            let kept = self.hit_points.statistics_at(slot).map_or_else(KeptRadius::default, of_hit_point);
+            kept.write(out);
+        }
     }
 
     fn restore_hit_points(&mut self, input: &mut Reader<'_>) -> Result<(), StateError> {
