@@ -171,6 +171,23 @@ fn a_file_that_is_included_changes_the_state_and_one_that_is_imported_does_not()
 }
 
 #[test]
+fn a_scene_may_be_packed_and_tells_which_files_it_is_of() {
+    let text = whole("Shape \"sphere\" Shape \"spere\"");
+    let read = |text: &str| {
+        let packed = packed(text.as_bytes());
+        let with_main =
+            |path: &Path| if path == Path::new("s.pbrt.gz") { Ok(packed.clone()) } else { files(path) };
+        open_from(Path::new("s.pbrt.gz"), &with_main, &Options::default())
+    };
+    let opened = read(&whole("Shape \"sphere\"")).expect("sound");
+    assert_eq!((opened.description.shapes.len(), opened.warnings.len()), (1, 0));
+    let place = opened.finding(foton_format::Severity::Error, "s.pbrt.gz", Some("sphere-1"), "x".to_owned());
+    assert_eq!(place.to_string(), "s.pbrt.gz:2:8: x");
+    let Err(error) = read(&text) else { panic!("no such shape") };
+    assert!(error.to_string().starts_with("s.pbrt.gz:2:23: unknown shape"), "{error}");
+}
+
+#[test]
 fn what_an_integrator_asks_for_is_suggested() {
     let text = "Integrator \"sppm\" \"integer photonsperiteration\" 1000 \"integer numiterations\" 7 \"float radius\" .5 \
                 \"integer maxdepth\" 6\nFilm \"image\" Camera \"perspective\"";
