@@ -30,6 +30,7 @@ FORMAT_BOUND = 0.01
 # So wide are the pictures of scenes of other formats.
 WIDTH = 64
 MASK = "mask"
+FILM = '<film type="hdrfilm">'
 SIGMAS = 3
 
 
@@ -146,6 +147,8 @@ def make_small(scene):
     # Mitsuba 3.9's path tracer lets light through a mask twice: a panel of opacity 0.4 is as bright as one of 0.16.
     if f'type="{MASK}"' in text:
         text = text.replace('name="integrator" value="path"', 'name="integrator" value="volpath"')
+    # foton's filters see beyond the border, Mitsuba's if asked to.
+    text = text.replace(FILM, f'{FILM}<boolean name="sample_border" value="true"/>')
     for name, number in zip(("width", "height"), size):
         text = re.sub(f'name="{name}" value="[0-9]+"', f'name="{name}" value="{number}"', text)
     scene.write_text(text, encoding="utf-8")
