@@ -74,12 +74,18 @@ PATH = Method("path", 16, 1, 8, 1.0)
 PPM = Method("ppm", 32, 1 << 14, 16, 0.9, "x0.5")
 # For the pictures of `blender`, which are six times as large, and for suns, whose photons are noisy.
 MORE = Method("ppm", 48, 1 << 17, 16, 0.9, "x0.5")
-NEED_MORE = ("blender", "sunsky")
+NEED_MORE = ("blender", "sunsky", "old")
+# For light that paths find by chance, through glass and coats.
+MORE_PATHS = Method("path", 64, 1, 8, 1.0)
+NEED_MORE_PATHS = ("twin", "glass", "coats")
 
 
-def needs_more(scene):
-    """Whether a scene is one of those."""
-    return scene.parent.name in NEED_MORE or scene.stem.startswith(NEED_MORE)
+def method_for(scene, usual):
+    """The method, with more work where a scene needs it."""
+    if usual == PATH and scene.stem.startswith(NEED_MORE_PATHS):
+        return MORE_PATHS
+    needs_more = scene.parent.name in NEED_MORE or scene.stem.startswith(NEED_MORE)
+    return MORE if usual == PPM and needs_more else usual
 
 
 FULL = Effort(4, 512, (PATH, PPM))
@@ -108,7 +114,7 @@ def check(report, foton, theirs, repository, out, effort):
     for pair in (pair for scene in wanted for pair in pairs(foton, scene, out)):
         reference = references(theirs, pair.original, pair.folder, effort)
         for usual in effort.methods:
-            method = MORE if usual == PPM and needs_more(pair.scene) else usual
+            method = method_for(pair.scene, usual)
             finding, why = compare(foton, pair, reference, method, effort, out)
             findings.append(finding)
             add_row(report, finding, method, why)
