@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use foton_format::{OpenError, Opened, Options, Origin, Progress, Saved, Severity, beyond_mitsuba_3, save_edited};
+use foton_format::{
+    OpenError, Opened, Options, Origin, Progress, Saved, Severity, beyond_mitsuba_3, save_edited,
+};
 use foton_input::printable;
 use foton_integrator::Cancel;
 use foton_preview::{BuiltIn, Close, WindowError};
@@ -151,11 +153,15 @@ fn written_anew(opened: &Opened, why: &str) -> Vec<String> {
         }
         Origin::Foreign(of) => {
             let kind = of.kind;
-            vec![format!("What was {kind} is saved as a Mitsuba scene, with its meshes and pictures beside it")]
+            vec![format!(
+                "What was {kind} is saved as a Mitsuba scene, with its meshes and pictures beside it"
+            )]
         }
     };
     if opened.warnings.iter().any(|warning| warning.line > 0) {
-        notes.push("What the warnings in the scene name is not in the new file, or as foton renders it".to_owned());
+        notes.push(
+            "What the warnings in the scene name is not in the new file, or as foton renders it".to_owned(),
+        );
     }
     notes
 }
