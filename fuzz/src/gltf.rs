@@ -52,11 +52,12 @@ pub(crate) fn read(data: &[u8]) -> String {
     match open(&path, &options) {
         Ok(Opened { description, warnings, .. }) => {
             let built = Scene::build(&description).map(|s| format!("{:?}", s.census()));
-            let _ = write!(said, "{built:?}");
-            warnings.iter().for_each(|warning| drop(write!(said, " {}", warning.message)));
+            let warnings: Vec<String> = warnings.into_iter().map(|warning| warning.message).collect();
+            let _ = write!(said, "{built:?} {}", warnings.join(" "));
         }
         Err(error) => {
-            error.diagnostics().iter().for_each(|fault| drop(write!(said, "{} ", fault.message)));
+            let faults: Vec<&str> = error.diagnostics().iter().map(|fault| fault.message.as_str()).collect();
+            said.push_str(&faults.join(" "));
         }
     }
     said.chars().filter(|c| !c.is_ascii_digit()).take(400).collect()
@@ -146,9 +147,16 @@ fn change(value: &mut Value, what: u8, with: u8) {
     let small = i64::from(with);
     match (what % 12, &mut *value) {
         (0, _) => *value = json!(small),
-        (1, _) => *value = json!([-1, 1_u64 << 31, u64::MAX, 0][usize::from(with) % 4]),
-        (2, _) => *value = json!([1e300, -1e300, 1e38, 1e-300, 0.5, -0.5, 1e10, 1e-10][usize::from(with) % 8]),
-        (3, _) => *value = [json!(null), json!(""), json!([]), json!({}), json!(true)][usize::from(with) % 5].clone(),
+        (1, _) => {
+            *value = [json!(-1), json!(1_u64 << 31), json!(u64::MAX), json!(0)][usize::from(with) % 4].clone()
+        }
+        (2, _) => {
+            *value = json!([1e300, -1e300, 1e38, 1e-300, 0.5, -0.5, 1e10, 1e-10][usize::from(with) % 8])
+        }
+        (3, _) => {
+            *value =
+                [json!(null), json!(""), json!([]), json!({}), json!(true)][usize::from(with) % 5].clone()
+        }
         (4, Value::Array(items)) => items.truncate(usize::from(with) % (items.len() + 1)),
         (5, Value::Array(items)) if !items.is_empty() => {
             let again = items[usize::from(with) % items.len()].clone();
@@ -169,9 +177,25 @@ fn change(value: &mut Value, what: u8, with: u8) {
         }
         (7, Value::Number(n)) => *value = json!(n.as_f64().unwrap_or(0.0) + small as f64 - 128.0),
         (8, Value::Number(n)) => *value = json!(n.as_i64().unwrap_or(0) + small),
-        (9, _) => *value = json!([0, 1, 2, 3, 4, 5, 6, 5120, 5121, 5122, 5123, 5125, 5126, 9728, 33071, 33648][usize::from(with) % 16]),
+        (9, _) => {
+            *value = json!(
+                [0, 1, 2, 3, 4, 5, 6, 5120, 5121, 5122, 5123, 5125, 5126, 9728, 33071, 33648]
+                    [usize::from(with) % 16]
+            )
+        }
         (10, _) => {
-            let words = ["SCALAR", "VEC2", "VEC4", "MAT4", "MASK", "BLEND", "orthographic", "spot", "data:,%00", "a.png"];
+            let words = [
+                "SCALAR",
+                "VEC2",
+                "VEC4",
+                "MAT4",
+                "MASK",
+                "BLEND",
+                "orthographic",
+                "spot",
+                "data:,%00",
+                "a.png",
+            ];
             *value = json!(words[usize::from(with) % words.len()]);
         }
         _ => *value = json!([value.clone(), value.clone()]),

@@ -1,5 +1,5 @@
-//! Mutates seeds for so many seconds and feeds them to a target: `mutate TARGET SECONDS [SEED]`, or a folder's files:
-//! `mutate TARGET FOLDER`.
+//! Mutates seeds for so many seconds and feeds them to a target: `mutate TARGET SECONDS [SEED [CORPUS]]`, or a folder's files:
+//! `mutate TARGET FOLDER`. What it kept goes to the folder CORPUS.
 //!
 //! It keeps inputs that make the reader say something new, so that it works its way inwards; nothing here depends on a nightly
 //! compiler. An input that breaks a bound is written to `artifacts/` and counted, and the run goes on.
@@ -125,6 +125,17 @@ fn run(target: &str, input: &[u8]) -> Result<String, String> {
     })
 }
 
+/// Writes inputs to a folder, named by their contents.
+fn keep_all(folder: &Path, inputs: &[Vec<u8>]) {
+    std::fs::create_dir_all(folder).expect("a folder");
+    for input in inputs {
+        let hash = input
+            .iter()
+            .fold(0xcbf2_9ce4_8422_2325_u64, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3));
+        std::fs::write(folder.join(format!("{:012x}", hash >> 16)), input).expect("room");
+    }
+}
+
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let (target, how_long) = (arguments[0].clone(), &arguments[1]);
@@ -172,6 +183,9 @@ fn main() {
                 }
             }
         }
+    }
+    if let Some(folder) = arguments.get(3) {
+        keep_all(Path::new(folder), &kept);
     }
     println!(
         "{target}: {tried} inputs in {:.0} s, {} kinds of outcome, {broken} faults",
