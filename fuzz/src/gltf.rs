@@ -26,6 +26,9 @@ const GENUINE: [&[u8]; 9] = [
 /// The memory that reading may take. Building what was read takes more, within the bound that all inputs have.
 const MEMORY: u64 = 8 << 20;
 
+/// A description of more values is not edited further: edits may double it, and what that takes is not the reader's.
+const MAX_VALUES: usize = 2000;
+
 /// Edits after which the rest of the input is left alone.
 const MAX_EDITS: usize = 64;
 
@@ -74,6 +77,9 @@ fn edited(data: &[u8]) -> Vec<u8> {
             break;
         }
         let count = count(&description);
+        if count > MAX_VALUES {
+            break;
+        }
         let mut at = usize::from(u16::from_le_bytes([low, high])) % count;
         edit(&mut description, &mut at, what, with);
     }

@@ -5,13 +5,14 @@
 
 mod gltf;
 pub mod memory;
+pub mod pbrt;
 pub mod seeds;
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use foton_format::{Opened, Options, read_str};
+use foton_format::{OpenError, Opened, Options, read_str};
 use foton_integrator::{Cancel, PpmSettings, RenderSettings};
 use foton_scene::Scene;
 use foton_session::{SceneIdentity, Session, checkpoint};
@@ -23,8 +24,9 @@ static COUNTED: memory::Counted = memory::Counted;
 pub type Reader = fn(&[u8]) -> String;
 
 /// Everything that is fuzzed: its name, and what reads. A reader says in a line how it ended, for drivers to tell runs apart.
-pub const TARGETS: [(&str, Reader); 6] = [
+pub const TARGETS: [(&str, Reader); 7] = [
     ("xml", xml),
+    ("pbrt", pbrt::pbrt),
     ("obj", obj),
     ("ply", ply),
     ("image", image),
@@ -89,7 +91,12 @@ fn no_files(_: &Path) -> std::io::Result<Vec<u8>> {
 
 /// Reads a scene, and builds it if it is one.
 fn scene(xml: &str, files: &dyn Fn(&Path) -> std::io::Result<Vec<u8>>) -> String {
-    let said = match read_str("f.xml", xml, files, &Options::default()) {
+    outcome(read_str("f.xml", xml, files, &Options::default()))
+}
+
+/// How reading ended; what was read is built.
+fn outcome(opened: Result<Opened, OpenError>) -> String {
+    let said = match opened {
         Ok(Opened { description, warnings, .. }) => {
             let built = Scene::build(&description).map(|s| format!("{:?}", s.census()));
             format!("{built:?} {warnings:?}")

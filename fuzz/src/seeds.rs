@@ -148,6 +148,7 @@ fn binary_stl() -> Vec<u8> {
 pub fn of(target: &str) -> Vec<Vec<u8>> {
     match target {
         "xml" => vec![ROOM.into(), WHOLE.into()],
+        "pbrt" => crate::pbrt::seeds(),
         "obj" => vec![OBJ.into()],
         "ply" => vec![PLY.into(), CORNERS.into(), STL.into(), OFF.into(), binary_ply(), binary_stl()],
         "gltf" => crate::gltf::seeds(),
@@ -204,4 +205,14 @@ pub const WORDS: &[&str] = &[
     "id='t'",
     "name='radius'",
     "value=''",
+    "AttributeBegin ",
+    "Shape \"sphere\" ",
+    "ObjectInstance \"o\" ",
+    "Include \"f.pbrt\" ",
+    "\"texture reflectance\" \"m\" ",
+    "\"float roughness\" ",
+    "[",
+    "]",
+    "\"",
+    "#",
 ];

@@ -32,6 +32,11 @@ fn scenes_that_fuzzing_found_break_nothing() {
 }
 
 #[test]
+fn scenes_of_pbrt_that_fuzzing_found_break_nothing() {
+    replay("pbrt");
+}
+
+#[test]
 fn obj_files_that_fuzzing_found_break_nothing() {
     replay("obj");
 }

@@ -36,6 +36,11 @@ fn value(parameter: &Parameter) -> String {
     }
 }
 
+/// A triangle with colours of its vertices.
+const LEAF: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float r\n\
+    property float g\nproperty float b\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
+    0 0 0 1 0 0\n1 0 0 0 1 0\n0 1 0 0 0 1\n3 0 1 2\n";
+
 /// What is said of a scene in which a plugin has some contents.
 fn said(plugin: &Declared, contents: &str) -> String {
     let inside = match plugin.name {
@@ -59,14 +64,17 @@ fn said(plugin: &Declared, contents: &str) -> String {
     let body = match (*tag, *name) {
         ("bsdf", _) | ("emitter", "area") => format!(r#"<shape type="sphere">{}</shape>"#, element("")),
         ("texture", _) => format!(
-            r#"<shape type="sphere"><bsdf type="diffuse">{}</bsdf></shape>"#,
+            r#"<shape type="ply"><string name="filename" value="leaf.ply"/><bsdf type="diffuse">{}</bsdf></shape>"#,
             element(r#" name="reflectance""#)
         ),
         _ => element(""),
     };
     let xml = format!(r#"<scene version="3.0.0"><sensor type="perspective"/>{body}</scene>"#);
-    let no_files = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
-    let all = match foton_format::read_str("plugin", &xml, &no_files, &Options::default()) {
+    let files = |path: &Path| match path.ends_with("leaf.ply") {
+        true => Ok(LEAF.into()),
+        false => Err(std::io::ErrorKind::NotFound.into()),
+    };
+    let all = match foton_format::read_str("plugin", &xml, &files, &Options::default()) {
         Ok(opened) => opened.warnings,
         Err(error) => error.diagnostics().to_vec(),
     };

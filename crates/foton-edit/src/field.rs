@@ -63,6 +63,8 @@ pub enum Property {
     Channel(&'static str, u8),
     /// Whether it is rough.
     Rough,
+    /// Whether it is there at all, of a coating.
+    Coated,
 }
 
 /// A field's value.

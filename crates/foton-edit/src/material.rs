@@ -2,7 +2,7 @@
 
 use foton_math::Rgb;
 use foton_scene::bsdf::{MicrofacetDistribution, Microfacets};
-use foton_scene::description::{Bsdf, Colour, Material, Number};
+use foton_scene::description::{Bsdf, Coating, Colour, Material, Number};
 use foton_scene::metals::METALS;
 use foton_scene::parameter::{Binding, Kind, Parameter, Role, Slot};
 use foton_scene::plugins::wrappers::OPACITY;
@@ -49,6 +49,10 @@ pub(crate) fn fields(material: &Material, out: &mut Fields) -> bool {
         textured |= side_fields(&back, Side::Back, out);
     }
     let [over_front, over_back] = material.coatings;
+    let is_coated = over_front.is_some() || over_back.is_some();
+    let help =
+        "A clear layer over the surface, as of varnish or lacquer: it reflects light, and may absorb it.";
+    out.toggle(FieldId::Material(Side::Coating, Property::Coated), "Coat", is_coated, help);
     let behind = over_back.filter(|_| over_back != over_front);
     for (coating, side) in [(over_front, Side::Coating), (behind, Side::CoatingBehind)] {
         if let Some(mut coating) = coating {
@@ -162,7 +166,14 @@ fn roughness_fields(
 ) -> bool {
     let id = |p| FieldId::Material(side, p);
     let help = "A smooth surface makes sharp images and caustics; a rough one blurs both.";
-    out.toggle(id(Property::Rough), "Rough", roughness.is_some(), help);
+    let [rough, amount, facets] = match side {
+        Side::Front | Side::Back => ["Rough", "", ""],
+        Side::Coating | Side::CoatingBehind => ["Coat rough", "Coat roughness", "Coat facets"],
+    };
+    let labelled = |parameter: &'static Parameter, label: &'static str| {
+        if label.is_empty() { *parameter } else { Parameter { label, ..*parameter } }
+    };
+    out.toggle(id(Property::Rough), rough, roughness.is_some(), help);
     let Some(Microfacets { distribution, alpha_u, alpha_v }) = roughness else { return false };
     let alphas: &[(&'static str, Number)] = if alpha_u == alpha_v {
         &[("alpha", alpha_u)]
@@ -173,7 +184,8 @@ fn roughness_fields(
     for &(name, value) in alphas {
         match (named(parameters, name), value) {
             (Some(parameter), Number::Constant(x)) => {
-                out.parameter(id(Property::Parameter(name)), parameter, f64::from(x));
+                let parameter = labelled(parameter, amount);
+                out.parameter(id(Property::Parameter(name)), &parameter, f64::from(x));
             }
             (_, Number::Texture(_)) => textured = true,
             (None, _) => {}
@@ -182,6 +194,7 @@ fn roughness_fields(
     if let Some(parameter) = named(parameters, "distribution") {
         let options = MicrofacetDistribution::ALL.map(|d| d.label().to_owned()).to_vec();
         let id = id(Property::Parameter("distribution"));
+        let parameter = labelled(parameter, facets);
         out.choice(id, parameter.label, distribution as usize, options, parameter.help);
         out.advance();
     }
@@ -190,6 +203,12 @@ fn roughness_fields(
 
 /// Sets what a field of a side says; the value fits the field.
 pub(crate) fn set(material: &mut Material, side: Side, property: Property, value: Value) {
+    if let (Property::Coated, Value::Toggle(on)) = (property, value) {
+        // Both sides of glass have the coating of its front.
+        let coating = on.then(|| Coating::default(false));
+        material.coatings = [coating, coating.filter(|_| material.back.is_some())];
+        return;
+    }
     let [over_front, over_back] = &mut material.coatings;
     let alike = material.back == Some(material.front);
     let bsdf = match side {

@@ -219,6 +219,13 @@ impl Report {
         &self.sources[self.source_index(place)]
     }
 
+    /// The file of a place, and the place in it.
+    pub(crate) fn in_file(&self, mut place: Place) -> (String, Place) {
+        let source = self.source(place);
+        place.line -= source.lines_before;
+        (source.file.clone(), place)
+    }
+
     /// `line 3`, with the name of the file unless `seen_from` is in it.
     pub(crate) fn line(&self, place: Place, seen_from: Place) -> String {
         let source = self.source(place);

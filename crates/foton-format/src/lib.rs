@@ -29,6 +29,7 @@ mod mitsuba;
 mod open;
 mod opened;
 mod options;
+mod pbrt;
 mod refused;
 mod sky;
 mod spelling;
@@ -42,7 +43,7 @@ pub use mitsuba::document::{Attribute, Document, Element, MAX_DEPTH, Node, NodeI
 pub use mitsuba::save::{Saved, save_edited};
 pub use mitsuba::write::beyond::beyond_mitsuba_3;
 pub use mitsuba::write::write_scene;
-pub use open::{import, open, read_str};
+pub use open::{import, open, open_from, read_str};
 pub use opened::{ForeignScene, MitsubaScene, Opened, Origin, SceneNodes};
 pub use options::{Options, ReadFile};
 pub use suggested::Suggested;

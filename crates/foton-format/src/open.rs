@@ -16,16 +16,16 @@ use crate::mitsuba::read::reader::Reader;
 use crate::opened::{MitsubaScene, Opened, Origin};
 use crate::options::{Options, ReadFile};
 use crate::refused::refused;
-use crate::{gltf, mitsuba::read::include, standalone};
+use crate::{gltf, mitsuba::read::include, pbrt, standalone};
 
-/// Opens a scene file: of Mitsuba, or glTF; the files that it names are found from its folder. An OBJ, PLY, STL or OFF file is a whole scene:
+/// Opens a scene file: of Mitsuba, pbrt, or glTF; the files that it names are found from its folder. An OBJ, PLY, STL or OFF file is a whole scene:
 /// what it lacks is added, and a warning says so.
 ///
 /// # Errors
 /// Everything that is wrong with the file, unless it is not well-formed XML: then the first problem. Or that reading was cancelled.
 pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
     let files = RefCell::new((Vec::new(), HashSet::new()));
-    let opened = open_with(path, options, &|file| {
+    let read = |file: &Path| {
         // The file itself may be a pipe; what it names may not.
         let named = if file == path { Named::ByUser } else { Named::ByFile };
         let bytes = options.read(file, named)?;
@@ -34,7 +34,8 @@ pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
             in_order.push(file.to_owned());
         }
         Ok(bytes)
-    })?;
+    };
+    let opened = open_from(path, &read, options)?;
     Ok(Opened { files: files.into_inner().0, ..opened })
 }
 
@@ -50,7 +51,14 @@ pub fn import(path: &Path, options: &Options) -> Result<SceneDescription, OpenEr
     Ok(standalone::shapes_alone(open(path, options)?.description))
 }
 
-fn open_with(path: &Path, options: &Options, files: &ReadFile<'_>) -> Result<Opened, OpenError> {
+/// Opens a scene as [`open`] does, from the files that `files` has.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_from(path: &Path, files: &ReadFile<'_>, options: &Options) -> Result<Opened, OpenError> {
+    if pbrt::is_named(path) {
+        return pbrt::open(path, files, options);
+    }
     if let Some((message, way_out)) = refused(path) {
         let mut report = Report::new(&path.to_string_lossy(), path.parent().unwrap_or(Path::new("")));
         report.error(Place::default(), message);

@@ -214,3 +214,30 @@ fn a_surface_emits_a_picture_and_no_more_than_the_picture_has() {
     assert_eq!([brightest(light), brightest(share)], [3.0, 1.0]);
     assert_eq!(warnings.len(), 1, "as a share of light it is cut, and that is said: {warnings:?}");
 }
+
+/// What a mesh lacks is said once, where the texture asks for it, with the file of the mesh and what it has.
+#[test]
+fn a_mesh_without_the_attribute_of_its_texture_is_an_error_at_the_texture() {
+    const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+        property float r\nproperty float g\nproperty float b\nelement face 1\nproperty list uchar int vertex_indices\n\
+        end_header\n0 0 0 1 0 0\n1 0 0 0 1 0\n0 1 0 0 0 1\n3 0 1 2\n";
+    let said = |name: &str, shape: &str| {
+        let texture = format!(
+            "<texture type='mesh_attribute' name='reflectance'><string name='name' value='{name}'/></texture>"
+        );
+        let xml = format!(
+            "<scene version='3.0.0'><sensor type='perspective'/><bsdf type='diffuse' id='paint'>\n{texture}\n</bsdf>\
+             <shape type='{shape}'><string name='filename' value='leaf.ply'/><ref id='paint'/></shape>\
+             <shape type='ply'><string name='filename' value='leaf.ply'/><ref id='paint'/></shape></scene>"
+        );
+        let files = |_: &Path| Ok(PLY.into());
+        match read_str("s.xml", &xml, &files, &Options::default()) {
+            Ok(opened) => opened.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            Err(error) => error.diagnostics().iter().map(ToString::to_string).collect(),
+        }
+    };
+    assert!(said("vertex_color", "ply").is_empty());
+    let message = "s.xml:2:1: the shape \"shape-1\" of leaf.ply has no attribute \"vertex_colr\", did you mean \"vertex_color\"?";
+    assert_eq!(said("vertex_colr", "ply"), [message]);
+    assert!(said("vertex_color", "sphere").iter().any(|m| m.starts_with("s.xml:2:1: the shape \"shape-1\"")));
+}

@@ -11,7 +11,7 @@ use crate::metadata::{self, SceneIdentity};
 use crate::shown::Shown;
 
 /// Endings of scenes' files.
-const ENDINGS: [&str; 7] = ["xml", "gltf", "glb", "obj", "ply", "stl", "off"];
+const ENDINGS: [&str; 8] = ["xml", "pbrt", "gltf", "glb", "obj", "ply", "stl", "off"];
 
 /// How many letters of a scene's name stand in those of files.
 const LETTERS: usize = 80;

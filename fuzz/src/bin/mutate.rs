@@ -1,5 +1,5 @@
 //! Mutates seeds for so many seconds and feeds them to a target: `mutate TARGET SECONDS [SEED [CORPUS]]`, or a folder's files:
-//! `mutate TARGET FOLDER`. What it kept goes to the folder CORPUS.
+//! `mutate TARGET FOLDER`. Some of the inputs that it kept go to the folder CORPUS, evenly from all of them.
 //!
 //! It keeps inputs that make the reader say something new, so that it works its way inwards; nothing here depends on a nightly
 //! compiler. An input that breaks a bound is written to `artifacts/` and counted, and the run goes on.
@@ -114,6 +114,15 @@ fn keep(target: &str, what: &str, input: &[u8]) {
     }
 }
 
+/// Writes some of the inputs that were kept.
+fn write_corpus(folder: &Path, kept: &[Vec<u8>]) {
+    const MOST: usize = 100;
+    std::fs::create_dir_all(folder).expect("a folder");
+    for (i, input) in kept.iter().step_by(kept.len().div_ceil(MOST)).enumerate() {
+        std::fs::write(folder.join(format!("{i:03}")), input).expect("written");
+    }
+}
+
 /// One input; what the reader said, or the panic's message.
 fn run(target: &str, input: &[u8]) -> Result<String, String> {
     *UNDER_WAY.lock().expect("not poisoned") = (input.to_vec(), Some(Instant::now()));
@@ -123,17 +132,6 @@ fn run(target: &str, input: &[u8]) -> Result<String, String> {
         let text = panic.downcast_ref::<String>().map(String::as_str);
         text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("a panic").to_owned()
     })
-}
-
-/// Writes inputs to a folder, named by their contents.
-fn keep_all(folder: &Path, inputs: &[Vec<u8>]) {
-    std::fs::create_dir_all(folder).expect("a folder");
-    for input in inputs {
-        let hash = input
-            .iter()
-            .fold(0xcbf2_9ce4_8422_2325_u64, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3));
-        std::fs::write(folder.join(format!("{:012x}", hash >> 16)), input).expect("room");
-    }
 }
 
 fn main() {
@@ -184,8 +182,8 @@ fn main() {
             }
         }
     }
-    if let Some(folder) = arguments.get(3) {
-        keep_all(Path::new(folder), &kept);
+    if let Some(corpus) = arguments.get(3) {
+        write_corpus(Path::new(corpus), &kept);
     }
     println!(
         "{target}: {tried} inputs in {:.0} s, {} kinds of outcome, {broken} faults",

@@ -138,8 +138,12 @@ fn a_number_that_comes_from_a_texture_is_no_field_until_its_kind_changes() {
 
 #[test]
 fn a_coating_has_fields_of_its_own_and_both_sides_keep_it_alike() {
-    let mut coated = set(&scene(), BALL, FieldId::Material(Side::Front, Property::Kind), Value::Choice(0));
-    coated.materials[1].coatings = [Some(Coating::default(false)); 2];
+    let bare = set(&scene(), BALL, FieldId::Material(Side::Front, Property::Kind), Value::Choice(0));
+    let coat = FieldId::Material(Side::Coating, Property::Coated);
+    let coated = set(&bare, BALL, coat, Value::Toggle(true));
+    assert_eq!(coated.materials[1].coatings, [Some(Coating::default(false)); 2]);
+    let uncoated = set(&coated, BALL, coat, Value::Toggle(false));
+    assert!(!uncoated.materials[1].scatters_differently(&bare.materials[1]));
     let thickness = FieldId::Material(Side::Coating, Property::Parameter("thickness"));
     let index = FieldId::Material(Side::Coating, Property::Parameter("int_ior"));
     let thick = set(&coated, BALL, thickness, Value::Number(2.5));
@@ -147,6 +151,18 @@ fn a_coating_has_fields_of_its_own_and_both_sides_keep_it_alike() {
     let [Some(front), back] = thick.materials[1].coatings else { panic!("a coating") };
     assert_eq!((front.thickness, front.int_ior, back), (2.5.into(), 1.7, Some(front)));
     assert_eq!(thick.materials[1].front, coated.materials[1].front);
+    // No two fields have one label.
+    let rough = set(&thick, BALL, FieldId::Material(Side::Coating, Property::Rough), Value::Toggle(true));
+    let rough = set(&rough, BALL, FieldId::Material(Side::Front, Property::Kind), Value::Choice(3));
+    let mut labels: Vec<_> = inspect(&rough, BALL).unwrap().fields.iter().map(|f| f.label).collect();
+    let all = labels.len();
+    labels.sort_unstable();
+    labels.dedup();
+    assert_eq!(labels.len(), all, "{labels:?}");
+    // Glass has one coating, that of its front.
+    let glass = set(&bare, BALL, FieldId::Material(Side::Front, Property::Kind), Value::Choice(1));
+    let coated = set(&glass, BALL, coat, Value::Toggle(true));
+    assert!(coated.materials[1].coatings[0].is_some() && coated.materials[1].coatings[1].is_none());
 }
 
 #[test]

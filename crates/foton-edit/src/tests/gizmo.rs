@@ -20,16 +20,16 @@ fn moved(edit: &Edit) -> DVec3 {
 #[test]
 fn dragging_an_arrow_moves_along_its_axis_and_keeps_up_with_the_pointer() {
     let (mut description, gizmo) = of_ball(DVec3::new(2.0, 3.0, 8.0));
-    drags_along_axes(&description, gizmo);
+    drags_along_axes(&description, &gizmo);
     description.sensors[0] = orthographic(&description.sensors[0]);
-    drags_along_axes(&description, Gizmo::new(&description, BALL, 0, None).expect("in the image"));
+    drags_along_axes(&description, &Gizmo::new(&description, BALL, 0, None).expect("in the image"));
 }
 
-fn drags_along_axes(description: &SceneDescription, gizmo: Gizmo) {
+fn drags_along_axes(description: &SceneDescription, gizmo: &Gizmo) {
     let view = View::new(&description.sensors[0]);
     for axis in 0..3 {
         let on_axis = |t: f64| view.project(DVec3::Y + DVec3::AXES[axis] * t).unwrap().to_array();
-        let pull = Pull::new(gizmo, Handle::MoveAxis(axis as u8), on_axis(0.5), REACH);
+        let pull = Pull::new(*gizmo, Handle::MoveAxis(axis as u8), on_axis(0.5), REACH);
         let by = moved(&pull.edit(BALL, on_axis(0.8), false));
         assert!(by.distance(DVec3::AXES[axis] * 0.3) < 1e-9, "{axis}: {by}");
         // Beside the axis it is the same.

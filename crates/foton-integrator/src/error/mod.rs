@@ -17,6 +17,7 @@ mod independent;
 mod moments;
 mod pass;
 mod state;
+mod unlit;
 
 pub use classes::ClassError;
 pub(crate) use classes::Question;
@@ -24,27 +25,18 @@ pub use estimate::{ErrorEstimate, TileError};
 pub(crate) use independent::{Independent, PassPixel};
 pub(crate) use pass::{Pass, PassFacts};
 
-use crate::ppm::{Direct, HitPoints, Noise, Radiance};
+use crate::ppm::{Direct, HitPoints, Noise, Radiance, SlotMoments};
 use crate::sppm::Renewal;
 use classes::Classes;
 use estimate::Sums;
-use foton_transport::photon_map::LANES;
 use moments::{Halves, Moments, Scatter, Shares, Weights};
+use unlit::Unlit;
 
 /// Pixels along the side of a tile.
 const TILE: usize = 8;
 
 /// The bias plane averages squares over this many pixels to each side.
 const SMOOTHED: usize = 2;
-
-/// What a pass has found of noise and bias at a slot, in luminance.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct SlotMoments {
-    /// 6(s − ½)Φ/(π r²).
-    pub(crate) bias: f32,
-    /// The answer about one class.
-    pub(crate) answer: f32,
-}
 
 /// The second moments of a pixel, beside its sum.
 #[derive(Clone, Copy, Debug, Default)]
@@ -70,8 +62,8 @@ struct Tile {
 
 /// Sums over all passes so far.
 pub(crate) struct ErrorSums {
-    /// Of this pass.
-    moment_slots: Vec<SlotMoments>,
+    /// What need not be looked for again at pixels that a pass brings nothing. Empty where passes have new eye samples.
+    unlit: Vec<Unlit>,
     pixels: Vec<Pixel>,
     /// Σ ± aⱼ by pixel, where passes take turns with two sequences of eye samples; else empty.
     differences: Vec<f64>,
@@ -99,7 +91,7 @@ impl ErrorSums {
             tiles[tile].pixels += u32::from(is_seen);
         }
         Self {
-            moment_slots: vec![SlotMoments::default(); hit_points.packets.len() * LANES],
+            unlit: vec![Unlit::UNKNOWN; if renewed { 0 } else { pixels }],
             pixels: vec![Pixel::default(); pixels],
             differences: vec![0.0; if renewed { pixels } else { 0 }],
             tiles,
@@ -112,17 +104,6 @@ impl ErrorSums {
             foci: [0.0; 2],
             estimate: None,
         }
-    }
-
-    /// Where the gather puts each slot's moment.
-    pub(crate) fn moment_slots(&mut self) -> &mut [SlotMoments] {
-        &mut self.moment_slots
-    }
-
-    /// Makes room for the moments of new hit points.
-    pub(crate) fn make_room_for(&mut self, hit_points: &HitPoints) {
-        self.moment_slots.clear();
-        self.moment_slots.resize(hit_points.packets.len() * LANES, SlotMoments::default());
     }
 
     /// The figure after the last pass.
@@ -235,16 +216,15 @@ impl ErrorSums {
 
     /// Bytes held.
     pub(crate) const fn bytes(&self) -> usize {
-        Self::BYTES_PER_HIT_POINT * self.moment_slots.len()
-            + Self::bytes_per_pixel(!self.differences.is_empty()) * self.pixels.len()
+        Self::bytes_per_pixel(!self.differences.is_empty()) * self.pixels.len()
             + size_of::<Tile>() * self.tiles.len()
     }
 
-    /// Bytes held per hit point.
+    /// Bytes held per hit point that a pass brings something.
     pub(crate) const BYTES_PER_HIT_POINT: usize = size_of::<SlotMoments>();
     /// Bytes held per pixel, without the tiles' two; `renewed` as in [`ErrorSums::new`].
     pub(crate) const fn bytes_per_pixel(renewed: bool) -> usize {
-        size_of::<Pixel>() + if renewed { size_of::<f64>() } else { 0 }
+        size_of::<Pixel>() + if renewed { size_of::<f64>() } else { size_of::<Unlit>() }
     }
 }
 

@@ -5,15 +5,16 @@ use rayon::prelude::*;
 use super::classes::Question;
 use super::estimate::{ErrorEstimate, Sums};
 use super::moments::{Halves, Shares, Weights};
-use super::{ErrorSums, Pixel, SlotMoments, TILE, Tile};
+use super::unlit::Unlit;
+use super::{ErrorSums, Pixel, TILE, Tile};
 use crate::ppm::adaptive::RadiusStatistics;
-use crate::ppm::{Direct, HitPoints, Irradiance, Noise, Radiance};
+use crate::ppm::{Arrived, Direct, HitPoints, Noise, Radiance, SlotMoments};
 use crate::sppm::Renewal;
 
 /// A pass that has been added to the image.
 pub(crate) struct Pass<'a, const LAYERS: usize> {
     pub(crate) hit_points: &'a HitPoints,
-    pub(crate) irradiance_slots: &'a [Irradiance<LAYERS>],
+    pub(crate) arrived: &'a Arrived<LAYERS>,
     pub(crate) radiance: &'a Radiance,
     /// Direct light by shadow rays, with what it has just got; `None` where photons bring it.
     pub(crate) direct: Option<&'a Direct>,
@@ -33,6 +34,8 @@ pub(crate) struct PassFacts {
     pub(crate) question: Question,
     /// How many were before it.
     pub(crate) before: u64,
+    /// Whether radii shrink where no photon comes, too.
+    pub(crate) radii_shrink_alike: bool,
 }
 
 /// What the pixels of a tile add to it in a pass.
@@ -65,32 +68,20 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
         self.facts.before < 3 || self.facts.before % 4 == 3
     }
 
-    fn addend(&self, pixel: usize, moment_slots: &[SlotMoments], per_sample: f64) -> Addend {
-        let (hit_points, sums_foci) = (self.hit_points, self.sums_foci());
-        let range = hit_points.pixel_start[pixel] as usize..hit_points.pixel_start[pixel + 1] as usize;
-        let (mut bias, mut answer, mut focus, mut focus_variance) = (0.0, 0.0, 0.0, 0.0);
-        for (&slot, &weight) in hit_points.slot_of[range.clone()].iter().zip(&hit_points.weights[range]) {
-            if sums_foci && self.renewal.is_none() {
-                let radius_statistics = &hit_points.radius_statistics_slots[slot as usize];
-                let square = hidden(radius_statistics, f64::from(weight.luminance()));
-                focus += square[0];
-                focus_variance += square[1];
-            }
-            let irradiance = self.irradiance_slots[slot as usize][0];
-            let luminance = irradiance.luminance();
-            if luminance > 0.0 {
-                let seen = (weight * irradiance).luminance() / luminance;
-                let SlotMoments { bias: moment, answer: of_class } = moment_slots[slot as usize];
-                bias += f64::from(seen * moment);
-                // A photon reaches all hit points of a pixel about alike.
-                answer +=
-                    f64::from(seen * if self.facts.question.noise { of_class.sqrt() } else { of_class });
-            }
+    /// What a pixel's own pass says; `unlit` is what is kept of it, where hit points stay.
+    fn addend(&self, pixel: usize, unlit: Option<&mut Unlit>, per_sample: f64) -> Addend {
+        let [mut bias, mut answer] = [0.0; 2];
+        if self.radiance.is_lit(pixel) {
+            [bias, answer] = self.moments(pixel);
         }
-        if let Some(renewal) = self.renewal.filter(|_| sums_foci) {
-            [focus, focus_variance] =
-                renewal.pixels.radius_statistics(pixel).map_or([0.0; 2], |sums| hidden(sums, 1.0));
-        }
+        let [focus, focus_variance] = match (self.sums_foci(), unlit, self.renewal) {
+            (false, ..) => [0.0; 2],
+            (true, Some(unlit), _) => unlit.foci(|| self.foci(pixel)),
+            (true, None, None) => self.foci(pixel),
+            (true, None, Some(renewal)) => {
+                renewal.pixels.radius_statistics(pixel).map_or([0.0; 2], |sums| hidden(sums, 1.0))
+            }
+        };
         let light = f64::from(self.radiance.last[pixel].luminance());
         let seen = self.renewal.map_or(0.0, |renewal| renewal.seen.last(pixel) * self.facts.photons as f64);
         answer *= per_sample;
@@ -102,11 +93,41 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
         Addend { light: light + seen, bias: bias * per_sample, focus, focus_variance, answer }
     }
 
-    /// Luminance per emitted photon that a pixel would gain if each of its hit points without a photon found one.
-    fn one_photon(&self, pixel: usize, samples: f64) -> f64 {
+    /// A pixel's bias and its answer about a class, summed over its samples.
+    fn moments(&self, pixel: usize) -> [f64; 2] {
+        let (hit_points, range) = (self.hit_points, self.hit_points.of_pixel(pixel));
+        let [mut bias, mut answer] = [0.0; 2];
+        for (&slot, &weight) in hit_points.slot_of[range.clone()].iter().zip(&hit_points.weights[range]) {
+            let Some((irradiance, moments)) = self.arrived.with_moments(slot as usize) else { continue };
+            let luminance = irradiance.luminance();
+            if luminance > 0.0 {
+                let seen = (weight * irradiance).luminance() / luminance;
+                let SlotMoments { bias: moment, answer: of_class } = moments;
+                bias += f64::from(seen * moment);
+                // A photon reaches all hit points of a pixel about alike.
+                answer +=
+                    f64::from(seen * if self.facts.question.noise { of_class.sqrt() } else { of_class });
+            }
+        }
+        [bias, answer]
+    }
+
+    /// Squares of what a pixel's discs may hide, and the variance of that, summed over its samples.
+    fn foci(&self, pixel: usize) -> [f64; 2] {
+        let (hit_points, range) = (self.hit_points, self.hit_points.of_pixel(pixel));
+        let mut foci = [0.0; 2];
+        for (&slot, &weight) in hit_points.slot_of[range.clone()].iter().zip(&hit_points.weights[range]) {
+            let radius_statistics = &hit_points.radius_statistics_slots[slot as usize];
+            let square = hidden(radius_statistics, f64::from(weight.luminance()));
+            foci.iter_mut().zip(square).for_each(|(sum, square)| *sum += square);
+        }
+        foci
+    }
+
+    /// Luminance per unit of power that a pixel would gain if each of its hit points without a photon found one, summed over its samples.
+    fn one_photon(&self, pixel: usize) -> f64 {
         let hit_points = self.hit_points;
-        let range = hit_points.pixel_start[pixel] as usize..hit_points.pixel_start[pixel + 1] as usize;
-        let unknown = range.filter_map(|h| {
+        let unknown = hit_points.of_pixel(pixel).filter_map(|h| {
             let statistics = &hit_points.statistics_slots[hit_points.slot_of[h] as usize];
             let area = std::f64::consts::PI * statistics.radius2();
             let specular = hit_points.gloss(hit_points.slot_of[h] as usize).is_some_and(|g| g.specular);
@@ -114,7 +135,7 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
                 self.renewal.map_or(statistics.is_unknown(), |renewal| renewal.pixels.is_unknown(pixel));
             (is_unknown && !specular).then(|| f64::from(hit_points.weights[h].luminance()) / area)
         });
-        unknown.sum::<f64>() * self.facts.power / samples
+        unknown.sum()
     }
 }
 
@@ -141,14 +162,28 @@ struct Scales {
     per_earlier: f64,
 }
 
+/// A row of tiles, and what is kept of its pixels.
+struct Band<'a> {
+    pixels: &'a mut [Pixel],
+    /// Empty, as the next, where there are none.
+    differences: &'a mut [f64],
+    unlit: &'a mut [Unlit],
+    tiles: &'a mut [Tile],
+}
+
+/// What is kept of a pixel.
+struct Kept<'a> {
+    pixel: &'a mut Pixel,
+    difference: Option<f64>,
+    unlit: Option<&'a mut Unlit>,
+}
+
 impl<const LAYERS: usize> Pass<'_, LAYERS> {
     /// Adds the pass to a row of tiles, whose first pixel is `first`.
     fn add_to_tiles(
         &self,
         (first, width): (usize, usize),
-        (pixels, differences): (&mut [Pixel], &mut [f64]),
-        tiles: &mut [Tile],
-        moment_slots: &[SlotMoments],
+        Band { pixels, differences, unlit, tiles }: Band<'_>,
         scales: &Scales,
     ) -> Sums {
         let mut sums = Sums::default();
@@ -158,7 +193,11 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
             if self.renewal.is_none() && self.hit_points.of_pixel(index).is_empty() {
                 continue;
             }
-            let addend = self.addend(index, moment_slots, scales.per_sample);
+            let mut unlit = unlit.get_mut(i);
+            if let Some(unlit) = unlit.as_mut().filter(|_| self.radiance.is_lit(index)) {
+                unlit.forget();
+            }
+            let addend = self.addend(index, unlit.as_deref_mut(), scales.per_sample);
             let difference = differences.get_mut(i).map(|difference| {
                 *difference += scales.halves.sign() * addend.light;
                 *difference
@@ -167,7 +206,8 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
             of_tile.light += addend.light;
             // A pixel that sees emitters alone may see something reflect in a later pass.
             if self.renewal.is_none_or(|renewal| renewal.pixels.is_seen(index)) {
-                self.add_to_pixel(index, (pixel, difference), &addend, scales, &mut sums, of_tile);
+                let kept = Kept { pixel, difference, unlit };
+                self.add_to_pixel(index, kept, &addend, scales, &mut sums, of_tile);
             } else {
                 pixel.add(&addend, scales.photons);
             }
@@ -188,7 +228,7 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
     fn add_to_pixel(
         &self,
         index: usize,
-        (pixel, difference): (&mut Pixel, Option<f64>),
+        Kept { pixel, difference, unlit }: Kept<'_>,
         addend: &Addend,
         scales: &Scales,
         sums: &mut Sums,
@@ -227,7 +267,11 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
         let mut is_unknown = all <= 0.0 && (direct.is_none() || self.facts.power > 0.0);
         if is_unknown || direct.is_some() || self.renewal.is_some() {
             // Shadow rays say nothing about indirect light.
-            let one_photon = self.one_photon(index, scales.samples) / weights.photons;
+            let per_power = match unlit {
+                Some(unlit) => unlit.one_photon(!self.facts.radii_shrink_alike, || self.one_photon(index)),
+                None => self.one_photon(index),
+            };
+            let one_photon = per_power * self.facts.power / scales.samples / weights.photons;
             is_unknown |= one_photon > all;
             sums.unknown2 += one_photon.powi(2);
         }
@@ -286,21 +330,29 @@ impl ErrorSums {
             per_photon: 1.0 / photons,
             per_earlier: 1.0 / before,
         };
-        let moment_slots = &self.moment_slots;
-        let bands = self.pixels.par_chunks_mut(TILE * width);
-        let mut differences: Vec<&mut [f64]> = self.differences.chunks_mut(TILE * width).collect();
-        differences.resize_with(bands.len(), Default::default);
-        let sums: Vec<Sums> = bands
-            .zip(differences)
+        let pixels = self.pixels.par_chunks_mut(TILE * width);
+        let (differences, unlit) = (
+            rows(&mut self.differences, TILE * width, pixels.len()),
+            rows(&mut self.unlit, TILE * width, pixels.len()),
+        );
+        let sums: Vec<Sums> = pixels
+            .zip(differences.into_par_iter().zip(unlit))
             .zip(self.tiles.par_chunks_mut(width.div_ceil(TILE)))
             .enumerate()
-            .map(|(band, (pixels, tiles))| {
+            .map(|(band, ((pixels, (differences, unlit)), tiles))| {
                 let at = (band * TILE * width, width);
-                pass.add_to_tiles(at, pixels, tiles, moment_slots, &scales)
+                pass.add_to_tiles(at, Band { pixels, differences, unlit, tiles }, &scales)
             })
             .collect();
         sums.into_iter().fold(Sums::default(), Sums::plus)
     }
+}
+
+/// Values of pixels in so many rows of so many; empty rows of none.
+fn rows<T>(values: &mut [T], length: usize, count: usize) -> Vec<&mut [T]> {
+    let mut rows: Vec<&mut [T]> = values.chunks_mut(length).collect();
+    rows.resize_with(count, Default::default);
+    rows
 }
 
 impl Pixel {

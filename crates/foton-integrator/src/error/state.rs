@@ -5,6 +5,7 @@ use foton_transport::codec::{Reader, StateError, Writer};
 use super::classes::{ClassError, Classes};
 use super::estimate::ErrorEstimate;
 use super::moments::{Halves, Moments, Scatter, Weights};
+use super::unlit::Unlit;
 use super::{ErrorSums, Pixel, Tile};
 
 impl ErrorSums {
@@ -37,6 +38,7 @@ impl ErrorSums {
         self.classes = Classes::of(numbers(input)?);
         self.foci = numbers(input)?;
         self.estimate = read_estimate(input)?;
+        self.unlit.fill(Unlit::UNKNOWN);
         for pixel in &mut self.pixels {
             let [squares, cross, bias, bias_squares, bias_cross] = numbers(input)?;
             let (bias_squares, bias_cross) = (bias_squares as f32, bias_cross as f32);

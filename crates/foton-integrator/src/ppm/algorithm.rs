@@ -18,7 +18,6 @@ use super::hit_points::HitPoints;
 use super::laid_out::LaidOut;
 use super::light::Light;
 use super::schedule::begin_small;
-use super::slots::EarlierBatches;
 use super::under_way::{Once, UnderWay};
 use crate::changes::Changes;
 use crate::error::ErrorSums;
@@ -46,7 +45,6 @@ pub(crate) struct Ppm {
     pub(super) map: PhotonMap,
     /// Photons that were emitted for those in the map.
     pub(super) map_photons: u64,
-    pub(super) earlier: EarlierBatches,
     /// The largest number of photons in a batch: [`MAX_PHOTONS`], except in tests.
     pub(super) max_in_batch: u64,
     pub(super) ledger: Ledger,
@@ -158,7 +156,6 @@ impl Ppm {
             chunks: Vec::new(),
             map: PhotonMap::default(),
             map_photons: 0,
-            earlier: EarlierBatches::default(),
             max_in_batch: MAX_PHOTONS,
             ledger: Ledger::default(),
             passes: 0,

@@ -5,8 +5,8 @@
 
 use std::ops::Range;
 
-use foton_math::Rgb;
 use foton_math::glam::Vec3;
+use foton_math::{Aabb, Rgb};
 use foton_transport::camera_paths::{Gloss, HitPoint};
 use foton_transport::photon_map::{self, Groups, LANES, Packet};
 use foton_transport::{Cancel, Cancelled, LeftOut, Quantity};
@@ -18,6 +18,9 @@ use super::statistics::Statistics;
 /// Light that arrives at a hit point, all of it and then, where classes are asked for, caustic and indirect light: Σ Φ/(π r²) over the
 /// photons of one pass (W·m⁻²), each photon weighed by the BSDF's value where that is not Lambertian (W·m⁻²·sr⁻¹).
 pub(crate) type Irradiance<const LAYERS: usize> = [Rgb; LAYERS];
+
+/// Packets of one task.
+pub(crate) const BLOCK: usize = 256;
 
 /// What shadow rays need of a slot.
 #[derive(Clone, Copy, Debug)]
@@ -37,9 +40,41 @@ pub(crate) struct Layout {
     pub(crate) in_band: usize,
 }
 
+/// What a gather says of the hit points of a block, kept up with them: a pass comes by those alone that it brings something.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct BlockSums {
+    /// Hit points that no pass has found a photon for.
+    pub(crate) unknown: u64,
+    /// Sum of r² in square scene units.
+    pub(crate) radius2: f64,
+}
+
+impl BlockSums {
+    /// Adds a hit point.
+    pub(crate) fn add(&mut self, statistics: &Statistics) {
+        self.unknown += u64::from(statistics.is_unknown());
+        self.radius2 += statistics.radius2();
+    }
+
+    /// Takes a hit point off that is about to change.
+    pub(crate) fn take_off(&mut self, statistics: &Statistics) {
+        self.unknown -= u64::from(statistics.is_unknown());
+        self.radius2 -= statistics.radius2();
+    }
+
+    /// Of the slots of a block.
+    fn of(slots: &[Statistics]) -> Self {
+        let mut sums = Self::default();
+        slots.iter().filter(|statistics| statistics.radius2() >= 0.0).for_each(|s| sums.add(s));
+        sums
+    }
+}
+
 /// All hit points. Packets of Lambertian ones come first. Vectors whose names end in `_slots` have [`LANES`] entries a packet.
 pub(crate) struct HitPoints {
     pub(crate) packets: Vec<Packet>,
+    /// The box around the discs of each packet: it says which photons are near, and takes a twenty-seventh of the packet's room.
+    pub(crate) bounds: Vec<Aabb>,
     /// Packets from here on hold hit points that are not Lambertian.
     pub(crate) first_glossy: usize,
     /// [`LANES`] entries a packet from `first_glossy` on.
@@ -49,6 +84,8 @@ pub(crate) struct HitPoints {
     /// Empty unless direct light comes by shadow rays.
     pub(crate) shadow_slots: Vec<ShadowOrigin>,
     pub(crate) statistics_slots: Vec<Statistics>,
+    /// By block of packets.
+    pub(crate) block_sums: Vec<BlockSums>,
     /// [`HitPoint::smallest2`].
     pub(crate) smallest2_slots: Vec<f32>,
     /// Empty unless radii adapt or the error is asked for.
@@ -97,19 +134,29 @@ impl HitPoints {
                 slot_of[i as usize] = (p * LANES + lane) as u32;
             }
         }
-        Ok(Self {
+        let mut hit_points = Self {
             packets,
+            bounds: Vec::new(),
             first_glossy: lambertian.count(),
             gloss_slots: by_slot(&groups[lambertian.count()..], found, None, of_glossy),
             shading_normals: groups[none..].par_iter().map(rows).collect(),
             shadow_slots: by_slot(shadowed, found, nowhere, shadow),
             statistics_slots: by_slot(&groups, found, Statistics::EMPTY_SLOT, |h| Statistics::new(h.radius2)),
+            block_sums: Vec::new(),
             smallest2_slots: by_slot(&groups, found, 0.0, |h| h.smallest2),
             radius_statistics_slots: Vec::new(),
             slot_of,
             weights: found.iter().map(|h| h.weight).collect(),
             pixel_start,
-        })
+        };
+        hit_points.follow_radii();
+        Ok(hit_points)
+    }
+
+    /// Makes anew what goes by radii and statistics, after these have changed otherwise than by a gather.
+    pub(crate) fn follow_radii(&mut self) {
+        self.bounds = self.packets.par_iter().map(Packet::bounds).collect();
+        self.block_sums = self.statistics_slots.par_chunks(BLOCK * LANES).map(BlockSums::of).collect();
     }
 
     /// With first radii multiplied by a factor.
@@ -124,6 +171,7 @@ impl HitPoints {
                 *statistics = Statistics::new(*radius2);
             }
         });
+        self.follow_radii();
         self
     }
 
@@ -169,11 +217,12 @@ impl HitPoints {
 
     /// Bytes held.
     pub(crate) const fn bytes(&self) -> usize {
-        size_of::<Packet>() * self.packets.len()
+        (size_of::<Packet>() + size_of::<Aabb>()) * self.packets.len()
             + size_of::<Option<Gloss>>() * self.gloss_slots.len()
             + size_of::<[[f32; LANES]; 3]>() * self.shading_normals.len()
             + size_of::<ShadowOrigin>() * self.shadow_slots.len()
             + (size_of::<Statistics>() + size_of::<f32>()) * self.statistics_slots.len()
+            + size_of::<BlockSums>() * self.block_sums.len()
             + size_of::<RadiusStatistics>() * self.radius_statistics_slots.len()
             + (size_of::<u32>() + size_of::<Rgb>()) * self.slot_of.len()
             + size_of::<u32>() * self.pixel_start.len()

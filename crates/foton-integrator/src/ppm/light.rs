@@ -3,17 +3,18 @@
 use foton_math::Rgb;
 use foton_transport::Omissions;
 use foton_transport::codec::{Reader, StateError, Writer};
-use foton_transport::photon_map::{LANES, PathClass};
+use foton_transport::photon_map::PathClass;
 
+use super::arrived::Arrived;
 use super::direct::Direct;
-use super::hit_points::{HitPoints, Irradiance};
+use super::hit_points::HitPoints;
 use super::radiance::Radiance;
 use crate::error::{self, ErrorSums, PassFacts};
 use crate::sppm::Renewal;
 
 /// Light of one pass at the hit points, and of all passes in the pixels.
 pub(crate) struct Sums<const LAYERS: usize> {
-    irradiance_slots: Vec<Irradiance<LAYERS>>,
+    arrived: Arrived<LAYERS>,
     radiance: Radiance,
 }
 
@@ -26,25 +27,24 @@ pub(crate) enum Light {
 }
 
 impl<const LAYERS: usize> Sums<LAYERS> {
-    /// Where the gather puts the irradiance of each slot.
-    pub(super) fn irradiance_slots(&mut self) -> &mut [Irradiance<LAYERS>] {
-        &mut self.irradiance_slots
+    /// Where the gather puts what it finds.
+    pub(super) const fn arrived(&mut self) -> &mut Arrived<LAYERS> {
+        &mut self.arrived
     }
 
     fn new(emission: Vec<Rgb>, hit_points: &HitPoints, samples: u32) -> Self {
         Self {
-            irradiance_slots: vec![[Rgb::BLACK; LAYERS]; hit_points.packets.len() * LANES],
+            arrived: Arrived::none(hit_points.packets.len()),
             radiance: Radiance::new(emission, samples, LAYERS > 1),
         }
     }
 
     fn make_room_for(&mut self, hit_points: &HitPoints) {
-        self.irradiance_slots.clear();
-        self.irradiance_slots.resize(hit_points.packets.len() * LANES, [Rgb::BLACK; LAYERS]);
+        self.arrived = Arrived::none(hit_points.packets.len());
     }
 
     fn bytes(&self) -> usize {
-        self.irradiance_slots.len() * size_of::<Irradiance<LAYERS>>() + self.radiance.bytes()
+        self.arrived.bytes() + self.radiance.bytes()
     }
 }
 
@@ -74,7 +74,7 @@ impl Light {
 
     /// Adds the pass of so many photons to the pixels; says what was left out because it was not finite.
     pub(crate) fn add_pass(&mut self, hit_points: &HitPoints, photons: u64) -> Omissions {
-        each!(self, s => s.radiance.add(hit_points, &s.irradiance_slots, photons))
+        each!(self, s => s.radiance.add(hit_points, &s.arrived, photons))
     }
 
     /// Adds a pass, which is in the pixels already, to the error.
@@ -87,7 +87,7 @@ impl Light {
     ) {
         each!(self, s => error.add(&error::Pass {
             hit_points,
-            irradiance_slots: &s.irradiance_slots,
+            arrived: &s.arrived,
             radiance: &s.radiance,
             direct,
             renewal,
@@ -158,5 +158,11 @@ impl Light {
     /// Bytes held.
     pub(crate) fn bytes(&self) -> usize {
         each!(self, s => s.bytes())
+    }
+
+    /// Bytes held between the batches of a pass alone.
+    #[cfg(test)]
+    pub(super) fn bytes_between_batches(&self) -> usize {
+        each!(self, s => s.arrived.bytes_between_batches())
     }
 }

@@ -1,12 +1,13 @@
 //! What a render will take, estimated before it is taken.
 
-use foton_math::{Cancel, Purpose, Rgb};
+use foton_math::{Aabb, Cancel, Purpose, Rgb};
 use foton_scene::Scene;
 use foton_transport::camera_paths::{Gloss, HitPoint};
 use foton_transport::light_paths::{Batch, MAX_PHOTONS};
 use foton_transport::photon_map::{LANES, MAX_CELLS, Packet, Photon, PhotonMap};
 
 use super::adaptive::RadiusStatistics;
+use super::arrived::BatchSums;
 use super::direct::{Direct, by_shadow_rays};
 use super::eye_samples::eye_pass;
 use super::guidance::Guidance;
@@ -14,7 +15,6 @@ use super::hit_points::{Irradiance, ShadowOrigin};
 use super::lobes::lobe_use;
 use super::radiance::Radiance;
 use super::settings::RadiusRule;
-use super::slots::EarlierBatches;
 use super::statistics::Statistics;
 use crate::error::ErrorSums;
 use crate::memory::{FILL, MemoryEstimate};
@@ -43,7 +43,7 @@ pub(crate) fn memory(scene: &Scene, settings: &RenderSettings, threads: usize) -
     let shadow = by_shadow_rays(scene, settings);
     let shaded = lobe_use(scene).shading_normals;
     let adapts = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;
-    let slot = size_of::<Packet>() / LANES
+    let slot = (size_of::<Packet>() + size_of::<Aabb>()) / LANES
         + size_of::<Statistics>()
         + size_of::<f32>()
         + if shadow { size_of::<ShadowOrigin>() } else { 0 }
@@ -62,7 +62,7 @@ pub(crate) fn memory(scene: &Scene, settings: &RenderSettings, threads: usize) -
     let batches = Batch::all(pass, MAX_PHOTONS);
     let batch = batches.map(|b| b.photons(pass)).max().unwrap_or(0);
     let guidance = if settings.ppm.guided { Guidance::max_bytes(pass, scene.emitters().len()) } else { 0 };
-    let slot = slot + if batch < pass { EarlierBatches::bytes_per_slot(adapts) as f64 } else { 0.0 };
+    let slot = slot + if batch < pass { size_of::<BatchSums<1>>() as f64 } else { 0.0 };
     let hit_point_bytes = hit_points * (slot / FILL + (size_of::<u32>() + size_of::<Rgb>()) as f64)
         + glossy * size_of::<Option<Gloss>>() as f64 / FILL;
     // Found hit points twice while chunks are joined, or once beside the points that are being grouped.

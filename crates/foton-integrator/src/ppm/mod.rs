@@ -2,6 +2,7 @@
 
 pub(crate) mod adaptive;
 mod algorithm;
+mod arrived;
 mod counts;
 pub(crate) mod direct;
 pub(crate) mod eye_samples;
@@ -35,10 +36,11 @@ pub(crate) mod under_way;
 mod variants;
 
 pub(crate) use algorithm::Ppm;
+pub(crate) use arrived::{Arrived, SlotMoments};
 pub(crate) use direct::{Direct, Noise};
 pub use eye_samples::EyeSamples;
 pub(crate) use features::features;
-pub(crate) use hit_points::{HitPoints, Irradiance};
+pub(crate) use hit_points::HitPoints;
 pub use inspect::{Disc, Radii, StoredPhoton};
 pub(crate) use lobes::LOBE_POLICY;
 pub use lobes::lobe_use;

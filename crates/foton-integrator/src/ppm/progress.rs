@@ -197,7 +197,6 @@ impl Ppm {
             + self.grid.bytes()
             + self.guidance.bytes()
             + self.map.bytes()
-            + self.earlier.bytes()
             + self.chunks.iter().map(chunk).sum::<usize>()
             + self.shapes.len() * size_of::<u32>()
     }

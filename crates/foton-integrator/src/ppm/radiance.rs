@@ -6,7 +6,8 @@ use foton_transport::codec::{Reader, StateError, Writer};
 use foton_transport::photon_map::PathClass;
 use rayon::prelude::*;
 
-use super::hit_points::{HitPoints, Irradiance};
+use super::arrived::Arrived;
+use super::hit_points::HitPoints;
 
 /// Pixels of one task.
 const BLOCK: usize = 1024;
@@ -22,6 +23,8 @@ pub(crate) struct Radiance {
     sums: Vec<[f64; 3]>,
     /// The last pass's addend: its own estimate of the pixel, times its photons. An error figure squares this.
     pub(crate) last: Vec<Rgb>,
+    /// Whether a photon has counted in the last pass for any hit point of the pixel.
+    lit: Vec<bool>,
     /// The same sums by path class, where they are asked for.
     classes: Option<ClassSums>,
     samples: f32,
@@ -42,6 +45,7 @@ impl Radiance {
             emission,
             sums: vec![[0.0; 3]; pixels],
             last: vec![Rgb::BLACK; pixels],
+            lit: vec![false; pixels],
             classes: by_class.then(none),
             samples: samples as f32,
         }
@@ -51,34 +55,42 @@ impl Radiance {
     pub(crate) fn add<const LAYERS: usize>(
         &mut self,
         hit_points: &HitPoints,
-        irradiance_slots: &[Irradiance<LAYERS>],
+        arrived: &Arrived<LAYERS>,
         photons: u64,
     ) -> Omissions {
-        let samples = self.samples;
+        let (samples, is_dark) = (self.samples, arrived.is_none());
         let classes = self.classes.as_mut().map_or_else(Vec::new, |classes| {
             classes.photons += photons;
             classes.sums.chunks_mut(BLOCK).collect()
         });
         let mut classes: Vec<&mut [_]> = classes;
         classes.resize_with(self.sums.len().div_ceil(BLOCK), Default::default);
-        let blocks = self.last.par_chunks_mut(BLOCK).zip(self.sums.par_chunks_mut(BLOCK)).zip(classes);
-        let pass = blocks.enumerate().map(|(block, ((last, sums), classes))| {
+        let blocks = self.last.par_chunks_mut(BLOCK).zip(self.lit.par_chunks_mut(BLOCK));
+        let blocks = blocks.zip(self.sums.par_chunks_mut(BLOCK)).zip(classes);
+        let pass = blocks.enumerate().map(|(block, (((last, lit), sums), classes))| {
             let mut omissions = Omissions::default();
-            for (i, (last, sum)) in last.iter_mut().zip(sums).enumerate() {
-                let pixel = block * BLOCK + i;
-                let range = hit_points.pixel_start[pixel]..hit_points.pixel_start[pixel + 1];
+            for (i, ((last, lit), sum)) in last.iter_mut().zip(lit).zip(sums).enumerate() {
+                let range = hit_points.of_pixel(block * BLOCK + i);
+                let first = range.start as u32;
                 let mut layers = [Rgb::BLACK; LAYERS];
-                for h in range.clone() {
-                    let irradiance = &irradiance_slots[hit_points.slot_of[h as usize] as usize];
-                    let weight = hit_points.weights[h as usize];
+                (*last, *lit) = (Rgb::BLACK, false);
+                if is_dark {
+                    continue;
+                }
+                for (h, &slot) in range.clone().zip(&hit_points.slot_of[range]) {
+                    let Some(irradiance) = arrived.irradiance(slot as usize) else { continue };
+                    *lit = true;
                     for (layer, irradiance) in layers.iter_mut().zip(irradiance) {
-                        *layer += weight * *irradiance;
+                        *layer += hit_points.weights[h] * *irradiance;
                     }
+                }
+                if !*lit {
+                    continue;
                 }
                 *last = layers[0] / samples;
                 if !last.is_finite() {
                     *last = Rgb::BLACK;
-                    omissions.add(hit_points.left_out_at(range.start));
+                    omissions.add(hit_points.left_out_at(first));
                 }
                 add_to(sum, *last);
                 if let Some(sums) = classes.get_mut(i) {
@@ -88,6 +100,12 @@ impl Radiance {
             omissions
         });
         pass.reduce(Omissions::default, Omissions::followed_by)
+    }
+
+    /// Whether the last pass has brought a pixel any photon.
+    #[inline]
+    pub(crate) fn is_lit(&self, pixel: usize) -> bool {
+        self.lit[pixel]
     }
 
     /// Reflected radiance of one class; `None` where they are not summed.
@@ -178,7 +196,8 @@ impl Radiance {
     }
 
     /// Bytes held per pixel.
-    pub(crate) const BYTES_PER_PIXEL: usize = 2 * size_of::<Rgb>() + size_of::<[f64; 3]>();
+    pub(crate) const BYTES_PER_PIXEL: usize =
+        2 * size_of::<Rgb>() + size_of::<bool>() + size_of::<[f64; 3]>();
     /// Bytes held per pixel more by path class.
     pub(crate) const BYTES_BY_CLASS: usize = size_of::<[[f64; 3]; CLASSES]>();
 }

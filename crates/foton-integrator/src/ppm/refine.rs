@@ -6,46 +6,58 @@ use foton_math::Rgb;
 use foton_transport::Quantity;
 use foton_transport::photon_map::{LANES, Packet};
 
+use super::arrived::Lanes;
 use super::rule::Rule;
 use super::slots::{Found, Slots};
 use super::tally::Tally;
 
-/// Turns a packet's sums into irradiance, refines its hit points, and writes the radii of the next pass.
+/// Turns a packet's sums into irradiance at the lanes for which photons have counted, refines its hit points, and writes the radii of the
+/// next pass. `index` is that of the packet in its block. Returns whether any radius may have shrunk.
 pub(super) fn refine<const LAYERS: usize>(
-    packet: &mut Packet,
+    (index, packet): (usize, &mut Packet),
     found: &Found<LAYERS>,
-    slots: Slots<'_, LAYERS>,
+    slots: &mut Slots<'_, LAYERS>,
     rule: Rule,
     tally: &mut Tally,
-) {
-    let Slots { statistics, smallest2, irradiance, counts, radius_statistics, .. } = slots;
-    for l in 0..LANES {
-        let radius2 = packet.radius2[l];
-        if radius2 < 0.0 {
+) -> bool {
+    let lanes = slots.lanes[index];
+    for (l, _) in lanes.each() {
+        let per_area = 1.0 / (PI * packet.radius2[l]);
+        let irradiance = found.flux.map(|[r, g, b]| {
+            let irradiance = Rgb::new(r[l], g[l], b[l]) * per_area;
+            if irradiance.is_finite() {
+                return irradiance;
+            }
+            tally.leave_out(Quantity::Irradiance, packet, l);
+            Rgb::BLACK
+        });
+        slots.entries.irradiance.push(irradiance);
+        if rule.error {
+            slots.entries.moments.push(found.moments(packet, rule.question, l));
+        }
+    }
+    // A pass that finds nothing at a hit point changes nothing there, unless all radii shrink together.
+    let shrinking = if rule.common.is_some() { Lanes::ALL } else { lanes };
+    for (l, _) in shrinking.each() {
+        if packet.radius2[l] < 0.0 {
             continue;
         }
-        let per_area = 1.0 / (PI * radius2);
-        for (out, flux) in irradiance[l].iter_mut().zip(&found.flux) {
-            *out = Rgb::new(flux[0][l], flux[1][l], flux[2][l]) * per_area;
-            if !out.is_finite() {
-                *out = Rgb::BLACK;
-                tally.leave_out(Quantity::Irradiance, packet, l);
-            }
-        }
-        let count = u64::from(found.count[l]) + counts.get(l).copied().unwrap_or(0);
-        let smallest2 = f64::from(smallest2[l]);
+        let slot = index * LANES + l;
+        let statistics = &mut slots.statistics[slot];
+        let (count, smallest2) = (u64::from(found.count[l]), f64::from(slots.smallest2[slot]));
+        slots.sums.take_off(statistics);
         let floored = match rule.common {
             None => {
-                let known = radius_statistics.get(l).filter(|_| rule.adapts);
+                let known = slots.radius_statistics.get(slot).filter(|_| rule.adapts);
                 let alpha = known.map_or(rule.alpha, |e| e.alpha(rule.alpha));
-                statistics[l].refine(count, alpha, smallest2)
+                statistics.refine(count, alpha, smallest2)
             }
-            Some(rho) => statistics[l].shrink(count, rho, smallest2),
+            Some(rho) => statistics.shrink(count, rho, smallest2),
         };
+        slots.sums.add(statistics);
         tally.floored += u64::from(floored);
         tally.accepted += count;
-        tally.unknown += u64::from(statistics[l].is_unknown());
-        tally.radius2 += statistics[l].radius2();
-        packet.radius2[l] = statistics[l].radius2() as f32;
+        packet.radius2[l] = statistics.radius2() as f32;
     }
+    !shrinking.is_none()
 }

@@ -10,6 +10,8 @@ use crate::error::Question;
 #[derive(Clone, Copy)]
 pub(crate) struct Rule {
     pub(crate) alpha: Alpha,
+    /// Whether the error is asked for.
+    pub(crate) error: bool,
     /// Whether radii adapt to bias.
     pub(crate) adapts: bool,
     /// What all r² are multiplied by, where they shrink together.

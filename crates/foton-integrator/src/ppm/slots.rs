@@ -1,5 +1,5 @@
-//! What a gather finds for a packet, and the slots it goes to: those of a pass's results, which hold sums between its batches.
-//! What radii go by is added with the last batch only: a pass that is cancelled between two has not happened.
+//! What a gather finds for a packet, on its way to the entries of a pass or of the batches so far (`arrived.rs`), and what hit points
+//! keep of it. What radii go by is added with the last batch only: a pass that is cancelled between two has not happened.
 
 use std::f32::consts::PI;
 
@@ -7,9 +7,10 @@ use foton_math::Rgb;
 use foton_transport::photon_map::{LANES, Packet, PathClass, Photon};
 
 use super::adaptive::{DiscMoments, RadiusStatistics};
-use super::hit_points::Irradiance;
+use super::arrived::{BatchSums, Entries, Lanes, SlotMoments};
+use super::hit_points::BlockSums;
 use super::statistics::Statistics;
-use crate::error::{Question, SlotMoments};
+use crate::error::Question;
 
 /// Light found by a packet's lanes.
 pub(crate) struct Found<const LAYERS: usize> {
@@ -71,8 +72,14 @@ impl<const LAYERS: usize> Found<LAYERS> {
         if LAYERS == 1 || class == PathClass::Direct as usize { None } else { Some(class) }
     }
 
+    /// Lanes for which a photon has counted, as bits.
+    #[inline(always)]
+    pub(crate) fn lanes(&self) -> u16 {
+        self.count.iter().enumerate().fold(0, |mask, (l, &count)| mask | u16::from(count > 0) << l)
+    }
+
     /// Flux of a lane, all classes together.
-    pub(crate) fn luminance(&self, lane: usize) -> f32 {
+    fn luminance(&self, lane: usize) -> f32 {
         let [r, g, b] = &self.flux[0];
         Rgb::new(r[lane], g[lane], b[lane]).luminance()
     }
@@ -86,126 +93,55 @@ impl<const LAYERS: usize> Found<LAYERS> {
         }
     }
 
-    /// Σ 6(s − ½) Φ/(π r²) with s = d²/r², and the answer about a class: see [`crate::error`].
-    pub(crate) fn write_moments(&self, packet: &Packet, question: Question, moments: &mut [SlotMoments]) {
-        for (l, moment) in moments.iter_mut().enumerate() {
-            let radius2 = packet.radius2[l];
-            let flux = self.luminance(l);
-            // Lanes without a hit point have found nothing.
-            let per_area = 1.0 / (PI * radius2);
-            let answer = self.answer[l] * if question.noise { per_area * per_area } else { per_area };
-            let bias = (6.0 * self.moment[l] / radius2 - 3.0 * flux) * per_area;
-            *moment = SlotMoments { bias, answer };
+    /// Σ 6(s − ½) Φ/(π r²) of a lane with s = d²/r², and the answer about a class: see [`crate::error`].
+    pub(crate) fn moments(&self, packet: &Packet, question: Question, l: usize) -> SlotMoments {
+        let radius2 = packet.radius2[l];
+        let per_area = 1.0 / (PI * radius2);
+        let answer = self.answer[l] * if question.noise { per_area * per_area } else { per_area };
+        let bias = (6.0 * self.moment[l] / radius2 - 3.0 * self.luminance(l)) * per_area;
+        SlotMoments { bias, answer }
+    }
+
+    /// Adds what earlier batches of the pass found in a lane.
+    pub(crate) fn add_earlier(&mut self, l: usize, earlier: &BatchSums<LAYERS>) {
+        for (sums, earlier) in self.flux.iter_mut().zip(&earlier.flux) {
+            for (sums, earlier) in sums.iter_mut().zip(earlier.to_array()) {
+                sums[l] += earlier;
+            }
+        }
+        self.count[l] = self.count[l].saturating_add(earlier.count);
+        self.moment[l] += earlier.moment;
+        self.answer[l] += earlier.answer;
+        self.disc.light[l] += earlier.light;
+        self.disc.squares[l] += earlier.squares;
+        for (sums, earlier) in self.disc.offset.iter_mut().zip(earlier.offset) {
+            sums[l] += earlier;
+        }
+    }
+
+    /// What a lane leaves for the next batch.
+    pub(crate) fn batch_sums(&self, l: usize) -> BatchSums<LAYERS> {
+        BatchSums {
+            flux: self.flux.map(|[r, g, b]| Rgb::new(r[l], g[l], b[l])),
+            count: self.count[l],
+            moment: self.moment[l],
+            answer: self.answer[l],
+            light: self.disc.light[l],
+            squares: self.disc.squares[l],
+            offset: self.disc.offset.map(|row| row[l]),
         }
     }
 }
 
-/// The [`DiscMoments`] of one slot, and Σ Φ d².
-#[derive(Clone, Copy, Default)]
-pub(crate) struct DiscSums {
-    light: f32,
-    squares: f32,
-    offset: [f32; 3],
-    moment: f32,
-}
-
-/// What the batches of a pass leave for the last one beside what its results have room for, by slot; nothing where there is one.
-#[derive(Default)]
-pub(crate) struct EarlierBatches {
-    /// Photons found.
-    pub(crate) counts: Vec<u64>,
-    /// Where radii adapt.
-    pub(crate) discs: Vec<DiscSums>,
-}
-
-impl EarlierBatches {
-    /// Room for that many slots.
-    pub(crate) fn of(slots: usize, adapts: bool) -> Self {
-        Self { counts: vec![0; slots], discs: vec![DiscSums::default(); if adapts { slots } else { 0 }] }
-    }
-
-    /// Bytes held.
-    pub(crate) const fn bytes(&self) -> usize {
-        self.counts.capacity() * size_of::<u64>() + self.discs.capacity() * size_of::<DiscSums>()
-    }
-
-    /// Bytes held a slot.
-    pub(crate) const fn bytes_per_slot(adapts: bool) -> usize {
-        size_of::<u64>() + if adapts { size_of::<DiscSums>() } else { 0 }
-    }
-}
-
-/// What a gather fills, of some packets.
+/// What the hit points of a block keep, and what a pass brings them.
 pub(crate) struct Slots<'a, const LAYERS: usize> {
     pub(crate) statistics: &'a mut [Statistics],
     /// Smallest squared radii.
     pub(crate) smallest2: &'a [f32],
-    pub(crate) irradiance: &'a mut [Irradiance<LAYERS>],
-    /// Empty unless the error is asked for.
-    pub(crate) moments: &'a mut [SlotMoments],
-    /// Of [`EarlierBatches`].
-    pub(crate) counts: &'a mut [u64],
-    pub(crate) discs: &'a mut [DiscSums],
-    /// Empty unless radii adapt.
+    /// Empty unless radii adapt or the error is asked for.
     pub(crate) radius_statistics: &'a mut [RadiusStatistics],
-}
-
-impl<const LAYERS: usize> Slots<'_, LAYERS> {
-    /// Those of the packet of that index.
-    pub(crate) fn of_packet(&mut self, index: usize) -> Slots<'_, LAYERS> {
-        let lanes = index * LANES..(index + 1) * LANES;
-        Slots {
-            statistics: &mut self.statistics[lanes.clone()],
-            smallest2: &self.smallest2[lanes.clone()],
-            irradiance: &mut self.irradiance[lanes.clone()],
-            moments: self.moments.get_mut(lanes.clone()).unwrap_or_default(),
-            counts: self.counts.get_mut(lanes.clone()).unwrap_or_default(),
-            discs: self.discs.get_mut(lanes.clone()).unwrap_or_default(),
-            radius_statistics: self.radius_statistics.get_mut(lanes).unwrap_or_default(),
-        }
-    }
-
-    /// Adds what earlier batches of the pass found.
-    pub(crate) fn add_earlier(&self, found: &mut Found<LAYERS>) {
-        for (l, earlier) in self.irradiance.iter().enumerate() {
-            for (sums, earlier) in found.flux.iter_mut().zip(earlier) {
-                for (sums, earlier) in sums.iter_mut().zip(earlier.to_array()) {
-                    sums[l] += earlier;
-                }
-            }
-        }
-        for (l, earlier) in self.moments.iter().enumerate() {
-            found.moment[l] += earlier.bias;
-            found.answer[l] += earlier.answer;
-        }
-        for (l, earlier) in self.discs.iter().enumerate() {
-            found.disc.light[l] += earlier.light;
-            found.disc.squares[l] += earlier.squares;
-            for (sums, earlier) in found.disc.offset.iter_mut().zip(earlier.offset) {
-                sums[l] += earlier;
-            }
-            found.moment[l] += if self.moments.is_empty() { earlier.moment } else { 0.0 };
-        }
-    }
-
-    /// Stores sums for the next batch: flux and moments that no area has divided yet.
-    pub(crate) fn store(&mut self, found: &Found<LAYERS>) {
-        for (l, earlier) in self.irradiance.iter_mut().enumerate() {
-            for (earlier, flux) in earlier.iter_mut().zip(&found.flux) {
-                *earlier = Rgb::new(flux[0][l], flux[1][l], flux[2][l]);
-            }
-        }
-        self.counts.iter_mut().zip(found.count).for_each(|(sum, count)| *sum += u64::from(count));
-        for (l, moment) in self.moments.iter_mut().enumerate() {
-            *moment = SlotMoments { bias: found.moment[l], answer: found.answer[l] };
-        }
-        for (l, disc) in self.discs.iter_mut().enumerate() {
-            *disc = DiscSums {
-                light: found.disc.light[l],
-                squares: found.disc.squares[l],
-                offset: found.disc.offset.map(|row| row[l]),
-                moment: found.moment[l],
-            };
-        }
-    }
+    /// By packet.
+    pub(crate) lanes: &'a mut [Lanes],
+    pub(crate) entries: &'a mut Entries<LAYERS>,
+    pub(crate) sums: &'a mut BlockSums,
 }

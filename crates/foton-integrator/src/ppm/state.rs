@@ -160,6 +160,7 @@ impl Ppm {
         for radius_statistics in &mut hit_points.radius_statistics_slots {
             *radius_statistics = RadiusStatistics::read(input)?;
         }
+        hit_points.follow_radii();
         Ok(())
     }
 }

@@ -11,12 +11,11 @@ use super::light::Light;
 use super::lobes::LOBE_POLICY;
 use super::rule::Rule;
 use super::settings::RadiusRule;
-use super::slots::EarlierBatches;
 use super::sweep::{Photons, sweep};
 use super::tally::Tally;
 use super::under_way::{NextStep, UnderWay};
 use crate::by_block::ByBlock;
-use crate::error::{ErrorSums, PassFacts, Question};
+use crate::error::{PassFacts, Question};
 use crate::report::PassReport;
 
 /// Cells are marked again when the mean r² has shrunk by this factor since the last time.
@@ -39,7 +38,6 @@ impl Ppm {
         let photons = u64::from(once.photons.unwrap_or(scheduled).get());
         self.guidance.begin_pass();
         let batches: Vec<Batch> = Batch::all(photons, self.max_in_batch).collect();
-        self.make_room_for_batches(batches.len() > 1);
         let counts = Counts {
             ledger: self.ledger,
             lights: self.lights.clone(),
@@ -51,14 +49,6 @@ impl Ppm {
             left_out: None,
         };
         UnderWay::new(counts, self.settings.ppm.alpha, batches, once)
-    }
-
-    /// Makes room for what the batches of a pass leave for the last one, if it has several.
-    pub(crate) fn make_room_for_batches(&mut self, has_several: bool) {
-        let slots = self.hit_points.statistics_slots.len();
-        let adapts = !self.hit_points.radius_statistics_slots.is_empty();
-        self.earlier =
-            if has_several { EarlierBatches::of(slots, adapts) } else { EarlierBatches::default() };
     }
 
     /// Whether photons can add light to surfaces: not where only shadow rays light them.
@@ -150,6 +140,7 @@ impl Ppm {
         let common = self.settings.ppm.radius_rule.common(alpha, before, pass.counts.photons);
         let rule = Rule {
             alpha,
+            error: self.error.is_some(),
             adapts: self.settings.ppm.radius_rule == RadiusRule::Adaptive,
             // Hit points of a single pass only count: their pixels' radii shrink once it is whole.
             common: if self.renewal.is_some() { Some(1.0) } else { common },
@@ -157,17 +148,12 @@ impl Ppm {
             question: Question::after(self.passes),
             arch: self.arch,
         };
-        let moments = self.error.as_mut().map_or_else(Default::default, ErrorSums::moment_slots);
-        let (hit_points, earlier) = (&mut self.hit_points, &mut self.earlier);
+        let hit_points = &mut self.hit_points;
         let photons = Photons { map: &self.map, grid: &self.grid };
         let tallies = ByBlock { done: &mut pass.tallies, should_suspend };
         match &mut self.light {
-            Light::Whole(sums) => {
-                sweep(hit_points, photons, rule, sums.irradiance_slots(), moments, earlier, tallies);
-            }
-            Light::ByClass(sums) => {
-                sweep(hit_points, photons, rule, sums.irradiance_slots(), moments, earlier, tallies);
-            }
+            Light::Whole(sums) => sweep(hit_points, photons, rule, sums.arrived(), tallies),
+            Light::ByClass(sums) => sweep(hit_points, photons, rule, sums.arrived(), tallies),
         }
         let mut tally = Tally::default();
         for of_block in &pass.tallies {
@@ -226,9 +212,15 @@ impl Ppm {
         self.mark_cells(&tally);
         self.photons_emitted += photons;
         let power = if self.photons_add() { self.mean_power() } else { 0.0 };
+        let radii_shrink_alike = self.settings.ppm.radius_rule == RadiusRule::Global;
         if let Some(error) = &mut self.error {
-            let facts =
-                PassFacts { photons, power, question: Question::after(self.passes), before: self.passes };
+            let facts = PassFacts {
+                photons,
+                power,
+                question: Question::after(self.passes),
+                before: self.passes,
+                radii_shrink_alike,
+            };
             let apart = (self.direct.as_ref(), self.renewal.as_deref());
             self.light.add_error(error, &self.hit_points, apart, facts);
         }

@@ -1,26 +1,24 @@
 //! A batch of photons for all hit points: gathered packet by packet and, with the last batch of a pass, refined while a packet is at
-//! hand. A pass in several batches leaves its sums in the slots until the last one.
+//! hand. A pass in several batches leaves its sums in the entries until the last one. Packets that no photon is near are passed over.
 
+use foton_math::Aabb;
 use foton_transport::camera_paths::Gloss;
-use foton_transport::photon_map::{Grid, LANES, Packet, PhotonMap};
+use foton_transport::photon_map::{Grid, LANES, Packet, Photon, PhotonMap};
 use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
+use super::arrived::{Arrived, Lanes};
 use super::gather::{collect, collect_gloss};
-use super::hit_points::{HitPoints, Irradiance};
+use super::hit_points::{BLOCK, HitPoints};
 use super::refine::refine;
 use super::rule::Rule;
-use super::slots::{ClassTerm, EarlierBatches, Found, Slots};
+use super::slots::{ClassTerm, Found, Slots};
 use super::tally::Tally;
 use crate::by_block::ByBlock;
-use crate::error::SlotMoments;
 
 /// What is gathered beside light: nothing, or what the error is estimated from and radii that adapt go by.
 const NO_MOMENTS: bool = false;
 const MOMENTS: bool = true;
-
-/// Packets of one task.
-const BLOCK: usize = 256;
 
 /// The photons of a batch, and where they are found.
 #[derive(Clone, Copy)]
@@ -29,42 +27,22 @@ pub(super) struct Photons<'a> {
     pub(super) grid: &'a Grid,
 }
 
-/// Gathers the photons of a batch for all hit points. With the last batch of a pass they are refined, and `irradiance_slots`
-/// hold the pass's estimates; before, they and the other slots hold sums.
+/// Gathers the photons of a batch for all hit points. With the last batch of a pass they are refined, and `arrived` holds the pass's
+/// estimates; before, it holds sums.
 ///
-/// `LAYERS` is 3 to sum caustic and indirect light beside all of it, or 1. `moment_slots` get what the bias is estimated from, where
-/// there are any.
-/// `earlier` has room where a pass has more than one batch. `tallies` get what each block counts; where the work was suspended, blocks
-/// that have theirs are not gathered again.
+/// `LAYERS` is 3 to sum caustic and indirect light beside all of it, or 1. `tallies` get what each block counts; where the work was
+/// suspended, blocks that have theirs are not gathered again.
 pub(super) fn sweep<const LAYERS: usize>(
     hit_points: &mut HitPoints,
     photons: Photons<'_>,
     rule: Rule,
-    irradiance_slots: &mut [Irradiance<LAYERS>],
-    moment_slots: &mut [SlotMoments],
-    earlier: &mut EarlierBatches,
+    arrived: &mut Arrived<LAYERS>,
     tallies: ByBlock<'_, Tally>,
 ) {
     if hit_points.radius_statistics_slots.is_empty() {
-        sweep_with::<LAYERS, NO_MOMENTS>(
-            hit_points,
-            photons,
-            rule,
-            irradiance_slots,
-            moment_slots,
-            earlier,
-            tallies,
-        );
+        sweep_with::<LAYERS, NO_MOMENTS>(hit_points, photons, rule, arrived, tallies);
     } else {
-        sweep_with::<LAYERS, MOMENTS>(
-            hit_points,
-            photons,
-            rule,
-            irradiance_slots,
-            moment_slots,
-            earlier,
-            tallies,
-        );
+        sweep_with::<LAYERS, MOMENTS>(hit_points, photons, rule, arrived, tallies);
     }
 }
 
@@ -72,46 +50,31 @@ fn sweep_with<const LAYERS: usize, const MOMENTS: bool>(
     hit_points: &mut HitPoints,
     photons: Photons<'_>,
     rule: Rule,
-    irradiance_slots: &mut [Irradiance<LAYERS>],
-    moment_slots: &mut [SlotMoments],
-    earlier: &mut EarlierBatches,
+    arrived: &mut Arrived<LAYERS>,
     tallies: ByBlock<'_, Tally>,
 ) {
     let blocks = hit_points.packets.len().div_ceil(BLOCK);
-    let moments = by_block(moment_slots, blocks);
-    let (counts, discs) = (by_block(&mut earlier.counts, blocks), by_block(&mut earlier.discs, blocks));
     let radius_statistics = by_block(&mut hit_points.radius_statistics_slots, blocks);
     let shading = &hit_points.shading_normals;
     let (first_glossy, gloss_slots) = (hit_points.first_glossy, &hit_points.gloss_slots);
+    let kept = hit_points.statistics_slots.par_chunks_mut(BLOCK * LANES);
+    let kept = kept.zip(hit_points.smallest2_slots.par_chunks(BLOCK * LANES)).zip(radius_statistics);
+    let brought = arrived.lanes.par_chunks_mut(BLOCK).zip(&mut arrived.blocks);
     hit_points
         .packets
         .par_chunks_mut(BLOCK)
-        .zip(hit_points.statistics_slots.par_chunks_mut(BLOCK * LANES))
-        .zip(hit_points.smallest2_slots.par_chunks(BLOCK * LANES))
-        .zip(irradiance_slots.par_chunks_mut(BLOCK * LANES))
-        .zip(moments)
-        .zip(counts.into_par_iter().zip(discs))
-        .zip(radius_statistics)
+        .zip(hit_points.bounds.par_chunks_mut(BLOCK))
+        .zip(kept)
+        .zip(brought.zip(&mut hit_points.block_sums))
         .zip(tallies.places(blocks))
         .enumerate()
-        .for_each(
-            |(
-                block,
-                (
-                    (
-                        (((((packets, statistics), smallest2), irradiance), moments), (counts, discs)),
-                        radius_statistics,
-                    ),
-                    tally,
-                ),
-            )| {
-                let first = block * BLOCK;
-                let slots =
-                    Slots { statistics, smallest2, irradiance, moments, counts, discs, radius_statistics };
-                let block = Block { first, first_glossy, packets, slots, shading, gloss_slots };
-                tally.fill(|| rule.arch.dispatch(OfBlock::<LAYERS, MOMENTS> { block, photons, rule }));
-            },
-        );
+        .for_each(|(block, ((((packets, bounds), kept), ((lanes, entries), sums)), tally))| {
+            let ((statistics, smallest2), radius_statistics) = kept;
+            let slots = Slots { statistics, smallest2, radius_statistics, lanes, entries, sums };
+            let first = block * BLOCK;
+            let block = Block { first, first_glossy, packets, bounds, slots, shading, gloss_slots };
+            tally.fill(|| rule.arch.dispatch(OfBlock::<LAYERS, MOMENTS> { block, photons, rule }));
+        });
 }
 
 /// Slots in the shares of blocks; empty shares of none.
@@ -126,6 +89,7 @@ struct Block<'a, const LAYERS: usize> {
     first: usize,
     first_glossy: usize,
     packets: &'a mut [Packet],
+    bounds: &'a mut [Aabb],
     slots: Slots<'a, LAYERS>,
     shading: &'a [[[f32; LANES]; 3]],
     gloss_slots: &'a [Option<Gloss>],
@@ -149,49 +113,87 @@ impl<const LAYERS: usize, const MOMENTS: bool> WithSimd for OfBlock<'_, LAYERS, 
         let mut runs = Vec::new();
         // On the heap: else the compiler takes the sums apart into registers of the wrong shapes.
         let mut found = Box::new(Found::<LAYERS>::NONE);
-        let Block { first, first_glossy, packets, mut slots, shading, gloss_slots } = block;
-        for (i, packet) in packets.iter_mut().enumerate() {
+        let Block { first, first_glossy, packets, bounds, mut slots, shading, gloss_slots } = block;
+        let earlier = slots.entries.begin();
+        let has_photons = !rule.batch.is_closing() && !map.photons().is_empty();
+        for (i, (packet, bounds)) in packets.iter_mut().zip(bounds).enumerate() {
             let index = first + i;
             runs.clear();
-            if !rule.batch.is_closing() {
-                grid.for_each_run(&packet.bounds(), |first, end| runs.push((first, end)));
+            if has_photons {
+                grid.for_each_run(bounds, |first, end| {
+                    let photons = map.run(first, end);
+                    if !photons.is_empty() {
+                        runs.push(photons);
+                    }
+                });
+            }
+            let before = if rule.batch.is_first() { Lanes::default() } else { slots.lanes[i] };
+            slots.lanes[i] = Lanes::default();
+            if runs.is_empty() && before.is_none() && rule.common.is_none() {
+                continue;
             }
             *found = Found::NONE;
             let term = ClassTerm::new(rule.question, packet);
-            if let Some(glossy) = index.checked_sub(first_glossy) {
-                let gloss = &gloss_slots[glossy * LANES..(glossy + 1) * LANES];
-                for &(first, end) in &runs {
-                    let photons = map.run(first, end);
-                    collect_gloss::<LAYERS, MOMENTS>(packet, gloss, photons, &term, &mut found, &mut tally);
-                }
-            } else if let Some(normals) = shading.get(index) {
-                for &(first, end) in &runs {
-                    let photons = map.run(first, end);
-                    collect::<LAYERS, true, MOMENTS>(packet, normals, photons, &term, &mut found, &mut tally);
-                }
-            } else {
-                let normals = &[[0.0; LANES]; 3];
-                for &(first, end) in &runs {
-                    let photons = map.run(first, end);
-                    collect::<LAYERS, false, MOMENTS>(
-                        packet, normals, photons, &term, &mut found, &mut tally,
-                    );
-                }
+            let how = Weighing { index, first_glossy, shading, gloss_slots, term: &term };
+            collect_runs::<LAYERS, MOMENTS>(packet, &how, &runs, &mut found, &mut tally);
+            for (l, place) in before.each() {
+                found.add_earlier(l, &earlier[place]);
             }
-            let mut slots = slots.of_packet(i);
-            if !rule.batch.is_first() {
-                slots.add_earlier(&mut found);
-            }
+            slots.lanes[i] = slots.entries.next(found.lanes());
             if !rule.batch.is_last() {
-                slots.store(&found);
+                let sums = slots.lanes[i].each().map(|(l, _)| found.batch_sums(l));
+                slots.entries.sums.extend(sums);
                 continue;
             }
             if MOMENTS {
-                found.add_radius_statistics(packet, slots.radius_statistics);
+                let of_packet = i * LANES..(i + 1) * LANES;
+                found.add_radius_statistics(packet, &mut slots.radius_statistics[of_packet]);
             }
-            found.write_moments(packet, rule.question, slots.moments);
-            refine(packet, &found, slots, rule, &mut tally);
+            if refine((i, packet), &found, &mut slots, rule, &mut tally) {
+                *bounds = packet.bounds();
+            }
+        }
+        slots.entries.end();
+        if rule.batch.is_last() {
+            (tally.unknown, tally.radius2) = (slots.sums.unknown, slots.sums.radius2);
         }
         tally
+    }
+}
+
+/// How the hit points of a packet weigh photons.
+struct Weighing<'a> {
+    /// Of the packet.
+    index: usize,
+    first_glossy: usize,
+    shading: &'a [[[f32; LANES]; 3]],
+    gloss_slots: &'a [Option<Gloss>],
+    term: &'a ClassTerm,
+}
+
+/// Sums the photons of all runs of cells that a packet touches.
+#[inline(always)]
+fn collect_runs<const LAYERS: usize, const MOMENTS: bool>(
+    packet: &Packet,
+    how: &Weighing<'_>,
+    runs: &[&[Photon]],
+    found: &mut Found<LAYERS>,
+    tally: &mut Tally,
+) {
+    let &Weighing { index, first_glossy, shading, gloss_slots, term } = how;
+    if let Some(glossy) = index.checked_sub(first_glossy) {
+        let gloss = &gloss_slots[glossy * LANES..(glossy + 1) * LANES];
+        for photons in runs {
+            collect_gloss::<LAYERS, MOMENTS>(packet, gloss, photons, term, found, tally);
+        }
+    } else if let Some(normals) = shading.get(index) {
+        for photons in runs {
+            collect::<LAYERS, true, MOMENTS>(packet, normals, photons, term, found, tally);
+        }
+    } else {
+        let normals = &[[0.0; LANES]; 3];
+        for photons in runs {
+            collect::<LAYERS, false, MOMENTS>(packet, normals, photons, term, found, tally);
+        }
     }
 }

@@ -109,11 +109,6 @@ impl UnderWay {
         Once { photons: self.photons_once, batches: batches.filter(|_| is_cut) }
     }
 
-    /// Whether it has more than one batch.
-    pub(crate) const fn has_several_batches(&self) -> bool {
-        self.batches.len() > 1
-    }
-
     /// The batch that is to be worked on; `None` once all are done.
     pub(super) fn batch(&self) -> Option<Batch> {
         self.batches.get(self.done).copied()

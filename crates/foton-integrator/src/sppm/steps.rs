@@ -41,7 +41,6 @@ impl Ppm {
             self.lay_out_anew(paths, first_radius2, cancel)?;
         }
         pass.has_hit_points = true;
-        self.make_room_for_batches(pass.has_several_batches());
         self.halt_at(pass.counts.left_out)
     }
 
@@ -60,9 +59,6 @@ impl Ppm {
         let grid = Grid::new(&hit_points.packets, cancel)?;
         (self.hit_points, self.grid) = (hit_points, grid);
         self.light.make_room_for(&self.hit_points);
-        if let Some(error) = &mut self.error {
-            error.make_room_for(&self.hit_points);
-        }
         if let Some(renewal) = &mut self.renewal {
             renewal.take(paths.mean_emission(), first_radius2);
         }

@@ -15,7 +15,7 @@ use foton_input::shown_path;
 use listing::Entry;
 
 /// What scenes and meshes end in.
-pub(crate) const SCENES: &[&str] = &["xml", "gltf", "glb", "obj", "ply", "stl", "off"];
+pub(crate) const SCENES: &[&str] = &["xml", "pbrt", "gltf", "glb", "obj", "ply", "stl", "off"];
 
 /// What meshes end in.
 pub(crate) const MESHES: &[&str] = &["gltf", "glb", "obj", "ply", "stl", "off"];

@@ -64,8 +64,9 @@ impl Material {
         colours.into_iter()
     }
 
-    /// All textures that it looks up, for colours, numbers or normals.
-    pub(super) fn textures(&self) -> impl Iterator<Item = usize> {
+    /// All textures that it looks up itself, by index: for colours, numbers or normals. Those of materials that are blended with it are
+    /// not among them.
+    pub fn textures(&self) -> impl Iterator<Item = usize> {
         let mut numbers: Vec<Number> = self.mixture.iter().map(|blend| blend.weight).collect();
         for bsdf in self.bsdfs() {
             let _ = bsdf.map(|_| (), |n, _| numbers.push(n));

@@ -12,7 +12,7 @@ use super::parse::{duration, exr, name};
 #[derive(Debug, ClapArgs)]
 #[command(mut_arg("seed", |seed| seed.help("Seed of the eye samples; the runs' photons use the seeds after it")))]
 pub(crate) struct Measure {
-    /// Scene file to read: Mitsuba XML, glTF, OBJ, PLY, STL or OFF
+    /// Scene file to read: Mitsuba XML, pbrt, glTF, OBJ, PLY, STL or OFF
     pub(crate) scene: PathBuf,
     /// Output folder for tables and a page; an unfinished sweep there is continued
     #[arg(short, value_name = "DIR")]

@@ -29,7 +29,7 @@ pub(crate) use values::{ErrorWish, Every, Guide, Radius, Size};
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
-    /// Scene to open in the window: Mitsuba XML, glTF, OBJ, PLY, STL or OFF; without one, the scene that ships with foton. Where there can
+    /// Scene to open in the window: Mitsuba XML, pbrt, glTF, OBJ, PLY, STL or OFF; without one, the scene that ships with foton. Where there can
     /// be no window, it is rendered for a minute
     pub(crate) scene: Option<PathBuf>,
     #[command(flatten)]
@@ -74,7 +74,7 @@ pub(crate) struct Compare {
 /// `foton convert`.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Convert {
-    /// Scene file to read: Mitsuba XML, glTF, OBJ, PLY, STL or OFF
+    /// Scene file to read: Mitsuba XML, pbrt, glTF, OBJ, PLY, STL or OFF
     pub(crate) scene: PathBuf,
     /// Scene file to write; meshes and textures go into folders beside it
     #[arg(value_name = "OUT.xml", value_parser = name(xml))]
@@ -86,7 +86,7 @@ pub(crate) struct Convert {
 /// `foton info`.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Info {
-    /// Scene file: Mitsuba XML, glTF, OBJ, PLY, STL or OFF
+    /// Scene file: Mitsuba XML, pbrt, glTF, OBJ, PLY, STL or OFF
     pub(crate) scene: PathBuf,
     #[command(flatten)]
     pub(crate) scene_options: SceneOptions,

@@ -17,7 +17,7 @@ use super::values::{ErrorWish, Every, Integrator, PresetName, Show, ToneMapName}
 /// `foton render`.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct RenderArgs {
-    /// Scene file: Mitsuba XML, glTF, OBJ, PLY, STL or OFF
+    /// Scene file: Mitsuba XML, pbrt, glTF, OBJ, PLY, STL or OFF
     pub(crate) scene: PathBuf,
     /// Image to write, .exr (linear radiance) or .png (tone-mapped). Symbolic links are followed, even to files that do not exist
     /// yet; input files are never overwritten

@@ -1,11 +1,12 @@
 //! Wavefront OBJ to positions, normals, texture coordinates and triangles by index. Groups and curves are not
-//! read; materials are kept by name.
+//! read; materials are kept by name. Colours of vertices (`v x y z r g b`) are read.
 //!
 //! Our own reader, because errors must name the line. Two passes over the bytes: the first counts, so that the
 //! second allocates once and can check every index where it stands. What exporters get wrong and what can be done
 //! without is mended or left out, counted and warned of: normals and texture coordinates that are no numbers, faces of
 //! fewer than three corners.
 
+mod colours;
 mod kind;
 mod parser;
 #[cfg(test)]
@@ -24,6 +25,8 @@ pub(crate) const TEXTURES_MENDED: &str = "not finite and taken as zero";
 /// The contents of a file, still by index.
 pub(crate) struct Obj {
     pub(crate) positions: Vec<DVec3>,
+    /// Linear colours of the positions; none where no position has one.
+    pub(crate) colours: Vec<[f32; 3]>,
     pub(crate) normals: Vec<DVec3>,
     /// Texture coordinates, v upwards as a rule.
     pub(crate) textures: Vec<DVec2>,

@@ -3,6 +3,7 @@
 use foton_math::Cancel;
 use foton_math::glam::{DVec2, DVec3};
 
+use super::colours::Colours;
 use super::kind::is_of_kind;
 use super::{Corner, LEFT_OUT, NORMALS_MENDED, Obj, TEXTURES_MENDED};
 use crate::diagnostic::Place;
@@ -37,8 +38,10 @@ impl Obj {
             bad_normal: None,
             bad_textures: Tally::default(),
             problems: Vec::new(),
+            colours: Colours::default(),
             obj: Self {
                 positions: Vec::with_capacity(totals.positions),
+                colours: Vec::new(),
                 normals: Vec::with_capacity(totals.normals),
                 textures: Vec::with_capacity(totals.textures),
                 triangles: Vec::with_capacity(totals.faces),
@@ -110,6 +113,7 @@ struct Parser {
     bad_normal: Option<Place>,
     bad_textures: Tally,
     problems: Vec<Problem>,
+    colours: Colours,
     obj: Obj,
 }
 
@@ -119,6 +123,9 @@ impl Parser {
         match keyword.text {
             b"v" => {
                 let position = vector(keyword, words);
+                if position.is_ok() {
+                    self.colours.note(self.obj.positions.len(), words, self.totals.positions);
+                }
                 // Keeps the count right for later faces even if the numbers are bad.
                 self.obj.positions.push(position.as_ref().map_or(DVec3::ZERO, |p| *p));
                 position.map(|_| ())
@@ -173,7 +180,8 @@ impl Parser {
 
     /// The file, its polygons and normals mended.
     fn finish(self, cancel: &Cancel) -> Obj {
-        let Self { mut obj, polygons, short_faces, bad_normal, bad_textures, .. } = self;
+        let Self { mut obj, colours, polygons, short_faces, bad_normal, bad_textures, .. } = self;
+        obj.colours = colours.finish(obj.positions.len());
         let positions = std::mem::take(&mut obj.positions);
         let mended = polygons.mend(&mut obj.triangles, |corner| positions[corner.position as usize], cancel);
         obj.positions = positions;

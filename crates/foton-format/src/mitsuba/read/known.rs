@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use foton_scene::description::{Bsdf, Coating, Colour, Number, Relief};
 
+use crate::diagnostic::Place;
 use crate::image::Purpose;
 use crate::mitsuba::document::NodeId;
 
@@ -67,4 +68,8 @@ pub(crate) struct Textures {
     pub(crate) open: Vec<NodeId>,
     /// Textures that were read.
     pub(crate) used: HashSet<NodeId>,
+    /// Where those of the description stand.
+    pub(crate) places: HashMap<usize, Place>,
+    /// Textures of what a mesh does not state, with the file of the mesh, that were reported.
+    pub(crate) lacking: HashSet<(usize, String)>,
 }

@@ -11,6 +11,7 @@ mod instances;
 pub(crate) mod integrator;
 pub(crate) mod known;
 pub(crate) mod materials;
+mod mesh_attributes;
 pub(crate) mod metals;
 pub(crate) mod properties;
 pub(crate) mod reader;

@@ -60,7 +60,7 @@ impl Object<'_> {
 }
 
 /// A value with the place where it is written.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Located<T> {
     pub(crate) value: T,
     pub(crate) place: Place,

@@ -61,7 +61,8 @@ impl Reader<'_> {
         if let Some(keyframes) = keyframes.flatten() {
             self.motion_of_shape(keyframes, &geometry, place);
         }
-        if self.document.is_hidden(node) {
+        let is_hidden = self.document.is_hidden(node);
+        if is_hidden {
             self.description.hidden.shapes.insert(self.description.shapes.len());
         }
         self.description.shapes.push(ShapeDescription {
@@ -72,6 +73,9 @@ impl Reader<'_> {
             material,
             radiance,
         });
+        if !is_hidden {
+            self.check_attributes(node);
+        }
     }
 
     /// How the shape that is read next moves.

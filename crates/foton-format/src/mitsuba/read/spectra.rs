@@ -189,7 +189,7 @@ fn kelvin(text: &str) -> Result<f64, String> {
 }
 
 /// The index of refraction that a file's name tells: `Cu.eta.spd` or `Cu.k.spd`, in whatever folder.
-fn index_by_name(filename: &str) -> Option<Rgb> {
+pub(crate) fn index_by_name(filename: &str) -> Option<Rgb> {
     let name = filename.rsplit(['/', '\\']).next()?;
     let stem = Path::new(name).file_stem()?.to_str()?;
     let (metal, part) = stem.rsplit_once('.')?;

@@ -65,6 +65,20 @@ impl Spectrum {
         Ok(Self(points))
     }
 
+    /// The same with its first and its last value beyond its ends, over all that is visible.
+    pub(crate) fn held_at_ends(mut self) -> Self {
+        let (low, high) = (f64::from(FIRST_NM) - 1.0, f64::from(FIRST_NM + 5 * TABLE.len() as u32));
+        if self.0[0].0 > low {
+            self.0.insert(0, (low, self.0[0].1));
+        }
+        if let Some(&(last, value)) = self.0.last()
+            && last < high
+        {
+            self.0.push((high, value));
+        }
+        self
+    }
+
     /// Whether a value is below zero.
     pub(crate) fn has_negative(&self) -> bool {
         self.0.iter().any(|(_, value)| *value < 0.0)
@@ -111,7 +125,8 @@ fn observer(nm: u32) -> [f64; 4] {
     std::array::from_fn(|i| TABLE[low][i] + (TABLE[high][i] - TABLE[low][i]) * share)
 }
 
-fn xyz_to_srgb(c: DVec3) -> DVec3 {
+/// Linear sRGB of CIE XYZ; channels outside the gamut are below zero or above 1.
+pub(crate) fn xyz_to_srgb(c: DVec3) -> DVec3 {
     DVec3::new(
         DVec3::new(3.240_479, -1.537_150, -0.498_535).dot(c),
         DVec3::new(-0.969_256, 1.875_991, 0.041_556).dot(c),

@@ -13,8 +13,8 @@ use crate::mitsuba::read::properties::Properties;
 use crate::mitsuba::read::reader::Reader;
 
 /// Absorption by a unit of each pigment of hair. `[CBTB16]`
-const EUMELANIN: Rgb = Rgb::new(0.419, 0.697, 1.37);
-const PHEOMELANIN: Rgb = Rgb::new(0.187, 0.4, 1.05);
+pub(crate) const EUMELANIN: Rgb = Rgb::new(0.419, 0.697, 1.37);
+pub(crate) const PHEOMELANIN: Rgb = Rgb::new(0.187, 0.4, 1.05);
 
 /// Diffuse reflectance of substances by name. `[JMLH01]` figure 5
 const SUBSTANCES: &[(&str, Rgb)] = &[
@@ -127,13 +127,11 @@ impl Reader<'_> {
     /// A smooth coat over what much scattering reflects.
     fn skin(&mut self, p: &mut Properties<'_>) -> Option<Bsdf> {
         let int_ior = self.refraction(p, &Parameter::refraction("int_ior", 1.3))?;
-        let substance = p.string("material", &mut self.report).map(|found| found.value.to_lowercase());
-        let known =
-            |name: &str| SUBSTANCES.iter().find(|(known, _)| *known == name).map(|(_, colour)| *colour);
-        let colour = match (self.albedo(p), substance) {
+        let named = p.string("material", &mut self.report).map(|found| found.value.to_lowercase());
+        let colour = match (self.albedo(p), named) {
             (Some(albedo), _) => albedo.map(|albedo| much_scattering(albedo, int_ior)),
-            (None, Some(name)) => known(&name).unwrap_or(Rgb::splat(0.5)),
-            (None, None) => known(SUBSTANCE)?,
+            (None, Some(name)) => substance(&name).unwrap_or(Rgb::splat(0.5)),
+            (None, None) => substance(SUBSTANCE)?,
         };
         Some(coated(colour, int_ior, None))
     }
@@ -155,6 +153,11 @@ impl Reader<'_> {
     }
 }
 
+/// The diffuse reflectance of a substance by its name in lower case.
+pub(crate) fn substance(name: &str) -> Option<Rgb> {
+    SUBSTANCES.iter().find(|(known, _)| *known == name).map(|(_, colour)| *colour)
+}
+
 fn coated(base: Rgb, int_ior: f32, roughness: Option<Microfacets>) -> Bsdf {
     Bsdf::Plastic(Plastic {
         int_ior,
@@ -167,14 +170,14 @@ fn coated(base: Rgb, int_ior: f32, roughness: Option<Microfacets>) -> Bsdf {
 }
 
 /// The colour of many fibres that absorb so much, by their azimuthal roughness. `[CBTB16]` equation 9
-fn fibres(absorption: Rgb, roughness: f32) -> Rgb {
+pub(crate) fn fibres(absorption: Rgb, roughness: f32) -> Rgb {
     let powers = [5.969, -0.215, 2.532, -10.73, 5.574, 0.245];
     let scale: f32 = powers.into_iter().rev().fold(0.0, |sum, c| sum * roughness + c);
     absorption.map(|sigma| (-sigma.sqrt() * scale).exp())
 }
 
 /// Diffuse reflectance of a half space that scatters this share of light at each meeting. `[JMLH01]` equation 15
-fn much_scattering(albedo: f32, ior: f32) -> f32 {
+pub(crate) fn much_scattering(albedo: f32, ior: f32) -> f32 {
     let inverse = 1.0 / ior;
     let inside = -1.44 * inverse * inverse + 0.71 * inverse + 0.668 + 0.0636 * ior;
     let boundary = (1.0 + inside) / (1.0 - inside);

@@ -74,6 +74,7 @@ impl Reader<'_> {
             return Some(index);
         }
         let index = self.description.textures.len();
+        self.textures.places.insert(index, object.element.place);
         let plugin = object.element.attribute("type").map_or("texture", |t| &t.value);
         let name = self.name(object.element, plugin, index + 1);
         self.description.textures.push(Texture { name, to_uv, kind });

@@ -48,7 +48,9 @@ impl<'a> Changes<'a> {
         for (i, (old, new)) in old.materials.iter().zip(&new.materials).enumerate() {
             if old.scatters_differently(new) {
                 let node = self.scene.nodes.materials.get(i).copied().flatten();
-                let node = self.own(node, "bsdf", &old.name)?;
+                // What scatters light below a surface goes where another material takes the place of its stand-in.
+                let node =
+                    self.own(node, "bsdf", &old.name).or_else(|_| self.own(node, "subsurface", &old.name))?;
                 materials::change(&mut self.document, node, old, new)?;
             }
         }
@@ -284,6 +286,7 @@ impl<'a> Changes<'a> {
     ) -> Result<(), Obstacle> {
         if let Some(id) = self.id_of_material(new.material) {
             let reference = self.document.build("ref", &[("id", &id)], Vec::new())?;
+            self.replace_object(node, "subsurface", None);
             self.replace_object(node, "bsdf", Some(reference));
             return Ok(());
         }
@@ -308,6 +311,7 @@ impl<'a> Changes<'a> {
             element.attributes.retain(|a| a.name != "name");
         }
         self.document.set_attribute(copy, "id", &id.replace('$', "\\$"));
+        self.replace_object(node, "subsurface", None);
         self.replace_object(node, "bsdf", Some(copy));
         if source.is_some() { materials::change(&mut self.document, copy, before, after) } else { Ok(()) }
     }

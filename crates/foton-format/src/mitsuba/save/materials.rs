@@ -2,6 +2,7 @@
 
 use foton_scene::description::{Bsdf, Colour, Material, Number};
 use foton_scene::parameter::{Binding, Kind, Parameter, Slot};
+use foton_scene::plugins::stand_ins;
 use foton_scene::plugins::wrappers::{self, OPACITY};
 
 use super::tree::Obstacle;
@@ -130,6 +131,8 @@ fn inside(document: &Document, node: NodeId) -> Option<Vec<NodeId>> {
 
 fn change_side(document: &mut Document, node: NodeId, old: &Bsdf, new: &Bsdf) -> Option<()> {
     let node = first_inside(document, node)?;
+    // What a stand-in was made of has other parameters.
+    stand_ins::find(&kind(document, node)?).is_none().then_some(())?;
     (std::mem::discriminant(old) == std::mem::discriminant(new)).then_some(())?;
     // The file's own name of the plugin may be another one that means the same.
     if old.plugin() != new.plugin() {

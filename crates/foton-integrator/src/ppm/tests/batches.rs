@@ -2,6 +2,7 @@
 //! rounding, and the same bits on any number of threads.
 
 use std::num::NonZeroU32;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use foton_film::LayerData;
 use foton_math::Rgb;
@@ -212,9 +213,14 @@ fn memory_does_not_grow_with_photons_beyond_a_batch() {
 #[test]
 fn batches_end_when_passes_are_small_again() {
     let mut ppm = start(settings(), MAX);
-    advance(&mut ppm);
-    assert!(!ppm.earlier.counts.is_empty());
-    let ppm = &mut ppm.with_batches_of(u64::MAX);
-    advance(ppm);
-    assert!(ppm.earlier.bytes() == 0, "what one batch needs is no more than before");
+    let (traced, mut between) = (AtomicU32::new(0), 0);
+    let mut watch = |stage| {
+        traced.fetch_add(u32::from(stage == Stage::Trace), Ordering::Relaxed);
+    };
+    // In the second batch, as long as it has not been gone on with.
+    while ppm.advance(&mut watch, &Cancel::default(), &|| traced.load(Ordering::Relaxed) == 2).is_err() {
+        between = between.max(ppm.light.bytes_between_batches());
+    }
+    assert!(between > 0, "the second batch begins with what the first has left");
+    assert_eq!(ppm.light.bytes_between_batches(), 0, "what one batch needs is no more than before");
 }

@@ -6,6 +6,7 @@ mod eye_samples;
 mod instruction_sets;
 mod paths;
 mod suspending;
+mod unlit;
 
 use super::algorithm::Ppm;
 

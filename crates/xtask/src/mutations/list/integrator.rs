@@ -63,7 +63,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "what earlier batches say of radii is added",
         file: "crates/foton-integrator/src/ppm/slots.rs",
-        from: "found.disc.squares[l] += earlier.squares;",
+        from: "self.disc.squares[l] += earlier.squares;",
         to: "",
         target: INTEGRATOR,
         test: "radii_that_adapt_do_so_by_all_batches_of_a_pass",
