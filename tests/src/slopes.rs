@@ -57,8 +57,13 @@ pub fn scene() -> Sketch {
         .max_depth(2);
     // Straight down; no photon of a cone of 60° misses what the camera sees by much.
     let to_world = DAffine3::from_cols(DVec3::X, DVec3::Z, -DVec3::Y, DVec3::new(0.0, 0.8, 0.0));
-    let kind =
-        EmitterKind::Spot { to_world, intensity: Rgb::WHITE, cutoff_degrees: 60.0, beam_degrees: 60.0 };
+    let kind = EmitterKind::Spot {
+        to_world,
+        intensity: Rgb::WHITE,
+        cutoff_degrees: 60.0,
+        beam_degrees: 60.0,
+        texture: None,
+    };
     sketch.0.emitters.push(EmitterDescription { name: "spot".into(), kind });
     sketch.0.sensors[0].near_clip = Some(1.7);
     sketch

@@ -211,7 +211,13 @@ fn beams_and_what_hardly_sees_an_emitter_get_direct_light_by_photons() {
         let mut sketch = lamps();
         let to_world = DAffine3::from_rotation_translation(DQuat::from_rotation_x(PI / 2.0), DVec3::Y);
         let (cutoff_degrees, beam_degrees) = (degrees, degrees);
-        let kind = EmitterKind::Spot { to_world, intensity: Rgb::WHITE, cutoff_degrees, beam_degrees };
+        let kind = EmitterKind::Spot {
+            to_world,
+            intensity: Rgb::WHITE,
+            cutoff_degrees,
+            beam_degrees,
+            texture: None,
+        };
         sketch.0.emitters.push(EmitterDescription { name: "spot".into(), kind });
         sketch
     };

@@ -288,6 +288,7 @@ fn a_mirror_whose_normals_lean_too_far_swallows_no_light() {
         intensity: Rgb::WHITE,
         cutoff_degrees: 1.0,
         beam_degrees: 0.5,
+        texture: None,
     });
     let escaped = beam.ledger().escaped / beam.ledger().emitted;
     let expected = 10f64.to_radians().sin() / height.sin();

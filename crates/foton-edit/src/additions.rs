@@ -188,7 +188,7 @@ fn light(thing: NewThing, site: Site) -> EmitterKind {
         NewThing::SpotLight => {
             let turn = site.stand(DVec3::NEG_Z);
             let to_world = DAffine3::from_mat3_translation(turn, site.above(HIGH));
-            EmitterKind::Spot { to_world, intensity, cutoff_degrees: 25.0, beam_degrees: 18.0 }
+            EmitterKind::Spot { to_world, intensity, cutoff_degrees: 25.0, beam_degrees: 18.0, texture: None }
         }
         NewThing::Sun => {
             let direction = -site.up.direction(FRAC_PI_4, FRAC_PI_4);

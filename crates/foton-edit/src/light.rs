@@ -6,9 +6,9 @@ use foton_math::Rgb;
 use foton_math::glam::{DMat3, DQuat, DVec3};
 use foton_scene::description::{Colour, EmitterKind, ShapeDescription};
 use foton_scene::parameter::Parameter;
-use foton_scene::plugins::emitters;
+use foton_scene::plugins::{emitters, sensors};
 
-use super::camera::UpAxis;
+use super::camera::{FOV_RANGE, UpAxis};
 use super::field::{FieldId, Fields, Value};
 use super::geometry;
 
@@ -87,7 +87,7 @@ pub(crate) fn set_surface(shape: &mut ShapeDescription, field: FieldId, value: V
 fn watts(kind: &EmitterKind) -> Option<f64> {
     match *kind {
         EmitterKind::Point { .. } => Some(4.0 * PI),
-        EmitterKind::Spot { cutoff_degrees, beam_degrees, .. } => {
+        EmitterKind::Spot { cutoff_degrees, beam_degrees, texture: None, .. } => {
             Some(spot_solid_angle(cutoff_degrees, beam_degrees))
         }
         _ => None,
@@ -95,24 +95,13 @@ fn watts(kind: &EmitterKind) -> Option<f64> {
 }
 
 /// The kind of a light in words.
-pub(crate) fn kind_name(kind: &EmitterKind) -> &'static str {
-    match kind {
-        EmitterKind::Point { .. } => emitters::POINT.label,
-        EmitterKind::Spot { .. } => emitters::SPOT.label,
-        EmitterKind::Constant { .. } => emitters::CONSTANT.label,
-        EmitterKind::Directional { .. } => emitters::DIRECTIONAL.label,
-        EmitterKind::Environment { .. } => emitters::ENVMAP.label,
-    }
+pub(crate) const fn kind_name(kind: &EmitterKind) -> &'static str {
+    emitters::of(kind).label
 }
 
 /// Where a light comes from, if it has a direction.
 fn origin(kind: &EmitterKind) -> Option<DVec3> {
-    let from = match kind {
-        EmitterKind::Spot { to_world, .. } => -to_world.matrix3.z_axis,
-        EmitterKind::Directional { direction, .. } => -*direction,
-        _ => return None,
-    };
-    from.try_normalize()
+    kind.axis().and_then(|axis| (-axis).try_normalize())
 }
 
 /// Appends the fields of a light without a surface, but its position.
@@ -143,6 +132,18 @@ pub(crate) fn fields(kind: &EmitterKind, up: UpAxis, out: &mut Fields) {
         EmitterKind::Directional { irradiance, .. } => {
             emission_fields(*irradiance, &emitters::IRRADIANCE, watts, out);
         }
+        EmitterKind::Projector { irradiance, scale, fov_degrees, .. } => {
+            if let Colour::Constant(c) = irradiance {
+                emission_fields(*c * *scale as f32, &emitters::PROJECTED, watts, out);
+            } else {
+                out.parameter(FieldId::Brightness, &emitters::PROJECTED_SCALE, *scale);
+            }
+            let fov = Parameter { range: FOV_RANGE, ..sensors::FOV };
+            out.parameter(FieldId::Cutoff, &fov, *fov_degrees);
+        }
+        EmitterKind::Goniometric { scale, .. } => {
+            out.parameter(FieldId::Brightness, &emitters::INTENSITY_SCALE, f64::from(*scale));
+        }
         EmitterKind::Environment { scale, .. } => {
             out.parameter(FieldId::Brightness, &emitters::SCALE, f64::from(*scale));
         }
@@ -171,7 +172,18 @@ pub(crate) fn set(kind: &mut EmitterKind, up: UpAxis, field: FieldId, value: Val
             *beam_degrees = beam_degrees.min(x);
         }
         (EmitterKind::Spot { beam_degrees, .. }, FieldId::Beam, Value::Number(x)) => *beam_degrees = x,
-        (EmitterKind::Environment { scale, .. }, FieldId::Brightness, Value::Number(x)) => *scale = x as f32,
+        (EmitterKind::Projector { fov_degrees, .. }, FieldId::Cutoff, Value::Number(x)) => *fov_degrees = x,
+        (EmitterKind::Projector { irradiance: Colour::Constant(light), scale, .. }, ..) => {
+            *light *= *scale as f32;
+            *scale = 1.0;
+            set_emission(light, watts, field, value);
+        }
+        (EmitterKind::Projector { scale, .. }, FieldId::Brightness, Value::Number(x)) => *scale = x,
+        (
+            EmitterKind::Environment { scale, .. } | EmitterKind::Goniometric { scale, .. },
+            FieldId::Brightness,
+            Value::Number(x),
+        ) => *scale = x as f32,
         (
             EmitterKind::Point { intensity: light, .. }
             | EmitterKind::Spot { intensity: light, .. }
@@ -179,14 +191,20 @@ pub(crate) fn set(kind: &mut EmitterKind, up: UpAxis, field: FieldId, value: Val
             | EmitterKind::Directional { irradiance: light, .. },
             ..,
         ) => set_emission(light, watts, field, value),
-        (EmitterKind::Environment { .. }, ..) => {}
+        (
+            EmitterKind::Projector { .. } | EmitterKind::Goniometric { .. } | EmitterKind::Environment { .. },
+            ..,
+        ) => {}
     }
 }
 
 /// Turns a light; whether it has a direction to turn.
 pub(crate) fn rotate(kind: &mut EmitterKind, rotation: DQuat) -> bool {
     match kind {
-        EmitterKind::Spot { to_world, .. } | EmitterKind::Environment { to_world, .. } => {
+        EmitterKind::Spot { to_world, .. }
+        | EmitterKind::Projector { to_world, .. }
+        | EmitterKind::Goniometric { to_world, .. }
+        | EmitterKind::Environment { to_world, .. } => {
             to_world.matrix3 = DMat3::from_quat(rotation) * to_world.matrix3;
         }
         EmitterKind::Directional { direction, .. } => *direction = rotation * *direction,

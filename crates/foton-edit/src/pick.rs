@@ -4,6 +4,7 @@ use foton_math::glam::{DVec2, DVec3, Vec2};
 use foton_scene::Scene;
 use foton_scene::description::{EmitterKind, SceneDescription};
 
+use super::light::kind_name;
 use super::target::Target;
 use super::view::View;
 
@@ -55,19 +56,15 @@ pub fn pick_light(description: &SceneDescription, sensor: usize, film: [f64; 2])
         .filter(|(_, at)| reach(*at) <= MARKER_REACH)
         .min_by(|a, b| reach(a.1).total_cmp(&reach(b.1)))?;
     let emitter = &description.emitters[index];
-    let (position, material) = match &emitter.kind {
-        EmitterKind::Point { position, .. } => (*position, "point light"),
-        EmitterKind::Spot { to_world, .. } => (to_world.translation, "spot light"),
-        _ => {
-            let (eye, direction) = view.ray(at);
-            (eye + direction, "directional light")
-        }
-    };
+    let position = emitter.kind.position().unwrap_or_else(|| {
+        let (eye, direction) = view.ray(at);
+        eye + direction
+    });
     let away = position - view.eye_of(position);
     Some(Picked {
         target: Target::Emitter(index),
         name: emitter.name.clone(),
-        material: material.to_owned(),
+        material: kind_name(&emitter.kind).to_owned(),
         position: position.to_array(),
         distance: away.length(),
         normal: (-away).normalize_or_zero().to_array(),
@@ -103,11 +100,11 @@ pub fn focus_distance(scene: &Scene, sensor: usize) -> f64 {
 /// Where the marker of a light stands; a directional light's where its light comes from.
 pub(crate) fn marker_position(description: &SceneDescription, emitter: usize, view: &View) -> Option<DVec2> {
     let visible = |at: &DVec2| at.cmpge(DVec2::ZERO).all() && at.cmple(view.film).all();
-    let at = match &description.emitters.get(emitter)?.kind {
-        EmitterKind::Point { position, .. } => view.project(*position),
-        EmitterKind::Spot { to_world, .. } => view.project(to_world.translation),
-        EmitterKind::Directional { direction, .. } => view.project_direction(-*direction),
-        EmitterKind::Constant { .. } | EmitterKind::Environment { .. } => None,
+    let kind = &description.emitters.get(emitter)?.kind;
+    let at = match (kind.position(), kind) {
+        (Some(position), _) => view.project(position),
+        (None, EmitterKind::Directional { direction, .. }) => view.project_direction(-*direction),
+        (None, _) => None,
     };
     at.filter(visible)
 }
@@ -117,11 +114,7 @@ pub(crate) fn marker_position(description: &SceneDescription, emitter: usize, vi
 pub fn anchor(description: &SceneDescription, target: Target) -> Option<DVec3> {
     match target {
         Target::Shape(i) => Some(super::geometry::centre(description.shapes.get(i)?)),
-        Target::Emitter(i) => match &description.emitters.get(i)?.kind {
-            EmitterKind::Point { position, .. } => Some(*position),
-            EmitterKind::Spot { to_world, .. } => Some(to_world.translation),
-            _ => None,
-        },
+        Target::Emitter(i) => description.emitters.get(i)?.kind.position(),
         Target::Sensor(_) => None,
     }
 }

@@ -26,10 +26,8 @@ pub(crate) fn translate(
         }
         Target::Emitter(i) => {
             let emitter = description.emitters.get_mut(i).ok_or(EditError::NoTarget)?;
-            let position = match &mut emitter.kind {
-                EmitterKind::Point { position, .. } => position,
-                EmitterKind::Spot { to_world, .. } => &mut to_world.translation,
-                _ => return Err(EditError::CannotMove(emitter.name.clone())),
+            let Some(position) = emitter.kind.position_mut() else {
+                return Err(EditError::CannotMove(emitter.name.clone()));
             };
             *position += by;
             finite(*position)
@@ -102,19 +100,17 @@ pub(crate) fn scale(
     finite(geometry::centre(shape))
 }
 
-/// The way a light shines that can be aimed: a spot, or a shape that emits to one side.
+/// The way a light shines that can be aimed: a spot or the like, or a shape that emits to one side.
 pub(crate) fn aim_of(description: &SceneDescription, target: Target) -> Option<(DVec3, DVec3)> {
     match target {
         Target::Shape(i) => {
             let shape = description.shapes.get(i).filter(|s| s.radiance.is_some())?;
             Some((geometry::centre(shape), geometry::facing(shape)?))
         }
-        Target::Emitter(i) => match &description.emitters.get(i)?.kind {
-            EmitterKind::Spot { to_world, .. } => {
-                Some((to_world.translation, to_world.matrix3.z_axis.try_normalize()?))
-            }
-            _ => None,
-        },
+        Target::Emitter(i) => {
+            let kind = &description.emitters.get(i)?.kind;
+            Some((kind.position()?, kind.axis()?.try_normalize()?))
+        }
         Target::Sensor(_) => None,
     }
 }

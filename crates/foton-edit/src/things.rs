@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use foton_math::glam::DVec3;
-use foton_scene::description::{EmitterKind, Hidden, SceneDescription};
+use foton_scene::description::{Hidden, SceneDescription};
 
 use super::edit_error::EditError;
 use super::target::Target;
@@ -69,9 +69,7 @@ pub(crate) fn hide(description: &mut SceneDescription, target: Target, hide: boo
 
 /// Whether a light all around may be added.
 pub(crate) fn check_sky(description: &SceneDescription) -> Result<(), EditError> {
-    let is_around =
-        |kind: &EmitterKind| matches!(kind, EmitterKind::Constant { .. } | EmitterKind::Environment { .. });
-    let any = description.emitters.iter().any(|e| is_around(&e.kind));
+    let any = description.emitters.iter().any(|e| e.kind.is_around());
     if any { Err(EditError::OneSky) } else { Ok(()) }
 }
 
@@ -91,7 +89,7 @@ pub(crate) fn duplicate(
         }
         Target::Emitter(i) => {
             let kind = &description.emitters[i].kind;
-            if matches!(kind, EmitterKind::Constant { .. } | EmitterKind::Environment { .. }) {
+            if kind.is_around() {
                 return Err(EditError::OneSky);
             }
             description.emitters.push(description.emitters[i].clone());

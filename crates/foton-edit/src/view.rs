@@ -3,7 +3,7 @@
 //! The same camera as [`foton_scene::Sensor`], in double precision and both ways.
 
 use foton_math::glam::{DVec2, DVec3};
-use foton_scene::description::{FovAxis, Projection, SensorDescription};
+use foton_scene::description::{Projection, SensorDescription};
 
 /// A camera that projects.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,13 +25,7 @@ pub(crate) struct View {
 impl View {
     pub(crate) fn new(sensor: &SensorDescription) -> Self {
         let film = DVec2::new(f64::from(sensor.width), f64::from(sensor.height));
-        let spanned = match sensor.fov_axis {
-            FovAxis::X => film.x,
-            FovAxis::Y => film.y,
-            FovAxis::Diagonal => film.length(),
-            FovAxis::Smaller => film.min_element(),
-            FovAxis::Larger => film.max_element(),
-        };
+        let spanned = sensor.fov_axis.spanned(film.to_array());
         let m = sensor.to_world.matrix3;
         let half = match sensor.projection {
             Projection::Perspective => film * ((sensor.fov_degrees.to_radians() * 0.5).tan() / spanned),

@@ -22,6 +22,7 @@ mod excerpt;
 mod files;
 mod gltf;
 mod hash;
+mod ies;
 mod image;
 mod limits;
 mod mesh;

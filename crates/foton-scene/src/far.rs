@@ -97,7 +97,9 @@ impl Scene {
         // Of all directions of a photon, the share of those within a cone of that half-angle is the square of its half's sine.
         let (position, share_of_all) = match &emitter.kind {
             Kind::Point(point) => (point.position, 1.0),
-            Kind::Spot(spot) => (spot.position, f64::from(spot.cutoff * 0.5).sin().powi(2)),
+            Kind::Spot(spot) => (spot.position, f64::from(spot.cone.cutoff * 0.5).sin().powi(2)),
+            Kind::Beam(beam) => (beam.position, f64::from(beam.reach() * 0.5).sin().powi(2)),
+            Kind::Goniometric(lamp) => (lamp.position, 1.0),
             _ => return None,
         };
         let times = self.half_diagonals(position);
@@ -107,6 +109,8 @@ impl Scene {
         let intensity = match &emitter.kind {
             Kind::Point(point) => point.intensity,
             Kind::Spot(spot) => spot.intensity * spot.falloff(towards),
+            Kind::Beam(beam) => beam.intensity(towards),
+            Kind::Goniometric(lamp) => lamp.map.radiance(towards),
             _ => return None,
         };
         if near || intensity.is_black() {

@@ -249,11 +249,9 @@ fn tan_of_half_width(description: &SensorDescription) -> f64 {
     let (width, height) = (f64::from(description.width), f64::from(description.height));
     let half = (description.fov_degrees.to_radians() * 0.5).tan();
     match description.fov_axis {
+        // Not by way of its width, for the last bit.
         FovAxis::X => half,
-        FovAxis::Y => half * width / height,
-        FovAxis::Diagonal => half * width / width.hypot(height),
-        FovAxis::Smaller => half * width / width.min(height),
-        FovAxis::Larger => half * width / width.max(height),
+        axis => half * width / axis.spanned([width, height]),
     }
 }
 

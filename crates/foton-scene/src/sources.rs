@@ -191,10 +191,14 @@ fn targets(balls: &[Ball; SEEN.len()], casters: Option<Ball>, scene_radius: f32)
 /// Approximately the share of an emitter's power that reaches a ball.
 fn arrives(emitter: &Emitter, ball: &Ball) -> f32 {
     let from = |position: Vec3| (ball.radius / position.distance(ball.centre)).powi(2).min(1.0);
+    let within =
+        |position: Vec3, cone: f32| (from(position) / cone.sin().powi(2).max(f32::MIN_POSITIVE)).min(1.0);
     match &emitter.kind {
         Kind::Area(area) => from(area.middle()),
         Kind::Point(point) => from(point.position),
-        Kind::Spot(spot) => (from(spot.position) / spot.cutoff.sin().powi(2).max(f32::MIN_POSITIVE)).min(1.0),
+        Kind::Spot(spot) => within(spot.position, spot.cone.cutoff),
+        Kind::Beam(beam) => within(beam.position, beam.reach()),
+        Kind::Goniometric(lamp) => from(lamp.position),
         Kind::Constant(Constant { scene, .. })
         | Kind::Directional(Directional { scene, .. })
         | Kind::Environment(Environment { scene, .. }) => (ball.radius / scene.radius).powi(2),

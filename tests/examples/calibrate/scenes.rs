@@ -49,7 +49,13 @@ fn narrow_lights(side: u32) -> Sketch {
         // A radius of two fifths of a pixel on the floor, three metres below.
         let degrees = (0.8 * to_floor / f64::from(side) / 3.0).atan().to_degrees();
         let (cutoff_degrees, beam_degrees) = (degrees, degrees);
-        let kind = EmitterKind::Spot { to_world, intensity: Rgb::WHITE, cutoff_degrees, beam_degrees };
+        let kind = EmitterKind::Spot {
+            to_world,
+            intensity: Rgb::WHITE,
+            cutoff_degrees,
+            beam_degrees,
+            texture: None,
+        };
         sketch.0.emitters.push(EmitterDescription { name: format!("beam {i}"), kind });
     }
     sketch

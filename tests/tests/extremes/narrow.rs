@@ -17,8 +17,13 @@ fn spot(degrees: f64, x: f64, z: f64) -> Sketch {
         .max_depth(2);
     let down = DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2);
     let to_world = DAffine3::from_rotation_translation(down, DVec3::new(x, 3.0, z));
-    let kind =
-        EmitterKind::Spot { to_world, intensity: Rgb::WHITE, cutoff_degrees: degrees, beam_degrees: degrees };
+    let kind = EmitterKind::Spot {
+        to_world,
+        intensity: Rgb::WHITE,
+        cutoff_degrees: degrees,
+        beam_degrees: degrees,
+        texture: None,
+    };
     sketch.0.emitters.push(EmitterDescription { name: "spot".into(), kind });
     sketch
 }

@@ -105,7 +105,8 @@ fn shadow_rays_do_not_make_indirect_light_known() {
     let to_world =
         DAffine3::from_rotation_translation(DQuat::from_rotation_x(1.2), DVec3::new(0.0, 0.9, 0.0));
     let (cutoff_degrees, beam_degrees) = (50.0, 50.0);
-    let kind = EmitterKind::Spot { to_world, intensity: Rgb::WHITE, cutoff_degrees, beam_degrees };
+    let kind =
+        EmitterKind::Spot { to_world, intensity: Rgb::WHITE, cutoff_degrees, beam_degrees, texture: None };
     sketch.0.emitters.push(EmitterDescription { name: "spot".into(), kind });
     // So few photons that they cannot all be found.
     let base = RenderSettings {

@@ -54,7 +54,9 @@ impl Gizmo {
             Target::Shape(index) => gizmo.of_shape(description, index)?,
             Target::Emitter(index) => match &description.emitters.get(index)?.kind {
                 EmitterKind::Point { .. } => Self { can_move: true, ..gizmo },
-                EmitterKind::Spot { .. } => Self { can_move: true, can_turn: true, ..gizmo },
+                EmitterKind::Spot { .. }
+                | EmitterKind::Projector { .. }
+                | EmitterKind::Goniometric { .. } => Self { can_move: true, can_turn: true, ..gizmo },
                 // Light from infinity turns about the middle of the image.
                 EmitterKind::Directional { .. } | EmitterKind::Environment { .. } => {
                     return Some(Self { can_turn: true, ..gizmo });

@@ -248,3 +248,37 @@ fn colour_roughness_and_index_survive_a_change_to_the_principled_model_and_back(
         ["roughness", "metallic", "spec_trans", "eta", "clearcoat", "base_color"]
     );
 }
+
+#[test]
+fn a_projector_moves_turns_and_has_a_brightness_and_a_field_of_view() {
+    let mut description = scene();
+    let to_world = looking(DVec3::new(2.0, 2.5, 2.0), DVec3::ZERO, DVec3::Y);
+    let slide = |irradiance| EmitterKind::Projector {
+        to_world,
+        irradiance,
+        scale: 3.0,
+        fov_degrees: 30.0,
+        fov_axis: FovAxis::X,
+    };
+    let target = Target::Emitter(1);
+    description.emitters[1].kind = slide(Rgb::new(0.5, 0.25, 0.0).into());
+    assert!(close(number(&description, target, FieldId::Brightness), 1.5));
+    let changed = set(&description, target, FieldId::Brightness, Value::Number(4.0));
+    assert!(close(number(&changed, target, FieldId::Brightness), 4.0));
+    let wide = set(&changed, target, FieldId::Cutoff, Value::Number(55.0));
+    assert!(close(number(&wide, target, FieldId::Cutoff), 55.0));
+    // A picture keeps its colours.
+    description.emitters[1].kind = slide(Colour::Texture(0));
+    let changed = set(&description, target, FieldId::Brightness, Value::Number(4.0));
+    let EmitterKind::Projector { irradiance, scale, .. } = &changed.emitters[1].kind else {
+        panic!("a projector")
+    };
+    assert_eq!((*irradiance, *scale), (Colour::Texture(0), 4.0));
+    let turned = set(&changed, target, FieldId::Elevation, Value::Number(60.0));
+    assert!(close(number(&turned, target, FieldId::Elevation), 60.0));
+    let by = [1.0, 0.0, -0.5];
+    let moved = Edit::Move { target, by }.apply(&turned).unwrap();
+    let [from, to] = [&turned, &moved].map(|d| anchor(d, target).unwrap());
+    assert!((to - from).distance(by.into()) < 1e-12);
+    assert!(Gizmo::new(&moved, target, 0, None).is_some_and(|g| g.has(Tool::Move) && g.has(Tool::Rotate)));
+}

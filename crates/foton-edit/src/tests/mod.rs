@@ -95,6 +95,7 @@ fn scene() -> SceneDescription {
                     intensity: Rgb::new(4.0, 3.0, 2.0),
                     cutoff_degrees: 25.0,
                     beam_degrees: 15.0,
+                    texture: None,
                 },
             ),
             light(

@@ -60,6 +60,7 @@ impl<'a> Reader<'a> {
             intensity,
             cutoff_degrees: outer.to_degrees().max(1e-3),
             beam_degrees: inner.to_degrees(),
+            texture: None,
         }
     }
 }

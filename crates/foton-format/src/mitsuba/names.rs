@@ -38,13 +38,13 @@ pub(crate) const TEXTURES: Plugins = Plugins {
 pub(crate) const EMITTERS: Plugins = Plugins {
     kind: "emitter",
     supported: || plugins::names(plugins::emitters::ALL).collect(),
-    elsewhere: &["directionalarea", "projector", "timed_sunsky", "collimated"],
+    elsewhere: &["directionalarea", "timed_sunsky", "collimated"],
 };
 
 pub(crate) const SENSORS: Plugins = Plugins {
     kind: "sensor",
     supported: || plugins::names(plugins::sensors::ALL).collect(),
-    elsewhere: &["orthographic", "radiancemeter", "irradiancemeter", "distant", "batch"],
+    elsewhere: &["radiancemeter", "irradiancemeter", "distant", "batch"],
 };
 
 pub(crate) const FILMS: Plugins =

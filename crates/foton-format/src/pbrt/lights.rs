@@ -133,7 +133,7 @@ impl Reader<'_> {
             self.report.error(p.place, "\"from\" and \"to\" of a light are the same point");
             return None;
         };
-        Some(EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees })
+        Some(EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees, texture: None })
     }
 
     fn projection(&mut self, p: &Parameters) -> Option<EmitterKind> {
@@ -144,7 +144,13 @@ impl Reader<'_> {
         let intensity =
             self.scaled_light(p, "I", "power", 2.0 * PI * (1.0 - (0.5 * fov).to_radians().cos()))? * mean;
         let to_world = self.aimed(DVec3::ZERO, DVec3::Z)?;
-        Some(EmitterKind::Spot { to_world, intensity, cutoff_degrees: 0.5 * fov, beam_degrees: 0.5 * fov })
+        Some(EmitterKind::Spot {
+            to_world,
+            intensity,
+            cutoff_degrees: 0.5 * fov,
+            beam_degrees: 0.5 * fov,
+            texture: None,
+        })
     }
 
     fn distant(&mut self, p: &Parameters) -> Option<EmitterKind> {

@@ -95,9 +95,9 @@ fn unknown_names_come_with_the_nearest_known_one() {
             "<shape type='instance'/>",
             &["s.xml:2:1: an instance needs one shapegroup inside, or a reference to one"],
         ),
-        ("<emitter type='projector'/>", &["s.xml:2:16: emitter \"projector\" is not supported yet"]),
+        ("<emitter type='collimated'/>", &["s.xml:2:16: emitter \"collimated\" is not supported yet"]),
         ("<emitter type='pont'/>", &["s.xml:2:16: unknown emitter \"pont\", did you mean \"point\"?"]),
-        ("<sensor type='orthographic'/>", &["s.xml:2:15: sensor \"orthographic\" is not supported yet"]),
+        ("<sensor type='distant'/>", &["s.xml:2:15: sensor \"distant\" is not supported yet"]),
         ("<shap type='sphere'/>", &["s.xml:2:1: unknown element <shap>, did you mean \"shape\"?"]),
         (
             "<shape type='sphere'><float name='radus' value='2'/></shape>",

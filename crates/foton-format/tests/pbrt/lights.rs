@@ -81,7 +81,7 @@ fn points_and_spots_stand_where_they_shine_from() {
         2.0 * PI
     );
     let scene = read(&whole(&text));
-    let EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees } = emitter(&scene) else {
+    let EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees, .. } = emitter(&scene) else {
         panic!("no spot")
     };
     assert_eq!((*cutoff_degrees, *beam_degrees), (60.0, 40.0));

@@ -19,7 +19,7 @@ use foton_scene::description::{
     SensorDescription, ShapeDescription, Texture, TextureKind, ThinDielectric, Ward, Wrap,
 };
 
-use parts::{sensors, shapes};
+use parts::{emitters, sensors, shapes};
 use same::assert_same;
 
 /// A folder of a test's own, removed when the test is over.
@@ -231,20 +231,6 @@ fn everything() -> SceneDescription {
     ];
     let shown = TextureKind::Attribute { name: "vertex_color".to_owned(), scale: 0.3, most: 1.0 };
     let attribute = Texture { name: "t".to_owned(), to_uv: DAffine2::IDENTITY, kind: shown };
-    let kinds = [
-        EmitterKind::Point { position: DVec3::new(odd(1), 2.0, 3.0), intensity: Rgb::new(0.1, 0.2, 0.3) },
-        EmitterKind::Spot {
-            to_world: odd_transform(),
-            intensity: Rgb::splat(10.0),
-            cutoff_degrees: 30.0 + odd(1),
-            beam_degrees: 20.0,
-        },
-        EmitterKind::Directional {
-            direction: DVec3::new(odd(1), odd(2), odd(3)),
-            irradiance: Rgb::splat(0.3),
-        },
-        EmitterKind::Environment { to_world: DAffine3::from_rotation_y(odd(1)), bitmap, scale: 0.7 },
-    ];
     let materials = materials();
     let mut shapes = shapes(materials.len() - COMPONENTS);
     shapes[2].to_world = flight().all()[0].1;
@@ -257,7 +243,7 @@ fn everything() -> SceneDescription {
             .into_iter()
             .chain([attribute])
             .collect(),
-        emitters: kinds.map(|kind| EmitterDescription { name: "light".to_owned(), kind }).to_vec(),
+        emitters: emitters(&bitmap),
         max_depth: Some(7),
         hidden: Hidden { shapes: [1, 3].into(), emitters: [2].into() },
         motion: Motion {

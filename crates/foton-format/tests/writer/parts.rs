@@ -87,3 +87,49 @@ pub(super) fn sensors() -> Vec<SensorDescription> {
         sensor(FovAxis::Y, Filter::Gaussian { stddev: 0.3 }, None),
     ]
 }
+
+/// Emitters of each kind, some of which have the second and third texture of the scene.
+pub(super) fn emitters(bitmap: &Arc<Bitmap>) -> Vec<EmitterDescription> {
+    let kinds = vec![
+        EmitterKind::Point { position: DVec3::new(odd(1), 2.0, 3.0), intensity: Rgb::new(0.1, 0.2, 0.3) },
+        EmitterKind::Spot {
+            to_world: odd_transform(),
+            intensity: Rgb::splat(10.0),
+            cutoff_degrees: 30.0 + odd(1),
+            beam_degrees: 20.0,
+            texture: None,
+        },
+        EmitterKind::Spot {
+            to_world: odd_transform(),
+            intensity: Rgb::splat(10.0),
+            cutoff_degrees: 30.0,
+            beam_degrees: 20.0,
+            texture: Some(1),
+        },
+        EmitterKind::Projector {
+            to_world: odd_transform(),
+            irradiance: Colour::Texture(2),
+            scale: odd(3),
+            fov_degrees: 40.0 + odd(2),
+            fov_axis: FovAxis::Diagonal,
+        },
+        EmitterKind::Projector {
+            to_world: DAffine3::IDENTITY,
+            irradiance: colour(0.1, 2.5, 1e-7),
+            scale: 1.0,
+            fov_degrees: 33.0,
+            fov_axis: FovAxis::Y,
+        },
+        EmitterKind::Goniometric { to_world: odd_transform(), bitmap: Arc::clone(bitmap), scale: 0.3 },
+        EmitterKind::Directional {
+            direction: DVec3::new(odd(1), odd(2), odd(3)),
+            irradiance: Rgb::splat(0.3),
+        },
+        EmitterKind::Environment {
+            to_world: DAffine3::from_rotation_y(odd(1)),
+            bitmap: Arc::clone(bitmap),
+            scale: 0.7,
+        },
+    ];
+    kinds.into_iter().map(|kind| EmitterDescription { name: "light".to_owned(), kind }).collect()
+}

@@ -27,8 +27,8 @@ pub(super) fn assert_same(a: &SceneDescription, b: &SceneDescription) {
         );
     }
     assert_eq!(a.emitters.len(), b.emitters.len());
-    for (a, b) in a.emitters.iter().zip(&b.emitters) {
-        assert_eq!(emitter(&a.kind), emitter(&b.kind));
+    for (x, y) in a.emitters.iter().zip(&b.emitters) {
+        assert_eq!(emitter(a, &x.kind), emitter(b, &y.kind));
     }
     assert_eq!(a.shapes.len(), b.shapes.len());
     for (x, y) in a.shapes.iter().zip(&b.shapes) {
@@ -56,14 +56,19 @@ fn assert_same_geometry(a: &Geometry, b: &Geometry) {
     }
 }
 
-/// What an emitter is, with numbers to all digits.
-fn emitter(kind: &EmitterKind) -> String {
-    match kind {
-        EmitterKind::Environment { to_world, bitmap, scale } => {
-            format!("{:?} {scale} {}", to_world.to_cols_array().map(|x| x + 0.0), bitmap_text(bitmap))
+/// What an emitter is, textures included, with numbers to all digits.
+fn emitter(scene: &SceneDescription, kind: &EmitterKind) -> String {
+    let (mut kind, of_spot) = (kind.clone(), kind.texture().map(Colour::Texture));
+    match &mut kind {
+        EmitterKind::Spot { texture, .. } => *texture = None,
+        EmitterKind::Environment { to_world, bitmap, scale }
+        | EmitterKind::Goniometric { to_world, bitmap, scale } => {
+            let to_world = to_world.to_cols_array().map(|x| x + 0.0);
+            return format!("{to_world:?} {scale} {}", bitmap_text(bitmap));
         }
-        other => format!("{other:?}"),
+        _ => {}
     }
+    with_textures(scene, format!("{kind:?} {of_spot:?}"))
 }
 
 fn bitmap_text(bitmap: &Bitmap) -> String {

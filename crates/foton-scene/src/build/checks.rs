@@ -7,8 +7,8 @@ use super::error::BuildError;
 use super::gather::even_scale;
 use super::textures::Textures;
 use crate::description::{
-    Bsdf, Coating, Colour, EmitterKind, Geometry, Material, SceneDescription, SensorDescription,
-    ShapeDescription,
+    Bsdf, Coating, Colour, EmitterDescription, EmitterKind, Geometry, Material, SceneDescription,
+    SensorDescription, ShapeDescription,
 };
 use crate::emitter::{Emitter, Kind};
 use crate::normalise::Normalisation;
@@ -49,17 +49,34 @@ pub(super) fn check_sensors(
     Ok(())
 }
 
-pub(super) fn check_described_emitters(description: &SceneDescription) -> Result<(), BuildError> {
-    for emitter in &description.emitters {
-        match &emitter.kind {
+pub(super) fn check_described_emitters(
+    description: &SceneDescription,
+    textures: &Textures<'_>,
+) -> Result<(), BuildError> {
+    for EmitterDescription { name, kind } in &description.emitters {
+        match kind {
             // That its pixels are numbers is seen by its power, which has a share of each.
-            EmitterKind::Environment { bitmap, .. } if !bitmap.is_sound() => {
-                return Err(BuildError::NoTexture(emitter.name.clone()));
+            EmitterKind::Environment { bitmap, .. } | EmitterKind::Goniometric { bitmap, .. }
+                if !bitmap.is_sound() =>
+            {
+                return Err(BuildError::NoTexture(name.clone()));
             }
-            EmitterKind::Spot { to_world, .. } => {
-                even_scale(to_world, &[0, 1, 2], CONE_ROUNDNESS, &emitter.name)?;
+            EmitterKind::Spot { to_world, .. }
+            | EmitterKind::Projector { to_world, .. }
+            | EmitterKind::Goniometric { to_world, .. } => {
+                even_scale(to_world, &[0, 1, 2], CONE_ROUNDNESS, name)?;
             }
             _ => {}
+        }
+        if let EmitterKind::Projector { fov_degrees, scale, .. } = kind
+            && !(*fov_degrees > 0.0 && *fov_degrees < 180.0 && scale.is_finite() && *scale >= 0.0)
+        {
+            return Err(BuildError::NotFinite(name.clone()));
+        }
+        if let Some(index) = kind.texture() {
+            textures.is_there(index, name)?;
+            textures.is_within(index, f32::INFINITY)?;
+            textures.is_of_no_mesh(index, name)?;
         }
     }
     Ok(())
@@ -82,11 +99,7 @@ pub(super) fn check_emitters(
     for (i, emitter) in emitters.iter().enumerate() {
         let described = i.checked_sub(surfaces).map(|i| &description.emitters[i].kind);
         let name = || emitter.name.clone();
-        let position = match described {
-            Some(EmitterKind::Point { position, .. }) => Some(*position),
-            Some(EmitterKind::Spot { to_world, .. }) => Some(to_world.translation),
-            _ => None,
-        };
+        let position = described.and_then(EmitterKind::position);
         position.map_or(Ok(()), |p| check_distance(p, to_scene, &emitter.name))?;
         let emission = match (described, &emitter.kind) {
             (None, Kind::Area(area)) => area.radiance,
@@ -119,8 +132,13 @@ fn brightest(kind: &EmitterKind) -> Rgb {
         | EmitterKind::Spot { intensity: c, .. }
         | EmitterKind::Constant { radiance: c }
         | EmitterKind::Directional { irradiance: c, .. } => *c,
+        // Textures have numbers.
+        EmitterKind::Projector { irradiance, scale, .. } => match irradiance {
+            Colour::Constant(c) => *c * (*scale as f32),
+            Colour::Texture(_) => Rgb::splat(*scale as f32),
+        },
         // NaN is no largest of any: a sum has it.
-        EmitterKind::Environment { bitmap, scale, .. } => {
+        EmitterKind::Environment { bitmap, scale, .. } | EmitterKind::Goniometric { bitmap, scale, .. } => {
             let pixels = || bitmap.pixels.iter().map(|&p| p * *scale);
             if pixels().all(Rgb::is_finite) {
                 Rgb::splat(pixels().fold(0.0, |most, p| p.max_component().max(most)))

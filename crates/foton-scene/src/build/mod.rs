@@ -75,7 +75,6 @@ impl Scene {
         options: &BuildOptions<'_>,
     ) -> Result<Self, BuildError> {
         options.cancel.check()?;
-        check_described_emitters(description)?;
         let normalisation = Normalisation::for_bounds(min, max);
         check_sensors(&description.sensors, &normalisation)?;
         let mixtures = Mixtures::new(&description.materials)?;
@@ -101,7 +100,9 @@ impl Scene {
             (!casters.is_empty()).then(|| ball(&casters)).filter(|c| c.radius < 0.5 * scene_ball.radius);
         let at = (scene_ball, casters);
         let surfaces = emitters.len();
-        emitters.extend(description.emitters.iter().map(|e| unattached_emitter(e, &normalisation, at)));
+        emitters.extend(
+            description.emitters.iter().map(|e| unattached_emitter(e, &normalisation, &samplers, at)),
+        );
         check_emitters(&emitters, description, &normalisation)?;
         let mut index = 0..;
         let is_hidden = |i: usize| i >= surfaces && description.hidden.emitters.contains(&(i - surfaces));
@@ -200,6 +201,7 @@ fn check_surfaces(description: &SceneDescription, gathered: &mut Gathered) -> Re
     for shape in &description.shapes {
         gathered.census.textures |= check_radiance(shape, &textures)?;
     }
+    check_described_emitters(description, &textures)?;
     Ok(())
 }
 

@@ -71,6 +71,20 @@ impl<'a> Textures<'a> {
         if good { Ok(()) } else { Err(BuildError::NoTexture(asking.to_owned())) }
     }
 
+    /// Whether a texture shows nothing of meshes.
+    ///
+    /// # Errors
+    /// With the name of what asks for it.
+    pub(super) fn is_of_no_mesh(&self, index: usize, asking: &str) -> Result<(), BuildError> {
+        match &self.all[index].kind {
+            TextureKind::Bitmap { .. } => Ok(()),
+            TextureKind::Checkerboard { colours } => {
+                colours.iter().filter_map(inner).try_for_each(|i| self.is_of_no_mesh(i, asking))
+            }
+            TextureKind::Attribute { .. } => Err(BuildError::NoTexture(asking.to_owned())),
+        }
+    }
+
     /// Whether all numbers of a texture that is there lie from 0 to `most`.
     ///
     /// # Errors

@@ -16,7 +16,7 @@ pub use crate::bsdf::{
     Bsdf, Coating, Conductor, Dielectric, Diffuse, DiffuseTransmitter, MicrofacetDistribution, Microfacets,
     Mirror, Null, Phong, Plastic, Principled, PrincipledThin, RoughDiffuse, ThinDielectric, Ward,
 };
-pub use emitter::{EmitterDescription, EmitterKind};
+pub use emitter::{EmitterDescription, EmitterKind, projected_half};
 pub use hidden::Hidden;
 pub use material::{Blend, Material, Relief, ReliefKind};
 pub use motion::{Keyframes, Motion};

@@ -163,6 +163,18 @@ impl FovAxis {
     /// All of them.
     pub const ALL: [Self; 5] = [Self::X, Self::Y, Self::Diagonal, Self::Smaller, Self::Larger];
 
+    /// How long what it spans is in an image of that width and height.
+    #[must_use]
+    pub fn spanned(self, [width, height]: [f64; 2]) -> f64 {
+        match self {
+            Self::X => width,
+            Self::Y => height,
+            Self::Diagonal => width.hypot(height),
+            Self::Smaller => width.min(height),
+            Self::Larger => width.max(height),
+        }
+    }
+
     /// What files call it.
     #[must_use]
     pub const fn name(self) -> &'static str {

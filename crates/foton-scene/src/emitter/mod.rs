@@ -4,11 +4,14 @@
 
 mod aim;
 mod area;
+mod beam;
+mod cells;
 mod directional;
 mod emission;
 mod environment;
 mod environment_map;
 mod extent;
+mod goniometric;
 mod pattern;
 mod place;
 mod point;
@@ -25,14 +28,16 @@ use crate::surface::Surface;
 
 pub(crate) use aim::{Aim, Ball, Target};
 pub(crate) use area::Area;
+pub(crate) use beam::{Beam, Light, Picture};
 pub(crate) use directional::Directional;
 pub use emission::{Emission, Illumination};
 pub(crate) use environment::{Constant, Environment};
 pub(crate) use environment_map::EnvironmentMap;
 pub use extent::Extent;
+pub(crate) use goniometric::Goniometric;
 pub(crate) use pattern::Pattern;
 pub(crate) use point::Point;
-pub(crate) use spot::Spot;
+pub(crate) use spot::{Cone, Spot};
 
 /// An emitter in scene units.
 #[derive(Clone, Debug)]
@@ -50,6 +55,8 @@ pub(crate) enum Kind {
     Area(Area),
     Point(Point),
     Spot(Spot),
+    Beam(Box<Beam>),
+    Goniometric(Goniometric),
     Constant(Constant),
     Directional(Directional),
     Environment(Environment),
@@ -63,6 +70,8 @@ impl Emitter {
             Kind::Area(area) => area.radiance,
             Kind::Point(point) => point.intensity,
             Kind::Spot(spot) => spot.intensity,
+            Kind::Beam(beam) => beam.total(),
+            Kind::Goniometric(lamp) => lamp.map.total(),
             Kind::Constant(sky) => sky.radiance,
             Kind::Directional(sun) => sun.irradiance,
             Kind::Environment(sky) => sky.map.total(),
@@ -70,12 +79,13 @@ impl Emitter {
         emission * self.power_factor()
     }
 
-    /// Its power for each unit of what it emits; for a map, of its integral.
+    /// Its power for each unit of what it emits; for a map or a picture, of its integral.
     pub(crate) fn power_factor(&self) -> f32 {
         match &self.kind {
             Kind::Area(area) => area.power_factor(),
             Kind::Point(point) => point.power_factor(),
             Kind::Spot(spot) => spot.power_factor(),
+            Kind::Beam(_) | Kind::Goniometric(_) => 1.0,
             Kind::Constant(sky) => sky.power_factor(),
             Kind::Directional(sun) => sun.power_factor(),
             Kind::Environment(sky) => sky.power_factor(),
@@ -85,7 +95,12 @@ impl Emitter {
     /// Whether light comes from a single point or direction, which rays cannot hit.
     #[must_use]
     pub const fn is_delta(&self) -> bool {
-        matches!(self.kind, Kind::Point(_) | Kind::Spot(_) | Kind::Directional(_))
+        self.is_point() || matches!(self.kind, Kind::Directional(_))
+    }
+
+    /// Whether light comes from a single point.
+    const fn is_point(&self) -> bool {
+        matches!(self.kind, Kind::Point(_) | Kind::Spot(_) | Kind::Beam(_) | Kind::Goniometric(_))
     }
 
     /// Whether light comes from infinity, where rays that leave the scene see it.
@@ -113,11 +128,14 @@ impl Emitter {
 
     /// What kind it is: the name of its plugin.
     #[must_use]
-    pub const fn kind_name(&self) -> &'static str {
+    pub fn kind_name(&self) -> &'static str {
         match self.kind {
             Kind::Area(_) => emitters::AREA.name,
             Kind::Point(_) => emitters::POINT.name,
             Kind::Spot(_) => emitters::SPOT.name,
+            Kind::Beam(ref beam) if beam.is_spot() => emitters::SPOT.name,
+            Kind::Beam(_) => emitters::PROJECTOR.name,
+            Kind::Goniometric(_) => emitters::GONIOMETRIC.name,
             Kind::Constant(_) => emitters::CONSTANT.name,
             Kind::Directional(_) => emitters::DIRECTIONAL.name,
             Kind::Environment(_) => emitters::ENVMAP.name,
@@ -145,7 +163,7 @@ impl Emitter {
     pub(crate) const fn uses(&self) -> (bool, bool, bool) {
         match &self.kind {
             Kind::Area(area) => (area.primitives.len() > 1, true, true),
-            Kind::Point(_) | Kind::Spot(_) => (false, false, true),
+            Kind::Point(_) | Kind::Spot(_) | Kind::Beam(_) | Kind::Goniometric(_) => (false, false, true),
             Kind::Constant(_) | Kind::Environment(_) => (false, true, true),
             Kind::Directional(_) => (false, true, false),
         }
@@ -157,6 +175,8 @@ impl Emitter {
             Kind::Area(area) => area.emit(aim, u_part, u_position, u_direction),
             Kind::Point(point) => point.emit(aim, u_direction),
             Kind::Spot(spot) => spot.emit(aim, u_direction),
+            Kind::Beam(beam) => beam.emit(aim, u_direction),
+            Kind::Goniometric(lamp) => lamp.emit(aim, u_direction),
             Kind::Constant(sky) => sky.emit(aim, u_part, u_position, u_direction),
             Kind::Directional(sun) => sun.emit(aim, u_part, u_position),
             Kind::Environment(sky) => sky.emit(aim, u_part, u_position, u_direction),
@@ -177,6 +197,8 @@ impl Emitter {
             Kind::Area(area) => Some(area.extent()),
             Kind::Point(point) => Some(point.extent()),
             Kind::Spot(spot) => Some(spot.extent()),
+            Kind::Beam(beam) => Some(beam.extent()),
+            Kind::Goniometric(lamp) => Some(lamp.extent()),
             Kind::Constant(_) | Kind::Directional(_) | Kind::Environment(_) => None,
         }
     }
@@ -189,6 +211,8 @@ impl Emitter {
             Kind::Area(area) => area.illuminate(position, u_part, u),
             Kind::Point(point) => point.illuminate(position),
             Kind::Spot(spot) => spot.illuminate(position),
+            Kind::Beam(beam) => beam.illuminate(position),
+            Kind::Goniometric(lamp) => lamp.illuminate(position),
             Kind::Constant(sky) => sky.illuminate(normal, u),
             Kind::Directional(sun) => Some(sun.illuminate()),
             Kind::Environment(sky) => sky.illuminate(u),

@@ -10,6 +10,7 @@ use foton_math::Rgb;
 use foton_math::glam::{Mat3, Vec2};
 use rayon::prelude::*;
 
+use super::cells::Cells;
 use super::place::Place;
 use crate::attributes::Corner;
 use crate::coordinates::coordinate;
@@ -46,13 +47,6 @@ pub(crate) struct Pattern {
     cells: Vec<Cells>,
     /// Mean radiance over the surface.
     mean: Rgb,
-}
-
-/// The unit square in n × n cells; a single one has no tables.
-#[derive(Clone, Debug, Default)]
-struct Cells {
-    rows: Discrete,
-    columns: Vec<Discrete>,
 }
 
 /// A primitive as it is divided: its mean radiance, and the chance of each cell.
@@ -148,12 +142,7 @@ impl Pattern {
         let mut weights: Vec<Vec<f64>> = rows.iter().map(of_row).collect();
         let even = DEFENSIVE_SHARE * mean.iter().sum::<f64>();
         weights.iter_mut().flatten().for_each(|w| *w += even);
-        let cells = if side == 1 {
-            Cells::default()
-        } else {
-            let rows = Discrete::new(weights.iter().map(|row| row.iter().sum()));
-            Cells { rows, columns: weights.into_iter().map(Discrete::new).collect() }
-        };
+        let cells = if side == 1 { Cells::default() } else { Cells::new(weights) };
         Divided { cells, mean }
     }
 
@@ -187,28 +176,6 @@ impl Pattern {
         let corner =
             Corner { shape: self.shape, primitive: self.first + part as u32, weights: place.barycentric };
         self.sampler.colour(&At { uv, corner })
-    }
-}
-
-impl Cells {
-    fn sample(&self, u: Vec2) -> Vec2 {
-        if self.rows.is_empty() {
-            return u;
-        }
-        let (y, along_y) = self.rows.choose_and_rest(f64::from(u.y));
-        let (x, along_x) = self.columns[y].choose_and_rest(f64::from(u.x));
-        let side = self.columns.len() as f64;
-        let at = [x as f64 + along_x, y as f64 + along_y].map(|c| (c / side) as f32);
-        Vec2::from(at).min(Vec2::splat(1.0 - f32::EPSILON))
-    }
-
-    fn density(&self, at: Vec2) -> f64 {
-        if self.rows.is_empty() {
-            return 1.0;
-        }
-        let side = self.columns.len();
-        let [x, y] = (at * side as f32).to_array().map(|c| (c as usize).min(side - 1));
-        self.rows.probability(y) * self.columns[y].probability(x) * (side * side) as f64
     }
 }
 

@@ -71,8 +71,14 @@ fn as_they_shine() -> Vec<Emitter> {
             position: Vec3::new(0.0, 0.5, 3.0),
             frame: Frame::from_normal(Vec3::new(0.1, -0.1, -1.0).normalize()),
             intensity: Rgb::splat(4.0),
-            cutoff: 0.5,
-            beam: 0.3,
+            cone: Cone { cutoff: 0.5, beam: 0.3 },
+        })),
+        emitter(Kind::Beam(Box::new(slide(Picture::Texture(picture()))))),
+        emitter(Kind::Beam(Box::new(slide(Picture::Even)))),
+        emitter(Kind::Beam(Box::new(coloured()))),
+        emitter(Kind::Goniometric(Goniometric {
+            position: Vec3::new(1.0, 0.0, 2.0),
+            map: map.clone().into(),
         })),
         emitter(Kind::Constant(Constant { radiance: Rgb::splat(0.7), scene })),
         emitter(Kind::Directional(Directional {
@@ -86,6 +92,23 @@ fn as_they_shine() -> Vec<Emitter> {
     .into_iter()
     .chain(shapes_with_patterns().into_iter().map(|primitives| emitter(Kind::Area(patterned(primitives)))))
     .collect()
+}
+
+/// A projector from above that throws half of its picture beside what is looked at.
+fn slide(picture: Picture) -> Beam {
+    let light = Light::Projected { half: Vec2::new(0.6, 0.4), factor: Rgb::splat(2.0) };
+    Beam::new(Vec3::new(0.4, 0.5, 3.0), mirrored_frame(), picture, light)
+}
+
+/// A spot with a picture before it.
+fn coloured() -> Beam {
+    let light = Light::Coloured { cone: Cone { cutoff: 0.5, beam: 0.3 }, intensity: Rgb::new(4.0, 3.0, 2.0) };
+    Beam::new(Vec3::new(0.0, 0.5, 3.0), mirrored_frame(), Picture::Texture(picture()), light)
+}
+
+fn mirrored_frame() -> Frame {
+    let frame = Frame::from_normal(Vec3::new(0.1, -0.1, -1.0).normalize());
+    Frame { tangent: -frame.tangent, ..frame }
 }
 
 /// One of each kind of surface, two triangles among them.
@@ -211,4 +234,57 @@ fn a_sphere_that_goes_by_direction_brings_the_same_light() {
     let [a, b] = [0.1, 0.8].map(|x| by_direction(Vec2::splat(x), Vec2::splat(0.3)));
     assert!(a.direction == b.direction && a.origin.distance(b.origin) > 0.1);
     assert!(as_they_shine()[1].emit_by_direction(Vec2::ZERO, Vec2::ZERO).is_none());
+}
+
+/// E/π of the picture on any plane across the axis, E/d² of it: E is the factor times the picture. A spot has the picture over the square
+/// around its cone.
+#[test]
+fn a_projector_lights_a_plane_as_its_picture_says() {
+    let (axes, half) = (mirrored_frame(), Vec2::new(0.6, 0.4));
+    let shown = |uv: Vec2| {
+        let corner = crate::attributes::Corner { shape: 0, primitive: 0, weights: Vec2::ZERO };
+        picture().colour(&crate::texture::At { uv, corner })
+    };
+    let slide = slide(Picture::Texture(picture()));
+    let coloured = coloured();
+    for (u, v) in [(0.1, 0.2), (0.5, 0.5), (0.93, 0.02), (0.4, 0.999)] {
+        for distance in [0.5, 1.0, 3.0] {
+            // u from the left, which is +x; v from the top.
+            let on_plane = Vec2::new(half.x * (1.0 - 2.0 * u), half.y * (1.0 - 2.0 * v)).extend(1.0);
+            let p = slide.position + axes.to_outer(on_plane * distance);
+            let light = slide.illuminate(p).expect("lit");
+            let irradiance = light.radiance_over_pdf * light.direction.dot(-axes.normal);
+            let expected = shown(Vec2::new(u, v)) * (2.0 / (distance * distance));
+            let error = irradiance - expected;
+            assert!(error.to_array().iter().all(|e| e.abs() < 1e-3 * expected.max_component()), "{u} {v}");
+        }
+        // Within the beam, which is 0.3 wide.
+        let tan = 0.5f32.tan();
+        let at = Vec2::new(u, v) * 0.4 + 0.3;
+        let way = axes.to_outer((tan * (2.0 * at - 1.0)).extend(1.0)).normalize();
+        let expected = shown(at) * Rgb::new(4.0, 3.0, 2.0);
+        let error = coloured.intensity(way) - expected;
+        assert!(error.to_array().iter().all(|e| e.abs() < 1e-3 * expected.max_component()), "{at}");
+    }
+    for outside in [Vec3::new(0.61, 0.0, 1.0), Vec3::new(0.0, -0.41, 1.0), -Vec3::Z] {
+        assert!(slide.illuminate(slide.position + axes.to_outer(outside)).is_none(), "{outside}");
+    }
+}
+
+/// Photons leave in proportion to the picture: their powers differ by little but at the edges of pixels.
+#[test]
+fn photons_of_a_projector_carry_about_the_same() {
+    for beam in [slide(Picture::Texture(picture())), slide(Picture::Even), coloured()] {
+        let emitter = emitter(Kind::Beam(Box::new(beam)));
+        let mut stream = Stream::new(9, Purpose::Test, 0, 0);
+        let n = 100_000;
+        let (mut sum, mut sum2) = (0.0, 0.0);
+        for _ in 0..n {
+            let power = f64::from(emitter.emit(0.0, Vec2::ZERO, stream.next_2d()).power.g);
+            (sum, sum2) = (sum + power, sum2 + power * power);
+        }
+        let mean = sum / f64::from(n);
+        let spread = (sum2 / f64::from(n) / (mean * mean) - 1.0).max(0.0).sqrt();
+        assert!(spread < 0.3, "{emitter:?}: {spread}");
+    }
 }

@@ -1,6 +1,8 @@
 //! Emitters of scene files, with their parameters.
 
 use super::Plugin;
+use super::sensors::{FOCAL_LENGTH, FOV, FOV_AXIS};
+use crate::description::EmitterKind;
 use crate::parameter::{Kind, Parameter};
 
 /// Brightnesses and powers that a slider offers.
@@ -86,7 +88,51 @@ pub const SPOT: Plugin = Plugin {
     name: "spot",
     label: "spot light",
     help: "A point that shines along its +z, fading linearly in the angle between two cones.",
-    parameters: &[INTENSITY, TO_WORLD, CUTOFF_ANGLE, BEAM_WIDTH, Parameter::unsupported("texture")],
+    parameters: &[INTENSITY, TO_WORLD, CUTOFF_ANGLE, BEAM_WIDTH, TEXTURE],
+};
+
+/// What colours a spot's light.
+pub const TEXTURE: Parameter = Parameter { textured: true, ..Parameter::colour("texture", 1.0) }
+    .help("What colours its light: a picture over the square around the cone.");
+
+/// What a projector throws.
+pub const PROJECTED: Parameter =
+    Parameter { textured: true, ..emission("irradiance", "Irradiance", "W/m²") }
+        .help("What a white surface at distance 1 sends back: a picture, or a colour.");
+
+/// Factor on what a projector throws.
+pub const PROJECTED_SCALE: Parameter =
+    Parameter { slider: Some(BRIGHTNESS), ..Parameter::number("scale", 1.0, (0.0, 1e30)) }
+        .label("Brightness")
+        .unit("×")
+        .help("Factor on the picture.");
+
+/// A picture that is thrown.
+pub const PROJECTOR: Plugin = Plugin {
+    name: "projector",
+    label: "projector",
+    help: "A picture thrown along its +z, with a field of view as a camera has it. A scale of `to_world` is a factor on its light, as in Mitsuba 3.",
+    parameters: &[PROJECTED, PROJECTED_SCALE, TO_WORLD, FOV, FOV_AXIS, FOCAL_LENGTH],
+};
+
+/// The intensities of a measured lamp.
+pub const INTENSITIES: Parameter = Parameter::other("filename", Kind::File, "required").help(
+    "Radiant intensity by direction: an IES profile (LM-63) in W/sr of its candela, or a picture whose rows are angles from +z.",
+);
+
+/// Factor on the intensity of a measured lamp.
+pub const INTENSITY_SCALE: Parameter =
+    Parameter { slider: Some(BRIGHTNESS), ..Parameter::number("scale", 1.0, (0.0, 1e30)) }
+        .label("Brightness")
+        .unit("×")
+        .help("Factor on the intensity.");
+
+/// A measured lamp.
+pub const GONIOMETRIC: Plugin = Plugin {
+    name: "goniometric",
+    label: "measured lamp",
+    help: "A point with an intensity for each direction, as measured lamps and pbrt's scenes have it; Mitsuba has none.",
+    parameters: &[INTENSITIES, INTENSITY_SCALE, TO_WORLD],
 };
 
 /// Parallel light.
@@ -211,4 +257,19 @@ pub const SKY: Plugin = Plugin { name: "sky", help: "The sky of `sunsky` without
 pub const SUN: Plugin = Plugin { name: "sun", help: "The sun of `sunsky` without its sky.", ..SUNSKY };
 
 /// All of them.
-pub const ALL: &[Plugin] = &[AREA, POINT, SPOT, CONSTANT, DIRECTIONAL, ENVMAP, SUNSKY, SKY, SUN];
+pub const ALL: &[Plugin] =
+    &[AREA, POINT, SPOT, PROJECTOR, GONIOMETRIC, CONSTANT, DIRECTIONAL, ENVMAP, SUNSKY, SKY, SUN];
+
+/// The plugin of an emitter that is not a surface.
+#[must_use]
+pub const fn of(kind: &EmitterKind) -> Plugin {
+    match kind {
+        EmitterKind::Point { .. } => POINT,
+        EmitterKind::Spot { .. } => SPOT,
+        EmitterKind::Projector { .. } => PROJECTOR,
+        EmitterKind::Goniometric { .. } => GONIOMETRIC,
+        EmitterKind::Constant { .. } => CONSTANT,
+        EmitterKind::Directional { .. } => DIRECTIONAL,
+        EmitterKind::Environment { .. } => ENVMAP,
+    }
+}

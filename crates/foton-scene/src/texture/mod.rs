@@ -177,6 +177,14 @@ impl Sampler {
         if matches!(self.kind, Kind::Bitmap { .. }) { colour.luminance() } else { colour.mean() }
     }
 
+    /// Width and height of a bitmap in pixels; a square for others.
+    pub(crate) fn shape(&self) -> [f64; 2] {
+        match &self.kind {
+            Kind::Bitmap { bitmap, .. } => [bitmap.width, bitmap.height].map(f64::from),
+            Kind::Checkerboard { .. } | Kind::Attribute { .. } => [1.0; 2],
+        }
+    }
+
     /// About how many pixels there are to a unit of the surface's u and v; `None` where there are none.
     pub(crate) fn detail(&self) -> Option<Vec2> {
         let m = self.to_uv.matrix2.as_mat2();

@@ -64,6 +64,7 @@ fn the_cone_of_a_spot_stays_round() {
             intensity: Rgb::WHITE,
             cutoff_degrees: 30.0,
             beam_degrees: 20.0,
+            texture: None,
         };
         let mut description = describe(vec![ball(DVec3::ZERO, 1.0)]);
         description.emitters.push(EmitterDescription { name: "bad".into(), kind });

@@ -99,7 +99,10 @@ fn lights_and_cameras_far_away_are_named_with_the_light_that_would_do() {
         let turn = DMat3::from_cols(DVec3::X, DVec3::NEG_Y, DVec3::NEG_Z);
         let to_world = DAffine3::from_mat3_translation(turn, DVec3::Z * distance);
         let intensity = Rgb::splat(1e12);
-        far(&light("spot", EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees: 0.0 }))
+        far(&light(
+            "spot",
+            EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees: 0.0, texture: None },
+        ))
     };
     assert_eq!(spot(1e4, 0.1), []);
     assert!(matches!(&spot(1e4, 60.0)[..], [(name, FarKind::Light { .. }, _)] if name == "spot"));
@@ -128,6 +131,7 @@ fn what_no_number_holds_is_refused_by_name_and_with_what_would_do() {
             intensity: bright,
             cutoff_degrees: 40.0,
             beam_degrees: 20.0,
+            texture: None,
         },
         EmitterKind::Environment { to_world: DAffine3::IDENTITY, bitmap: Arc::new(sky), scale: 1e30 },
     ];
@@ -152,6 +156,7 @@ fn what_no_number_holds_is_refused_by_name_and_with_what_would_do() {
                     | EmitterKind::Constant { radiance: e }
                     | EmitterKind::Directional { irradiance: e, .. } => *e *= fit,
                     EmitterKind::Environment { scale, .. } => *scale *= fit,
+                    other => panic!("{other:?}"),
                 }
             }
             assert_eq!(Scene::build(&fitted).is_ok(), sound, "{most} of {:?}", fitted.emitters);

@@ -1,10 +1,9 @@
-//! `<emitter>` elements: area (inside shapes), point, spot, directional, constant and envmap.
+//! `<emitter>` elements: area (inside shapes), point, directional, constant and envmap; others have files of their own.
 
 use foton_math::glam::{DAffine3, DVec3};
 use foton_scene::description::{Colour, EmitterDescription, EmitterKind};
 use foton_scene::plugins::emitters::{
-    BEAM_WIDTH, CONSTANT, CUTOFF_ANGLE, DIRECTION, ENVMAP, FILENAME, INTENSITY, IRRADIANCE, POSITION,
-    RADIANCE, SCALE, SPOT, TO_WORLD,
+    CONSTANT, DIRECTION, ENVMAP, FILENAME, INTENSITY, IRRADIANCE, POSITION, RADIANCE, SCALE, TO_WORLD,
 };
 
 use crate::image::{Purpose, Reading};
@@ -27,6 +26,8 @@ impl Reader<'_> {
         let kind = match plugin {
             "point" => self.point(&mut p),
             "spot" => self.spot(&mut p),
+            "projector" => self.projector(&mut p),
+            "goniometric" => self.goniometric(&mut p),
             "directional" => self.directional(&mut p),
             "envmap" => self.envmap(&mut p),
             "sunsky" | "sky" | "sun" => self.sky(plugin, &mut p),
@@ -83,35 +84,6 @@ impl Reader<'_> {
         Some(EmitterKind::Point { position: position.unwrap_or(DVec3::ZERO), intensity })
     }
 
-    fn spot(&mut self, p: &mut Properties<'_>) -> Option<EmitterKind> {
-        let intensity = self.emission(p, &INTENSITY);
-        let transform = p.transform(TO_WORLD.name, &mut self.report);
-        if let Some(t) = transform.filter(|t| even_scale(t.value.matrix3, 1e-3).is_none()) {
-            let message = "a spot can be turned, moved and scaled evenly, but not stretched or sheared: its cone must stay round";
-            self.report.error(t.place, message);
-        }
-        let to_world = transform.map_or(DAffine3::IDENTITY, |t| t.value);
-        let cutoff = p.number(CUTOFF_ANGLE.name, &mut self.report);
-        let beam = p.number(BEAM_WIDTH.name, &mut self.report);
-        p.leave_out(SPOT.parameters, &mut self.report);
-        let cutoff_degrees = cutoff.map_or(CUTOFF_ANGLE.default, |c| c.value);
-        if let Some(cutoff) = cutoff.filter(|c| !CUTOFF_ANGLE.holds(c.value)) {
-            self.report.error(cutoff.place, "\"cutoff_angle\" must be above 0 and at most 180 degrees");
-            return None;
-        }
-        let beam_degrees =
-            beam.map_or(cutoff_degrees * (BEAM_WIDTH.default / CUTOFF_ANGLE.default), |b| b.value);
-        if let Some(beam) = beam.filter(|b| b.value < BEAM_WIDTH.range.0) {
-            self.report.error(beam.place, "\"beam_width\" must not be negative");
-        } else if let Some(beam) = beam.filter(|b| b.value > cutoff_degrees) {
-            let message =
-                format!("\"beam_width\" is larger than \"cutoff_angle\" ({cutoff_degrees}) and is cut to it");
-            self.report.warning(beam.place, message);
-        }
-        let beam_degrees = beam_degrees.min(cutoff_degrees);
-        Some(EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees })
-    }
-
     fn directional(&mut self, p: &mut Properties<'_>) -> Option<EmitterKind> {
         let irradiance = self.emission(p, &IRRADIANCE);
         let direction = p.point(DIRECTION.name, &mut self.report);
@@ -165,10 +137,7 @@ impl Reader<'_> {
 
     /// Whether there is no other emitter all around; otherwise an error.
     pub(super) fn is_first_around(&mut self, p: &Properties<'_>) -> bool {
-        let around = |e: &EmitterDescription| {
-            matches!(e.kind, EmitterKind::Constant { .. } | EmitterKind::Environment { .. })
-        };
-        let first = !self.description.emitters.iter().any(around);
+        let first = !self.description.emitters.iter().any(|e| e.kind.is_around());
         if !first {
             self.report.error(p.place, "a scene has only one emitter around it");
         }

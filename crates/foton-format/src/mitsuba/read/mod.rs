@@ -2,6 +2,7 @@
 
 mod animation;
 mod attributes;
+mod beams;
 pub(crate) mod bsdfs;
 pub(crate) mod colours;
 pub(crate) mod emitters;

@@ -137,7 +137,7 @@ impl Reader<'_> {
     }
 
     /// `fov` along `fov_axis`, or what a lens of `focal_length` (50 mm by default) sees on 35 mm film.
-    fn field_of_view(&mut self, p: &mut Properties<'_>) -> (f64, FovAxis) {
+    pub(super) fn field_of_view(&mut self, p: &mut Properties<'_>) -> (f64, FovAxis) {
         let fov = p.number(FOV.name, &mut self.report);
         let focal = p.string(FOCAL_LENGTH.name, &mut self.report);
         let axis = self.fov_axis(p);

@@ -57,10 +57,14 @@ impl Changes<'_> {
             return Ok(node);
         }
         let is_copy = |old: &EmitterDescription| match (&old.kind, &new.kind) {
-            (EmitterKind::Environment { bitmap: old, .. }, EmitterKind::Environment { bitmap: new, .. }) => {
+            (EmitterKind::Environment { bitmap: old, .. }, EmitterKind::Environment { bitmap: new, .. })
+            | (EmitterKind::Goniometric { bitmap: old, .. }, EmitterKind::Goniometric { bitmap: new, .. }) => {
                 Arc::ptr_eq(old, new)
             }
-            _ => false,
+            (old, new) => {
+                let same_kind = std::mem::discriminant(old) == std::mem::discriminant(new);
+                same_kind && new.texture().is_some() && old.texture() == new.texture()
+            }
         };
         let source = self.old.emitters.iter().position(is_copy);
         let source = source.ok_or_else(|| format!("the picture of \"{}\" is in no file", new.name))?;

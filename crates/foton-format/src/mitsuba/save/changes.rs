@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use foton_math::Rgb;
 use foton_math::glam::DAffine3;
 use foton_scene::description::{
-    Colour, EmitterKind, Geometry, Lens, SceneDescription, SensorDescription, ShapeDescription,
+    Colour, EmitterKind, FovAxis, Geometry, Lens, SceneDescription, SensorDescription, ShapeDescription,
 };
 use foton_scene::plugins::{emitters, sensors, shapes};
 
@@ -107,9 +107,7 @@ impl<'a> Changes<'a> {
             self.transform(node, &new.to_world)?;
         }
         if (old.fov_degrees, old.fov_axis) != (new.fov_degrees, new.fov_axis) {
-            self.remove(node, "focal_length")?;
-            self.value(node, "float", "fov", &number(new.fov_degrees))?;
-            self.value(node, "string", "fov_axis", new.fov_axis.name())?;
+            self.field_of_view(node, new.fov_degrees, new.fov_axis)?;
         }
         for (name, old, new) in
             [("near_clip", old.near_clip, new.near_clip), ("far_clip", old.far_clip, new.far_clip)]
@@ -168,17 +166,7 @@ impl<'a> Changes<'a> {
                 }
                 self.light(node, emitters::INTENSITY.name, *old, *intensity)
             }
-            (
-                EmitterKind::Spot { to_world: m, intensity: old, .. },
-                EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees },
-            ) => {
-                if m != to_world {
-                    self.transform(node, to_world)?;
-                }
-                self.value(node, "float", emitters::CUTOFF_ANGLE.name, &number(*cutoff_degrees))?;
-                self.value(node, "float", emitters::BEAM_WIDTH.name, &number(*beam_degrees))?;
-                self.light(node, emitters::INTENSITY.name, *old, *intensity)
-            }
+            (old @ EmitterKind::Spot { .. }, new @ EmitterKind::Spot { .. }) => self.spot(node, old, new),
             (EmitterKind::Constant { radiance: old }, EmitterKind::Constant { radiance }) => {
                 self.light(node, emitters::RADIANCE.name, *old, *radiance)
             }
@@ -192,9 +180,16 @@ impl<'a> Changes<'a> {
                 }
                 self.light(node, emitters::IRRADIANCE.name, *old, *irradiance)
             }
+            (old @ EmitterKind::Projector { .. }, new @ EmitterKind::Projector { .. }) => {
+                self.projector(node, old, new)
+            }
             (
                 EmitterKind::Environment { to_world: m, .. },
                 EmitterKind::Environment { to_world, scale, .. },
+            )
+            | (
+                EmitterKind::Goniometric { to_world: m, .. },
+                EmitterKind::Goniometric { to_world, scale, .. },
             ) => {
                 if m != to_world {
                     self.transform(node, to_world)?;
@@ -203,6 +198,64 @@ impl<'a> Changes<'a> {
             }
             _ => Err("an emitter changed its kind".to_owned()),
         }
+    }
+
+    fn spot(&mut self, node: NodeId, old: &EmitterKind, new: &EmitterKind) -> Result<(), Obstacle> {
+        let (
+            EmitterKind::Spot { to_world: m, intensity: old, texture: was, .. },
+            EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees, texture },
+        ) = (old, new)
+        else {
+            return Err("an emitter changed its kind".to_owned());
+        };
+        if was != texture {
+            return Err("a light got another texture".to_owned());
+        }
+        if m != to_world {
+            self.transform(node, to_world)?;
+        }
+        self.value(node, "float", emitters::CUTOFF_ANGLE.name, &number(*cutoff_degrees))?;
+        self.value(node, "float", emitters::BEAM_WIDTH.name, &number(*beam_degrees))?;
+        self.light(node, emitters::INTENSITY.name, *old, *intensity)
+    }
+
+    /// A scale of its transform is a factor on its light, which descriptions have in one: both are stated anew.
+    fn projector(&mut self, node: NodeId, old: &EmitterKind, new: &EmitterKind) -> Result<(), Obstacle> {
+        let (
+            EmitterKind::Projector {
+                to_world: m,
+                irradiance: was,
+                scale: factor,
+                fov_degrees: angle,
+                fov_axis: axis,
+            },
+            EmitterKind::Projector { to_world, irradiance, scale, fov_degrees, fov_axis },
+        ) = (old, new)
+        else {
+            return Err("an emitter changed its kind".to_owned());
+        };
+        match (was, irradiance) {
+            (Colour::Constant(old), Colour::Constant(new)) => {
+                self.light(node, emitters::PROJECTED.name, *old, *new)?;
+            }
+            (was, is) if was == is => {}
+            _ => return Err("a light got another texture".to_owned()),
+        }
+        if (m, factor) != (to_world, scale) {
+            self.transform(node, to_world)?;
+            self.value(node, "float", emitters::PROJECTED_SCALE.name, &number(*scale))?;
+        }
+        if (angle, axis) != (fov_degrees, fov_axis) {
+            self.field_of_view(node, *fov_degrees, *fov_axis)?;
+        }
+        Ok(())
+    }
+
+    /// An angle of view, in place of any other that is stated.
+    fn field_of_view(&mut self, node: NodeId, degrees: f64, axis: FovAxis) -> Result<(), Obstacle> {
+        self.remove(node, "focal_length")?;
+        self.value(node, "float", "fov", &number(degrees))?;
+        self.value(node, "string", "fov_axis", axis.name())
     }
 
     pub(super) fn shape(

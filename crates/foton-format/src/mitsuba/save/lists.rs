@@ -71,7 +71,7 @@ impl Changes<'_> {
                 continue;
             };
             let (node, before) = (self.scene.nodes.emitters.get(was).copied(), &old.emitters[was]);
-            if !same::same_emitter(&before.kind, &emitter.kind) {
+            if !same::same_emitter((old, &before.kind), (new, &emitter.kind)) {
                 let node = self.own(node, "emitter", &before.name)?;
                 self.emitter(node, &before.kind, &emitter.kind)?;
             }

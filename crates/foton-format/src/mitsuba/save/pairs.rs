@@ -45,7 +45,12 @@ impl Pairs {
     }
 
     pub(super) fn of_emitters(old: &SceneDescription, new: &SceneDescription) -> Self {
-        Self::of(&old.emitters, &new.emitters, |e| &e.name, |a, b| same::same_emitter(&a.kind, &b.kind))
+        Self::of(
+            &old.emitters,
+            &new.emitters,
+            |e| &e.name,
+            |a, b| same::same_emitter((old, &a.kind), (new, &b.kind)),
+        )
     }
 
     pub(super) fn of_sensors(old: &SceneDescription, new: &SceneDescription) -> Self {

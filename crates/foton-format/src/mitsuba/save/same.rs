@@ -36,8 +36,9 @@ pub(super) fn difference(a: &SceneDescription, b: &SceneDescription) -> Option<S
     if let Some((a, _)) = a.sensors.iter().zip(&b.sensors).find(|(a, b)| !same_sensor(a, b)) {
         return Some(format!("sensor \"{}\"", a.name));
     }
-    if let Some((a, _)) = a.emitters.iter().zip(&b.emitters).find(|(a, b)| !same_emitter(&a.kind, &b.kind)) {
-        return Some(format!("emitter \"{}\"", a.name));
+    let mut emitters = a.emitters.iter().zip(&b.emitters);
+    if let Some((emitter, _)) = emitters.find(|(x, y)| !same_emitter((a, &x.kind), (b, &y.kind))) {
+        return Some(format!("emitter \"{}\"", emitter.name));
     }
     // Instances share meshes and materials: each pair is compared once.
     let (mut meshes, mut materials) = (HashSet::new(), HashSet::new());
@@ -71,17 +72,33 @@ pub(super) fn same_sensor(a: &SensorDescription, b: &SensorDescription) -> bool 
     view(a) == view(b) && film(a) == film(b)
 }
 
-pub(super) fn same_emitter(a: &EmitterKind, b: &EmitterKind) -> bool {
-    use EmitterKind::{Constant, Directional, Environment, Point, Spot};
+type EmitterOf<'a> = (&'a SceneDescription, &'a EmitterKind);
+
+pub(super) fn same_emitter((in_a, a): EmitterOf<'_>, (in_b, b): EmitterOf<'_>) -> bool {
+    use EmitterKind::{Constant, Directional, Environment, Goniometric, Point, Projector, Spot};
     match (a, b) {
         (
             Environment { to_world: m, bitmap: x, scale: s },
             Environment { to_world: n, bitmap: y, scale: t },
+        )
+        | (
+            Goniometric { to_world: m, bitmap: x, scale: s },
+            Goniometric { to_world: n, bitmap: y, scale: t },
         ) => m == n && s == t && same_bitmap(x, y),
         (
-            Spot { to_world: m, intensity: i, cutoff_degrees: c, beam_degrees: w },
-            Spot { to_world: n, intensity: j, cutoff_degrees: d, beam_degrees: x },
-        ) => (m, i, c, w) == (n, j, d, x),
+            Spot { to_world: m, intensity: i, cutoff_degrees: c, beam_degrees: w, texture: t },
+            Spot { to_world: n, intensity: j, cutoff_degrees: d, beam_degrees: x, texture: u },
+        ) => {
+            let same_texture = match (t, u) {
+                (Some(t), Some(u)) => same_colour((in_a, Colour::Texture(*t)), (in_b, Colour::Texture(*u))),
+                (t, u) => t == u,
+            };
+            (m, i, c, w) == (n, j, d, x) && same_texture
+        }
+        (
+            Projector { to_world: m, irradiance: x, scale: s, fov_degrees: f, fov_axis: g },
+            Projector { to_world: n, irradiance: y, scale: t, fov_degrees: h, fov_axis: k },
+        ) => (m, s, f, g) == (n, t, h, k) && same_colour((in_a, *x), (in_b, *y)),
         (Point { position: p, intensity: i }, Point { position: q, intensity: j }) => (p, i) == (q, j),
         (Constant { radiance: r }, Constant { radiance: s }) => r == s,
         (Directional { direction: d, irradiance: i }, Directional { direction: e, irradiance: j }) => {

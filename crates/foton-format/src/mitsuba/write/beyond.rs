@@ -1,6 +1,6 @@
 //! What a scene has that Mitsuba 3 does not: it is written in words of our own or of Mitsuba 0.6, which foton reads back.
 
-use foton_scene::description::{Coating, Filter, SceneDescription, SensorDescription};
+use foton_scene::description::{Coating, EmitterKind, Filter, SceneDescription, SensorDescription};
 use foton_scene::plugins::sensors;
 
 /// What Mitsuba 3 will not make of a scene that is written, a sentence each; nothing is said twice.
@@ -24,6 +24,12 @@ pub fn beyond_mitsuba_3(scene: &SceneDescription) -> Vec<String> {
         said.push(
             "an orthographic camera with a lens is written as the \"telecentric\" of Mitsuba 0.6: Mitsuba 3 has none and will \
              refuse the file"
+                .to_owned(),
+        );
+    }
+    if scene.emitters.iter().any(|e| matches!(e.kind, EmitterKind::Goniometric { .. })) {
+        said.push(
+            "a measured lamp is written as \"goniometric\": Mitsuba 3 has none and will refuse the file"
                 .to_owned(),
         );
     }

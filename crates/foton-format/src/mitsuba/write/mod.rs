@@ -6,6 +6,7 @@
 //! one group, so that both hold the mesh once. Nothing is validated here; [`beyond`] says what Mitsuba 3 does not have.
 
 pub(crate) mod beyond;
+mod emitters;
 mod files;
 mod groups;
 pub(crate) mod mesh;
@@ -23,11 +24,11 @@ use foton_scene::description::{
     Bitmap, EmitterDescription, EmitterKind, Filter, Geometry, Material, Mesh, Projection, SceneDescription,
     SensorDescription, ShapeDescription,
 };
-use foton_scene::plugins::{emitters, sensors};
+use foton_scene::plugins::sensors;
 
 use groups::Groups;
 use names::{file_name, mark};
-use xml::{Xml, colour, number, single, vector};
+use xml::{Xml, number};
 
 /// Writes a description as the scene file `path`, its meshes as `meshes/NAME-….ply` and its images as
 /// `textures/NAME-….exr` beside it, where `NAME` is that of the file. The scene file comes last.
@@ -76,7 +77,9 @@ pub(crate) fn shape_xml(shape: &ShapeDescription) -> Option<String> {
 pub(crate) fn emitter_xml(emitter: &EmitterDescription) -> Option<String> {
     let description = SceneDescription::default();
     let mut writer = Writer::new(&description, PathBuf::new(), String::new(), &[]);
-    let described = !matches!(emitter.kind, EmitterKind::Environment { .. });
+    let is_picture =
+        matches!(emitter.kind, EmitterKind::Environment { .. } | EmitterKind::Goniometric { .. });
+    let described = !is_picture && emitter.kind.texture().is_none();
     let written = described && writer.emitter(emitter, false).is_ok();
     written.then(|| writer.xml.finish())
 }
@@ -216,51 +219,5 @@ impl<'a> Writer<'a> {
         }
         xml.close("film");
         xml.close("sensor");
-    }
-
-    fn emitter(&mut self, emitter: &EmitterDescription, is_hidden: bool) -> Result<(), WriteError> {
-        let id = self.id(&emitter.name);
-        let filename = match &emitter.kind {
-            EmitterKind::Environment { bitmap, .. } => self.bitmap(bitmap, &id)?,
-            _ => String::new(),
-        };
-        let xml = &mut self.xml;
-        let plugin = match emitter.kind {
-            EmitterKind::Point { .. } => emitters::POINT.name,
-            EmitterKind::Spot { .. } => emitters::SPOT.name,
-            EmitterKind::Constant { .. } => emitters::CONSTANT.name,
-            EmitterKind::Directional { .. } => emitters::DIRECTIONAL.name,
-            EmitterKind::Environment { .. } => emitters::ENVMAP.name,
-        };
-        xml.open("emitter", &[("type", plugin), ("id", &id)]);
-        if is_hidden {
-            xml.hidden();
-        }
-        match &emitter.kind {
-            EmitterKind::Point { position, intensity } => {
-                xml.value("point", emitters::POSITION.name, &vector(*position));
-                xml.value("rgb", emitters::INTENSITY.name, &colour(*intensity));
-            }
-            EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees } => {
-                xml.value("rgb", emitters::INTENSITY.name, &colour(*intensity));
-                xml.value("float", emitters::CUTOFF_ANGLE.name, &number(*cutoff_degrees));
-                xml.value("float", emitters::BEAM_WIDTH.name, &number(*beam_degrees));
-                xml.transform("to_world", to_world);
-            }
-            EmitterKind::Constant { radiance } => {
-                xml.value("rgb", emitters::RADIANCE.name, &colour(*radiance));
-            }
-            EmitterKind::Directional { direction, irradiance } => {
-                xml.value("vector", emitters::DIRECTION.name, &vector(*direction));
-                xml.value("rgb", emitters::IRRADIANCE.name, &colour(*irradiance));
-            }
-            EmitterKind::Environment { to_world, scale, .. } => {
-                xml.value("string", emitters::FILENAME.name, &filename);
-                xml.value("float", emitters::SCALE.name, &single(*scale));
-                xml.transform("to_world", to_world);
-            }
-        }
-        xml.close("emitter");
-        Ok(())
     }
 }
