@@ -222,3 +222,19 @@ fn reading_tells_how_far_it_is() {
         assert!(told[0] == 0.0 && told.iter().any(|share| (0.8 * most..=most).contains(share)), "{told:?}");
     }
 }
+
+#[test]
+fn a_scene_of_pbrt_ends_in_the_middle_of_its_lists() {
+    let folder = Folder::new("pbrt");
+    let mut text =
+        "Film \"rgb\" Camera \"perspective\" WorldBegin Shape \"trianglemesh\" \"point3 P\" [".to_owned();
+    corners().for_each(|[x, y, z]| write!(text, " {x} {y} {z}").expect("a string"));
+    text.push_str("] \"integer indices\" [");
+    triangles().for_each(|[a, b, c]| write!(text, " {a} {b} {c}").expect("a string"));
+    text.push_str("]\nShape \"loopsubdiv\" \"integer levels\" 3 \"point3 P\" [0 0 0 1 0 0 0 1 0]\n");
+    text.push_str(&"Shape \"sphere\" ".repeat(10));
+    let (asked, opened) = questions(&folder.write("scene.pbrt", text));
+    // Lists of 54,004 and 54,000 numbers are asked about every 4096, which version the file is of included.
+    assert!(asked > 40, "{asked}");
+    assert_eq!((opened.description.shapes.len(), opened.warnings.len()), (12, 0));
+}

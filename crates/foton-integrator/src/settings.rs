@@ -127,7 +127,7 @@ pub struct RenderSettings {
     /// Whether direct, caustic and indirect light are summed separately beside all light, whose bits that does not change (costs 24
     /// bytes a hit point, 72 a pixel and some time).
     pub layers: bool,
-    /// Whether the error is estimated pass by pass (costs 8 bytes a hit point, 64 more where radii do not adapt, 32 a pixel and
+    /// Whether the error is estimated pass by pass (costs 8 bytes a hit point that a pass brings light, 32 more where radii do not adapt, 72 a pixel and
     /// some time).
     pub error: bool,
     /// Of progressive photon mapping.

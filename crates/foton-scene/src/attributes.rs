@@ -16,6 +16,8 @@ pub(crate) struct Corner {
     pub(crate) primitive: u32,
     /// Weights of a triangle's second and third vertex.
     pub(crate) weights: Vec2,
+    /// Whether those two are the other way around among the shape's corners.
+    pub(crate) is_turned: bool,
 }
 
 /// An attribute of all shapes that have it.
@@ -28,7 +30,7 @@ struct OfShape {
     /// Index of the shape's first primitive.
     first: u32,
     /// What each of its triangles takes at its corners.
-    corners: Vec<[u32; 3]>,
+    corners: Arc<[[u32; 3]]>,
     /// One or three numbers each.
     channels: usize,
     values: Arc<[f32]>,
@@ -36,7 +38,7 @@ struct OfShape {
 
 impl Attributes {
     /// Those of a shape whose first primitive has that index; shapes come in order.
-    pub(crate) fn add(&mut self, shape: u32, first: u32, attribute: &Attribute, corners: Vec<[u32; 3]>) {
+    pub(crate) fn add(&mut self, shape: u32, first: u32, attribute: &Attribute, corners: Arc<[[u32; 3]]>) {
         let Attribute { channels, values, .. } = attribute;
         self.0.push(OfShape { shape, first, corners, channels: *channels, values: Arc::clone(values) });
     }
@@ -50,14 +52,14 @@ impl Attributes {
     pub(crate) fn at(&self, place: &Corner) -> Rgb {
         let Ok(i) = self.0.binary_search_by_key(&place.shape, |of| of.shape) else { return Rgb::BLACK };
         let of = &self.0[i];
-        let Some(corners) = of.corners.get(place.primitive.wrapping_sub(of.first) as usize) else {
+        let Some(&[a, b, c]) = of.corners.get(place.primitive.wrapping_sub(of.first) as usize) else {
             return Rgb::BLACK;
         };
         let value = |i: u32| {
             let values = &of.values[i as usize * of.channels..];
             if of.channels == 1 { Rgb::splat(values[0]) } else { Rgb::new(values[0], values[1], values[2]) }
         };
-        let [a, b, c] = corners.map(value);
+        let [a, b, c] = if place.is_turned { [a, c, b] } else { [a, b, c] }.map(value);
         let (v, w) = (place.weights.x, place.weights.y);
         a * (1.0 - v - w) + b * v + c * w
     }

@@ -13,6 +13,8 @@ pub struct Census {
     pub discs: u64,
     /// Cylinders, open at both ends.
     pub cylinders: u64,
+    /// Meshes that share a tree with others; their triangles are counted, too.
+    pub instances: u64,
     /// Triangles without area, left out.
     pub degenerate_triangles: u64,
     /// The BSDFs of surfaces, each kind once: what a method's rules for paths go by.

@@ -19,6 +19,7 @@ mod filter;
 pub mod metals;
 mod normalise;
 pub mod parameter;
+mod placement;
 mod plane;
 pub mod plugins;
 mod primitive;
@@ -30,7 +31,7 @@ mod texture;
 
 pub use accel::Hit;
 pub use bsdf::{Bsdf, BsdfSample, Coat, LobeFlags, LobeSample, LobeSamples, Scattering, Transport};
-pub use build::{BuildError, BuildOptions, BuildStep, Tell};
+pub use build::{BuildError, BuildOptions, BuildStep, Instancing, Tell};
 pub use census::{BsdfKind, Census};
 pub use description::SceneDescription;
 pub use emitter::{Emission, Emitter, Extent, Illumination};

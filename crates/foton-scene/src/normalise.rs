@@ -3,7 +3,7 @@
 //! A scene's half-size becomes 2^10 to 2^11 scene units. Absolute tolerances (the tree's, say) are then the same for a ring
 //! of millimetres and for a harbour, and since the factor is a power of two a scene scaled by one gives the same bits.
 
-use foton_math::glam::{DVec3, Vec3};
+use foton_math::glam::{DAffine3, DVec3, Vec3};
 
 /// The exponent of the scene's half-size after scaling.
 const HALF_SIZE_EXPONENT: i32 = 11;
@@ -46,6 +46,18 @@ impl Normalisation {
     #[must_use]
     pub fn point(&self, world: DVec3) -> Vec3 {
         ((world - self.centre) * self.scale).as_vec3()
+    }
+
+    /// One coordinate of a point in scene units.
+    #[inline(always)]
+    pub(crate) fn coordinate(&self, axis: usize, world: f64) -> f32 {
+        ((world - self.centre[axis]) * self.scale) as f32
+    }
+
+    /// The map itself.
+    #[must_use]
+    pub(crate) fn to_affine(self) -> DAffine3 {
+        DAffine3::from_scale(DVec3::splat(self.scale)) * DAffine3::from_translation(-self.centre)
     }
 
     /// A length in scene units.

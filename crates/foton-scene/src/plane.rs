@@ -115,6 +115,14 @@ impl Plane {
     }
 }
 
+/// As [`Plane::distance`], of the plane through a triangle's corners.
+#[inline(always)]
+pub(crate) fn distance(corners: &[Vec3; 3], origin: DVec3, direction: DVec3) -> f64 {
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    let area = (b - a).cross(c - a);
+    area.dot(a - origin) / area.dot(direction)
+}
+
 /// The unit normal of a triangle by its winding, or `None` when it has no area.
 ///
 /// In double precision: a sliver of 10^6 : 1 still gets the normal of its plane.

@@ -67,6 +67,12 @@ impl ShearedRay {
         }
     }
 
+    /// The ray itself.
+    #[inline(always)]
+    pub(crate) const fn ray(&self) -> &Ray {
+        &self.ray
+    }
+
     /// Where x, y and z come from.
     #[inline(always)]
     pub(crate) const fn axes(&self) -> [usize; 3] {
@@ -122,6 +128,13 @@ impl ShearedRay {
     pub(crate) fn hit_plane(&self, plane: &Plane, corner: Vec3, t_max: f32) -> Option<f32> {
         let t = plane.distance(corner, self.origin, self.direction) as f32;
         // Along the plane t may be infinite.
+        (self.accepts(t, t_max) && t.is_finite()).then_some(t)
+    }
+
+    /// The same of the plane through a triangle's corners.
+    #[inline(always)]
+    pub(crate) fn hit_plane_of(&self, corners: &[Vec3; 3], t_max: f32) -> Option<f32> {
+        let t = crate::plane::distance(corners, self.origin, self.direction) as f32;
         (self.accepts(t, t_max) && t.is_finite()).then_some(t)
     }
 

@@ -57,8 +57,14 @@ impl Surface {
     #[must_use]
     #[inline]
     pub fn ray_origin(&self, direction: Vec3) -> Vec3 {
-        let distance = self.normal.abs().dot(self.error).max(LEAST_OFFSET);
-        self.position + self.normal * distance.copysign(direction.dot(self.normal))
+        self.position + self.normal * self.ray_offset().copysign(direction.dot(self.normal))
+    }
+
+    /// How far that is from the surface.
+    #[must_use]
+    #[inline]
+    pub fn ray_offset(&self) -> f32 {
+        self.normal.abs().dot(self.error).max(LEAST_OFFSET)
     }
 }
 

@@ -100,7 +100,8 @@ fn as_json(scene: &Scene, settings: &RenderSettings, name: &str, hash: u64) -> V
         "hash": format!("{hash:016x}"),
         "census": {
             "shapes": scene.shapes().len(), "triangles": c.triangles, "spheres": c.spheres, "discs": c.discs,
-            "tubes": c.cylinders, "degenerate_triangles": c.degenerate_triangles, "emitters": c.emitters,
+            "tubes": c.cylinders, "instances": c.instances, "degenerate_triangles": c.degenerate_triangles,
+            "emitters": c.emitters,
         },
         "sensors": scene.sensors().iter().map(|s| sensor(scene, s)).collect::<Vec<_>>(),
         "emitters": emitters,
@@ -128,6 +129,10 @@ fn as_text(scene: &Scene, settings: &RenderSettings, name: &str, hash: u64) -> V
             c.degenerate_triangles
         ),
     ];
+    if c.instances > 0 {
+        lines
+            .push(format!("{} of the shapes are instances: they share trees over their meshes", c.instances));
+    }
     for s in scene.sensors() {
         let mut line = format!("sensor {}: {} x {} pixels", s.name, s.width, s.height);
         if let Some([radius, focus]) = lens(scene, s) {

@@ -37,7 +37,8 @@ cargo xtask screenshots [FOLDER]    the window in each state of its panels, both
 cargo xtask bench [WHAT]            how fast, on a quiet machine: whole (the benchmark box, stage by stage), parts (by criterion), scaling,
                                     wide, accuracy (error a processor second), answers (commands within a
                                     long pass), first-light (the window's first seconds), census (what
-                                    leaving parts out saves), loading (opening a mesh of 2 M triangles), to-error (processor time that one foton needs
+                                    leaving parts out saves), instances (many shapes of one mesh), loading
+                                    (opening a mesh of 2 M triangles), to-error (processor time that one foton needs
                                     to the error of another, scene by scene)
 cargo xtask monkey [--minutes N]    random clicks and keys in the window for N (10) minutes: no error, no memory that grows
 cargo xtask soak [MINUTES]          one small render for MINUTES (20): no memory that grows, no drift of the mean, no NaN

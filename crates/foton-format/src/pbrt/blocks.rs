@@ -16,8 +16,8 @@ use crate::encoding::decoded;
 /// Files inside of files, and how many there may be of them.
 const DEEPEST: usize = 15;
 const MAX_FILES: usize = 10_000;
-/// Bytes that a byte of text takes at most: a number of one digit becomes one of eight bytes, in a list and in a mesh.
-pub(crate) const BYTES_PER_TEXT_BYTE: u64 = 12;
+/// Bytes that a byte of text takes, with its copy for messages and the numbers of one statement. What these become is counted there.
+pub(crate) const BYTES_PER_TEXT_BYTE: u64 = 6;
 
 impl Reader<'_> {
     /// Ends what was opened last.

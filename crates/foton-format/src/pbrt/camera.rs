@@ -220,26 +220,27 @@ impl Reader<'_> {
             "savefp16",
             "coordinatesystem",
         ]);
-        let exposed =
-            ["scale", "iso", "exposuretime", "sensor", "whitebalance"].into_iter().find(|name| p.has(name));
-        if let Some(name) = exposed {
-            let message = format!(
-                "\"{name}\" of the film has no effect: the image has the scene's own light, and --exposure makes it brighter or darker"
-            );
-            self.report.warning(p.place_of(name), message);
-        }
-        p.ignore(&[
-            "scale",
-            "iso",
-            "exposuretime",
-            "sensor",
-            "whitebalance",
-            "lambdamin",
-            "lambdamax",
-            "nbuckets",
-        ]);
+        self.exposure(&p);
+        p.ignore(&["sensor", "whitebalance", "lambdamin", "lambdamax", "nbuckets"]);
         p.finish(&mut self.report);
         Film { width, height, crop }
+    }
+
+    /// Says what a film makes of the scene's light, which has no effect here.
+    fn exposure(&mut self, p: &Parameters) {
+        let factors = [("scale", 1.0), ("iso", 100.0), ("exposuretime", 1.0)];
+        let times =
+            |(name, usual): &(&'static str, f64)| p.above_zero(name, *usual, &mut self.report) / usual;
+        let factor: f64 = factors.iter().map(times).product();
+        let mut names = factors.iter().map(|(name, _)| *name).chain(["sensor", "whitebalance"]);
+        let Some(name) = names.find(|name| p.has(name)) else { return };
+        let how = if (factor - 1.0).abs() < 1e-6 {
+            "the image has the scene's own light".to_owned()
+        } else {
+            let stops = factor.log2();
+            format!("the film makes the image {factor:.3} times as bright, as --exposure {stops:.2} does")
+        };
+        self.report.warning(p.place_of(name), format!("\"{name}\" has no effect: {how}"));
     }
 
     /// The part of the image that is rendered, by shares or by pixels.

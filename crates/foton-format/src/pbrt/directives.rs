@@ -75,7 +75,7 @@ pub(crate) fn begins_as_scene(text: &str) -> bool {
 impl Reader<'_> {
     /// Reads a text to its end, all that is wrong in it included.
     pub(crate) fn text(&mut self, text: &str, lines_before: u32) {
-        let mut tokens = Tokens::new(text, lines_before);
+        let mut tokens = Tokens::new(text, lines_before).until(self.files.cancel());
         let is_main = self.including.is_empty();
         while let Some(token) = tokens.next() {
             if self.files.cancel().is_requested() || self.report.is_full() {

@@ -54,16 +54,71 @@ impl Reader<'_> {
         place: Place,
     ) -> Option<EmitterKind> {
         let map = self.light_map(filename, factor)?;
-        if map.width != map.height {
-            let message = format!(
-                "the picture of this light has {} × {} pixels: it must be a square of equal areas, which pbrt's `imgtool makeequiarea` makes of latitudes",
-                map.width, map.height
-            );
-            self.report.error(filename.place, message);
-            return None;
-        }
+        self.check_square(&map, filename)?;
         let (to_world, mirrored) = self.light_axes(place)?;
         let axes = if mirrored { MIRRORED } else { UNMIRRORED };
+        // Where columns and rows of a description's map lie.
+        let direction = |u: f64, theta: f64| {
+            let (sin, cos) = theta.sin_cos();
+            axes * DVec3::new(sin * (TAU * u).sin(), cos, -sin * (TAU * u).cos())
+        };
+        let bitmap = self.latitudes_of(&map, direction, place)?;
+        Some(EmitterKind::Environment { to_world, bitmap, scale: 1.0 })
+    }
+
+    /// The lamp whose light goes by a picture: latitudes about the light's y axis, or a square.
+    pub(super) fn measured_lamp(
+        &mut self,
+        filename: &Located<String>,
+        factor: Rgb,
+        place: Place,
+    ) -> Option<EmitterKind> {
+        let map = self.light_map(filename, factor)?;
+        let to_world = self.rigid(place)?;
+        if self.is_old() {
+            // y is up, and columns go from +x towards +z.
+            let axes = DAffine3::from_mat3(DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::Y));
+            return Some(EmitterKind::Goniometric { to_world: to_world * axes, bitmap: map, scale: 1.0 });
+        }
+        self.check_square(&map, filename)?;
+        let direction = |u: f64, theta: f64| {
+            let (sin, cos) = theta.sin_cos();
+            DVec3::new(sin * (TAU * u).cos(), sin * (TAU * u).sin(), cos)
+        };
+        let bitmap = self.latitudes_of(&map, direction, place)?;
+        Some(EmitterKind::Goniometric { to_world, bitmap, scale: 1.0 })
+    }
+
+    /// The transform of what comes next, if it does not stretch.
+    pub(super) fn rigid(&mut self, place: Place) -> Option<DAffine3> {
+        let to_world = self.place();
+        if even_scale(to_world.matrix3, 1e-3).is_some() {
+            return Some(to_world);
+        }
+        self.report.error(place, "the transform of a light with a picture must not stretch or shear");
+        None
+    }
+
+    /// An error where a picture is no square.
+    fn check_square(&mut self, map: &Bitmap, filename: &Located<String>) -> Option<()> {
+        if map.width == map.height {
+            return Some(());
+        }
+        let message = format!(
+            "the picture of this light has {} × {} pixels: it must be a square of equal areas, which pbrt's `imgtool makeequiarea` makes of latitudes",
+            map.width, map.height
+        );
+        self.report.error(filename.place, message);
+        None
+    }
+
+    /// Latitudes of a square: the direction of a column, from 0 to 1, and an angle from the pole is given.
+    fn latitudes_of(
+        &mut self,
+        map: &Bitmap,
+        direction: impl Fn(f64, f64) -> DVec3,
+        place: Place,
+    ) -> Option<Arc<Bitmap>> {
         let (width, height) = (2 * map.width, map.height + 1);
         if !self.take(u64::from(width) * u64::from(height) * size_of::<Rgb>() as u64, place) {
             return None;
@@ -73,10 +128,9 @@ impl Reader<'_> {
             if self.files.cancel().is_requested() {
                 return None;
             }
-            pixels.extend((0..width).map(|x| mean(&map, axes, [x, y], [width, height])));
+            pixels.extend((0..width).map(|x| mean(map, &direction, [x, y], [width, height])));
         }
-        let bitmap = Arc::new(Bitmap::new(width, height, pixels));
-        Some(EmitterKind::Environment { to_world, bitmap, scale: 1.0 })
+        Some(Arc::new(Bitmap::new(width, height, pixels)))
     }
 
     /// The transform of a map of this light, and whether it must be mirrored.
@@ -93,16 +147,19 @@ impl Reader<'_> {
 }
 
 /// What a pixel of a map of latitudes has of a square: the mean over it.
-fn mean(map: &Bitmap, axes: DMat3, [x, y]: [u32; 2], [width, height]: [u32; 2]) -> Rgb {
+fn mean(
+    map: &Bitmap,
+    direction: &impl Fn(f64, f64) -> DVec3,
+    [x, y]: [u32; 2],
+    [width, height]: [u32; 2],
+) -> Rgb {
     let mut sum = Rgb::BLACK;
     for i in 0..SAMPLES * SAMPLES {
         let within = |k: u32| (f64::from(k) + 0.5) / f64::from(SAMPLES);
         // Columns stand for the middles of their pixels, rows for latitudes from pole to pole.
         let u = (f64::from(x) + within(i % SAMPLES)) / f64::from(width);
         let theta = (f64::from(y) + within(i / SAMPLES) - 0.5) / f64::from(height - 1) * PI;
-        let (sin, cos) = theta.clamp(0.0, PI).sin_cos();
-        let on_map = DVec3::new(sin * (TAU * u).sin(), cos, -sin * (TAU * u).cos());
-        sum += lookup(map, to_square(axes * on_map));
+        sum += lookup(map, to_square(direction(u, theta.clamp(0.0, PI))));
     }
     sum / (SAMPLES * SAMPLES) as f32
 }

@@ -1,16 +1,21 @@
 //! The directive `LightSource`: lights that are not surfaces.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use foton_input::quoted;
 use foton_math::Rgb;
-use foton_math::glam::{DAffine3, DMat3, DVec3};
-use foton_scene::description::{EmitterDescription, EmitterKind};
+use foton_math::glam::{DAffine3, DMat3, DVec2, DVec3};
+use foton_scene::description::{
+    Bitmap, Colour, EmitterDescription, EmitterKind, FovAxis, Texture, TextureKind, Wrap,
+};
 
 use super::colours::Meaning;
 use super::parameters::{COLOURS, Kind, Parameters};
 use super::reader::Reader;
 use crate::image::{Purpose, Reading};
+use crate::mitsuba::read::properties::Located;
+use crate::mitsuba::read::textures::TURN;
 use crate::spelling::did_you_mean;
 
 /// Lights of both versions.
@@ -92,20 +97,18 @@ impl Reader<'_> {
         Some(EmitterKind::Point { position: self.light_position(p), intensity })
     }
 
-    /// The mean of the picture that a light shines through; 1 where there is none.
-    fn mean_of_map(&mut self, p: &Parameters) -> Option<Rgb> {
+    /// The file of a light's picture.
+    fn map_name(&mut self, p: &Parameters) -> Option<Located<String>> {
         let name = if p.has("mapname") { "mapname" } else { "filename" };
-        let Some(filename) = p.text(name, &mut self.report) else { return Some(Rgb::WHITE) };
-        let bitmap = self.images.read(&filename, Reading::LIGHT, &mut self.files, &mut self.report)?;
-        Some(bitmap.pixels.iter().copied().sum::<Rgb>() / bitmap.pixels.len() as f32)
+        p.text(name, &mut self.report)
     }
 
     fn goniometric(&mut self, p: &Parameters) -> Option<EmitterKind> {
-        let mean = self.mean_of_map(p)?;
-        let message = "a point that shines evenly stands in for a \"goniometric\" light: it has the mean of its picture";
-        self.report.warn_once(p.place, message.to_owned());
-        let intensity = self.scaled_light(p, "I", "power", 4.0 * PI)? * mean;
-        Some(EmitterKind::Point { position: self.in_world(DVec3::ZERO), intensity })
+        let intensity = self.scaled_light(p, "I", "power", 4.0 * PI)?;
+        let Some(filename) = self.map_name(p) else {
+            return Some(EmitterKind::Point { position: self.in_world(DVec3::ZERO), intensity });
+        };
+        self.measured_lamp(&filename, intensity, p.place)
     }
 
     /// Light along the direction of a frame at a point of the current space.
@@ -136,20 +139,39 @@ impl Reader<'_> {
         Some(EmitterKind::Spot { to_world, intensity, cutoff_degrees, beam_degrees, texture: None })
     }
 
+    /// A picture that is thrown along z; what it has in a direction is the intensity there.
     fn projection(&mut self, p: &Parameters) -> Option<EmitterKind> {
-        let mean = self.mean_of_map(p)?;
-        let message = "a spot stands in for a \"projection\" light: it has the mean of its picture";
-        self.report.warn_once(p.place, message.to_owned());
-        let fov = p.number_or("fov", 45.0, &mut self.report).clamp(0.1, 179.0);
-        let intensity =
-            self.scaled_light(p, "I", "power", 2.0 * PI * (1.0 - (0.5 * fov).to_radians().cos()))? * mean;
-        let to_world = self.aimed(DVec3::ZERO, DVec3::Z)?;
-        Some(EmitterKind::Spot {
+        let fov_degrees = p.number_or("fov", if self.is_old() { 45.0 } else { 90.0 }, &mut self.report);
+        let filename = self.map_name(p);
+        if filename.is_none() {
+            self.report.error(p.place, "a projection light needs a picture");
+        }
+        if !(fov_degrees > 0.0 && fov_degrees < 180.0) {
+            self.report.error(p.place_of("fov"), "\"fov\" must lie between 0 and 180 degrees");
+            return None;
+        }
+        let picture = self.light_map(&filename?, Rgb::WHITE)?;
+        let (projected, solid) = as_irradiance(&picture, fov_degrees);
+        let intensity = self.scaled_light(p, "I", "power", solid)?;
+        let pixels = projected.pixels.iter().map(|c| *c * intensity).collect();
+        let bitmap = Arc::new(Bitmap::new(projected.width, projected.height, pixels));
+        if !self.take(2 * size_of_val(&bitmap.pixels[..]) as u64, p.place) {
+            return None;
+        }
+        let texture = self.description.textures.len();
+        let kind = TextureKind::Bitmap { bitmap, wrap: Wrap::Clamp, bilinear: true };
+        let name = format!("projection-{}", texture + 1);
+        self.description.textures.push(Texture { name, to_uv: TURN, kind });
+        // The picture has +x to its right in pbrt; in version 3 it stands upside down.
+        let upright = if self.is_old() { -1.0 } else { 1.0 };
+        let to_world = self.rigid(p.place)? * DAffine3::from_scale(DVec3::new(-1.0, upright, 1.0));
+        let irradiance = Colour::Texture(texture);
+        Some(EmitterKind::Projector {
             to_world,
-            intensity,
-            cutoff_degrees: 0.5 * fov,
-            beam_degrees: 0.5 * fov,
-            texture: None,
+            irradiance,
+            scale: 1.0,
+            fov_degrees,
+            fov_axis: FovAxis::Smaller,
         })
     }
 
@@ -198,12 +220,26 @@ impl Reader<'_> {
     }
 
     /// The pixels of a light's picture.
-    pub(super) fn light_map(
-        &mut self,
-        filename: &crate::mitsuba::read::properties::Located<String>,
-        factor: Rgb,
-    ) -> Option<std::sync::Arc<foton_scene::description::Bitmap>> {
+    pub(super) fn light_map(&mut self, filename: &Located<String>, factor: Rgb) -> Option<Arc<Bitmap>> {
         let reading = Reading { factor, purpose: Purpose::Light, ..Reading::LIGHT };
         self.images.read(filename, reading, &mut self.files, &mut self.report)
     }
+}
+
+/// What a picture of intensities sends to a plane at distance 1, over π, and the integral of its luminance over directions.
+fn as_irradiance(picture: &Bitmap, fov_degrees: f64) -> (Bitmap, f64) {
+    let (width, height) = (f64::from(picture.width), f64::from(picture.height));
+    let half = (0.5 * fov_degrees).to_radians().tan() / width.min(height);
+    let mut total = 0.0;
+    let pixel = |(i, c): (usize, &Rgb)| {
+        let (x, y) = (i % picture.width as usize, i / picture.width as usize);
+        let at = DVec2::new(2.0 * x as f64 + 1.0 - width, 2.0 * y as f64 + 1.0 - height) * half;
+        let cosine3 = (1.0 + at.length_squared()).sqrt().recip().powi(3);
+        total += f64::from(c.luminance()) * cosine3 * 4.0 * half * half;
+        #[allow(clippy::cast_possible_truncation, reason = "light is single precision")]
+        let factor = (cosine3 / PI) as f32;
+        *c * factor
+    };
+    let pixels = picture.pixels.iter().enumerate().map(pixel).collect();
+    (Bitmap::new(picture.width, picture.height, pixels), total)
 }

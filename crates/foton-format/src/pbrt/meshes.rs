@@ -64,6 +64,11 @@ impl Reader<'_> {
             report.error(p.place_of("indices"), message);
             return None;
         }
+        let numbers = 3 * positions.len() + 3 * normals.len() + 2 * texture_coordinates.len();
+        if !self.take((8 * numbers + 4 * indices.len()) as u64, p.place) {
+            return None;
+        }
+        let report = &mut self.report;
         let mut mesh = Mesh { positions, normals, texture_coordinates, ..Mesh::default() };
         let points = mesh.positions.len();
         for (name, found) in [("N", mesh.normals.len()), (uv.unwrap_or("uv"), mesh.texture_coordinates.len())]

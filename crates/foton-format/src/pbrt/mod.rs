@@ -91,7 +91,8 @@ pub(crate) fn open(path: &Path, files: &ReadFile<'_>, options: &Options) -> Resu
         }
     };
     report.main_text(&text, directives::begins_as_scene(&text));
-    let mut reader = Reader::new(Version::of(&text), Files::new(files, options, budget), report);
+    let mut reader =
+        Reader::new(Version::of(&text, &options.cancel), Files::new(files, options, budget), report);
     reader.text(&text, 0);
     reader.check_closed();
     reader.sensor();

@@ -157,7 +157,10 @@ impl<'t> Tokens<'t> {
             }
         }
         let value_place = self.clone().place();
-        loop {
+        for count in 0.. {
+            if self.is_cancelled_at(count) {
+                break;
+            }
             let before = self.clone();
             let Some(token) = self.next() else {
                 return Err((begin, "the bracket is not closed".to_owned()));
@@ -174,6 +177,8 @@ impl<'t> Tokens<'t> {
                 token => add(&mut values, token)?,
             }
         }
+        // Nothing is said of a file whose reading was cancelled.
+        Err(missing())
     }
 }
 

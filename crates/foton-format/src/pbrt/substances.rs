@@ -9,10 +9,11 @@ use crate::mitsuba::read::metals;
 const BRASS: [Rgb; 2] = [Rgb::new(0.444, 0.527, 1.094), Rgb::new(3.695, 2.765, 1.829)];
 
 /// Glasses of Schott's catalogue: their index at the d line, 587.6 nm.
-const GLASSES: [(&str, f32); 8] = [
+const GLASSES: [(&str, f32); 9] = [
     ("glass-BK7", 1.5168),
     ("glass-BAF10", 1.6700),
     ("glass-F5", 1.6034),
+    ("glass-F11", 1.6206),
     ("glass-FK51A", 1.4866),
     ("glass-LASF9", 1.8503),
     ("glass-SF5", 1.6727),

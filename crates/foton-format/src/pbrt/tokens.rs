@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use foton_input::quoted;
+use foton_math::Cancel;
 
 use crate::diagnostic::Place;
 
@@ -30,6 +31,7 @@ pub(crate) struct Tokens<'t> {
     text: &'t str,
     at: usize,
     place: Place,
+    cancel: Option<&'t Cancel>,
 }
 
 /// What is wrong with a token, and where.
@@ -38,7 +40,17 @@ pub(crate) type Fault = (Place, String);
 impl<'t> Tokens<'t> {
     /// Of a text that has so many lines of other files before it.
     pub(crate) const fn new(text: &'t str, lines_before: u32) -> Self {
-        Self { text, at: 0, place: Place { line: lines_before.saturating_add(1), column: 1 } }
+        Self { text, at: 0, place: Place { line: lines_before.saturating_add(1), column: 1 }, cancel: None }
+    }
+
+    /// The same, whose long lists end once that is requested.
+    pub(crate) const fn until(self, cancel: &'t Cancel) -> Self {
+        Self { cancel: Some(cancel), ..self }
+    }
+
+    /// Whether to stop, asked after so many values of a list.
+    pub(crate) fn is_cancelled_at(&self, count: usize) -> bool {
+        self.cancel.is_some_and(|cancel| cancel.check_at(count).is_err())
     }
 
     /// How much of the text is behind, from 0 to 1.

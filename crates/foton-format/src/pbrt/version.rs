@@ -1,5 +1,7 @@
 //! Which version of pbrt a file is for: some words mean something else in each.
 
+use foton_math::Cancel;
+
 use super::tokens::{Token, Tokens};
 
 /// A version of pbrt.
@@ -64,9 +66,14 @@ const NEW_MATERIALS: &[&str] = &[
 
 impl Version {
     /// The version that the first word says which only one of them has; the newer where none does.
-    pub(crate) fn of(text: &str) -> Self {
+    pub(crate) fn of(text: &str, cancel: &Cancel) -> Self {
         let mut tokens = Tokens::new(text, 0).flatten().map(|(token, _)| token).peekable();
+        let mut count = 0;
         while let Some(token) = tokens.next() {
+            count += 1;
+            if cancel.check_at(count).is_err() {
+                break;
+            }
             let Token::Word(word) = token else { continue };
             let plugin = match tokens.peek() {
                 Some(Token::Text(text)) => text.as_ref(),
@@ -100,7 +107,7 @@ mod tests {
             ("Shape \"sphere\" Material \"glass\"", Version::Three),
             ("Shape \"sphere\"", Version::Four),
         ] {
-            assert_eq!(Version::of(text), version, "{text}");
+            assert_eq!(Version::of(text, &Cancel::default()), version, "{text}");
         }
     }
 }

@@ -61,6 +61,10 @@ fn all_faults_of_a_file_are_found_at_once_with_what_is_nearest() {
 
 #[test]
 fn what_has_no_effect_is_warned_of() {
+    let (_, warnings) =
+        read_with("Film \"rgb\" \"float iso\" 400 \"float exposuretime\" 0.5 Camera \"perspective\"");
+    let said = "s.pbrt:1:24: \"iso\" has no effect: the film makes the image 2.000 times as bright, as --exposure 1.00 does";
+    assert_eq!(warnings, [said]);
     let text = whole(
         "Shape \"sphere\" \"float radus\" 2\nMakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\n\
          MediumInterface \"fog\" \"\" Shape \"sphere\"\nAttributeBegin\nMaterial \"conductor\" \"rgb Kd\" [1 1 1] Shape \"disk\"",

@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
-use foton_scene::description::{Colour, EmitterKind, SceneDescription};
+use foton_scene::description::{Colour, EmitterKind, FovAxis, SceneDescription, TextureKind};
 
-use super::{read, read_with, whole};
+use super::{read, whole};
 
 fn emitter(scene: &SceneDescription) -> &EmitterKind {
     &scene.emitters[0].kind
@@ -130,9 +130,38 @@ fn light_from_all_around_adds_up_and_has_a_picture_where_pbrt_has_it() {
 }
 
 #[test]
-fn lights_that_shine_through_pictures_have_stand_ins() {
-    let (scene, warnings) = read_with(&whole("LightSource \"goniometric\" \"string filename\" \"two.hdr\""));
-    let EmitterKind::Point { intensity, .. } = emitter(&scene) else { panic!("no point") };
-    assert_eq!(*intensity, Rgb::new(0.5, 1.0, 0.0));
-    assert!(warnings[0].contains("stands in for a \"goniometric\" light"), "{warnings:?}");
+fn lamps_shine_by_their_pictures() {
+    let old = "Film \"image\" Camera \"perspective\" WorldBegin Translate 1 2 3";
+    let scene =
+        read(&format!("{old} LightSource \"goniometric\" \"string mapname\" \"two.hdr\" \"rgb I\" [2 2 2]"));
+    let EmitterKind::Goniometric { to_world, bitmap, .. } = emitter(&scene) else { panic!("no lamp") };
+    // Rows are angles from +y, and columns grow from +x towards +z.
+    assert_eq!(to_world.matrix3.to_cols_array(), [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0]);
+    assert_eq!((to_world.translation, bitmap.pixels[1].g), (DVec3::new(1.0, 2.0, 3.0), 4.0));
+    let scene = read(&whole("LightSource \"goniometric\" \"string filename\" \"one.hdr\""));
+    let EmitterKind::Goniometric { bitmap, .. } = emitter(&scene) else { panic!("no lamp") };
+    assert!(bitmap.pixels.iter().all(|p| *p == Rgb::WHITE), "{:?}", bitmap.pixels);
+}
+
+#[test]
+fn pictures_are_thrown_with_the_intensity_that_they_have() {
+    let scene = read(&whole(
+        "LightSource \"projection\" \"string filename\" \"two.hdr\" \"float fov\" 90 \"float scale\" 3",
+    ));
+    let EmitterKind::Projector { to_world, irradiance, fov_degrees, fov_axis, .. } = emitter(&scene) else {
+        panic!("no projector")
+    };
+    assert_eq!((*fov_degrees, *fov_axis), (90.0, FovAxis::Smaller));
+    // The picture's left is towards −x, as it is for a camera of pbrt.
+    assert_eq!(to_world.matrix3.x_axis, DVec3::NEG_X);
+    let Colour::Texture(i) = irradiance else { panic!("no texture") };
+    let TextureKind::Bitmap { bitmap, .. } = &scene.textures[*i].kind else { panic!("no picture") };
+    // The middle of the left pixel lies at (−1, 0) on the plane: cos³ θ is 2^(−3/2) there.
+    let wanted = 3.0 * 2f64.powf(-1.5) / PI;
+    assert!((f64::from(bitmap.pixels[0].r) - wanted).abs() < 1e-6, "{:?}", bitmap.pixels);
+    // On a scale of its own, by its power in all directions.
+    let scene = read(&whole("LightSource \"projection\" \"string filename\" \"one.hdr\" \"float power\" 10"));
+    let TextureKind::Bitmap { bitmap, .. } = &scene.textures[0].kind else { panic!("no picture") };
+    let solid = 4.0;
+    assert!((f64::from(bitmap.pixels[0].r) * PI - 10.0 / solid).abs() < 1e-5, "{:?}", bitmap.pixels);
 }

@@ -35,6 +35,7 @@ fn files(path: &Path) -> io::Result<Vec<u8>> {
         Some("t.ply.gz") => Ok(packed(PLY.as_bytes())),
         Some("light.spd") => Ok(b"# nm\n400 1\n700 1\n".to_vec()),
         Some("two.hdr") => Ok(picture()),
+        Some("one.hdr") => Ok(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81".to_vec()),
         Some("parts/sphere.pbrt") => Ok(
             b"# inside\nTranslate 1 0 0\nShape \"sphere\"\nShape \"plymesh\" \"string filename\" \"t.ply\""
                 .to_vec(),
@@ -168,6 +169,23 @@ fn a_file_that_is_included_changes_the_state_and_one_that_is_imported_does_not()
         scene.shapes[2].to_world.translation.x
     };
     assert_eq!((centre("Include"), centre("Import")), (1.0, 0.0));
+}
+
+#[test]
+fn a_scene_may_be_packed_and_tells_which_files_it_is_of() {
+    let text = whole("Shape \"sphere\" Shape \"spere\"");
+    let read = |text: &str| {
+        let packed = packed(text.as_bytes());
+        let with_main =
+            |path: &Path| if path == Path::new("s.pbrt.gz") { Ok(packed.clone()) } else { files(path) };
+        open_from(Path::new("s.pbrt.gz"), &with_main, &Options::default())
+    };
+    let opened = read(&whole("Shape \"sphere\"")).expect("sound");
+    assert_eq!((opened.description.shapes.len(), opened.warnings.len()), (1, 0));
+    let place = opened.finding(foton_format::Severity::Error, "s.pbrt.gz", Some("sphere-1"), "x".to_owned());
+    assert_eq!(place.to_string(), "s.pbrt.gz:2:8: x");
+    let Err(error) = read(&text) else { panic!("no such shape") };
+    assert!(error.to_string().starts_with("s.pbrt.gz:2:23: unknown shape"), "{error}");
 }
 
 #[test]

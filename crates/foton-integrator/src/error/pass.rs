@@ -117,8 +117,8 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
         let (hit_points, range) = (self.hit_points, self.hit_points.of_pixel(pixel));
         let mut foci = [0.0; 2];
         for (&slot, &weight) in hit_points.slot_of[range.clone()].iter().zip(&hit_points.weights[range]) {
-            let radius_statistics = &hit_points.radius_statistics_slots[slot as usize];
-            let square = hidden(radius_statistics, f64::from(weight.luminance()));
+            let radius_statistics = hit_points.radius_statistics[hit_points.place(slot as usize)].sums();
+            let square = hidden(&radius_statistics, f64::from(weight.luminance()));
             foci.iter_mut().zip(square).for_each(|(sum, square)| *sum += square);
         }
         foci
@@ -128,7 +128,7 @@ impl<const LAYERS: usize> Pass<'_, LAYERS> {
     fn one_photon(&self, pixel: usize) -> f64 {
         let hit_points = self.hit_points;
         let unknown = hit_points.of_pixel(pixel).filter_map(|h| {
-            let statistics = &hit_points.statistics_slots[hit_points.slot_of[h] as usize];
+            let statistics = hit_points.statistics_of(hit_points.slot_of[h] as usize);
             let area = std::f64::consts::PI * statistics.radius2();
             let specular = hit_points.gloss(hit_points.slot_of[h] as usize).is_some_and(|g| g.specular);
             let is_unknown =

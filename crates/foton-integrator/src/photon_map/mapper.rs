@@ -130,7 +130,7 @@ impl PhotonMapper {
         let whole: f32 = paths.hit_points.iter().map(importance).sum();
         let mut nearest = Nearest::default();
         for point in &paths.hit_points {
-            let gloss = point.gloss.map(|g| &paths.gloss[g as usize]);
+            let gloss = point.gloss.map(|g| &paths.gloss[g.get()]);
             let end = End { point, gloss, place: Place::at(point) };
             let rays = (self.settings.photon_map.gather_rays.get() as f32 * importance(point) / whole).ceil();
             self.light(scene, &end, rays.max(1.0) as u32, &mut nearest, &mut numbers, seen);
@@ -196,7 +196,7 @@ impl PhotonMapper {
         seen: &mut Seen,
     ) {
         let at = Receiver {
-            origin: end.point.origin,
+            origin: end.point.origin(),
             normal: end.point.shading_normal,
             edges: u32::from(end.point.remaining_edges),
         };
@@ -271,7 +271,7 @@ fn gathered(gather: &Gather<'_>, end: &End<'_>, count: u32, scratch: &mut Scratc
         if value.is_black() {
             continue;
         }
-        let ray = Ray::new(point.origin, direction);
+        let ray = Ray::new(point.origin(), direction);
         sum += gather.arriving(ray, edges, scratch) * value * (wi.z / pdf);
     }
     sum / count as f32

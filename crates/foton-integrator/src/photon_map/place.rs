@@ -5,11 +5,8 @@ use std::f32::consts::TAU;
 use foton_math::glam::{Vec2, Vec3};
 use foton_math::{Frame, Ray, Stream};
 use foton_scene::{Scene, Surface};
-use foton_transport::camera_paths::HitPoint;
+use foton_transport::camera_paths::{HitPoint, slab2};
 use foton_transport::kd_tree::{MAX_EDGES, PackedPhoton};
-
-/// Photons count up to this squared sine off the plane of a flat surface: a step or a sheet beside it is none of it.
-const FLAT: f32 = 0.01;
 
 /// What coordinates of a thousand scene units round to, and some.
 const ROUNDING: f32 = 1e-3;
@@ -42,15 +39,15 @@ impl Place {
             position: surface.position,
             normal: if outward { surface.normal } else { -surface.normal },
             patch: surface.patch_towards(outward),
-            slope2: if surface.curved { 1.0 } else { FLAT },
+            slope2: slab2(surface.curved),
             edges,
         }
     }
 
     /// Where an eye path ends.
     pub(super) fn at(point: &HitPoint) -> Self {
-        let HitPoint { position, normal, patch, slab2, .. } = *point;
-        Self { position, normal, patch, slope2: slab2, edges: u32::from(point.remaining_edges) }
+        let HitPoint { position, normal, patch, curved, .. } = *point;
+        Self { position, normal, patch, slope2: slab2(curved), edges: u32::from(point.remaining_edges) }
     }
 
     /// Whether a photon at an offset lies on the same surface, on its side, and came by few enough edges. More than [`MAX_EDGES`] are not

@@ -49,17 +49,17 @@ impl DiscMoments {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct RadiusStatistics {
     /// Σ Φ/(π r²).
-    light: f64,
+    pub(super) light: f64,
     /// Σ (Φ/(π r²))²: the variance of that.
-    variance: f64,
+    pub(super) variance: f64,
     /// Σ 6(s − ½) Φ/(π r²), s = d²/r².
-    laplacian: f64,
+    pub(super) laplacian: f64,
     /// Σ Φ d/(π r³).
-    offset: [f64; 3],
+    pub(super) offset: [f64; 3],
     /// Σ |d − d̄|²/r², d̄ the mean of a pass, over as many equal photons as would be as noisy; and how many more than one those
     /// were in each pass.
-    spread: f64,
-    freedom: f64,
+    pub(super) spread: f64,
+    pub(super) freedom: f64,
 }
 
 impl RadiusStatistics {

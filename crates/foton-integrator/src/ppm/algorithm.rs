@@ -15,7 +15,7 @@ use super::direct::{Direct, by_shadow_rays};
 use super::eye_samples::EyeSamples;
 use super::guidance::Guidance;
 use super::hit_points::HitPoints;
-use super::laid_out::LaidOut;
+use super::laid_out::{LaidOut, has_moments};
 use super::light::Light;
 use super::schedule::begin_small;
 use super::under_way::{Once, UnderWay};
@@ -123,6 +123,7 @@ impl Ppm {
     ) -> Result<Self, Cancelled> {
         let LaidOut { hit_points, sources, guidance, samples, mut emission, start, .. } = laid_out;
         cancel.check()?;
+        let hit_points = hit_points.with_statistics(has_moments(&settings));
         let grid = Grid::new(&hit_points.packets, cancel)?;
         begin_small(&mut settings.ppm, &hit_points.packets, &grid);
         cancel.check()?;
@@ -131,7 +132,7 @@ impl Ppm {
         let renewal = (settings.method == Method::Sppm).then(|| {
             let none = vec![Rgb::BLACK; emission.len()];
             let (emission, first) = (std::mem::replace(&mut emission, none), laid_out.first_radius2);
-            let moments = !hit_points.radius_statistics_slots.is_empty();
+            let moments = !hit_points.radius_statistics.is_empty();
             Box::new(Renewal::new((&scene, shadow_rays), emission, (first, widened), moments))
         });
         let turns = renewal.is_none() && shadow_rays;

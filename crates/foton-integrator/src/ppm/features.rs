@@ -4,9 +4,8 @@ use foton_scene::{Census, Emitter, Scene};
 use foton_transport::LobeUse;
 use foton_transport::camera_paths::Gloss;
 
-use super::adaptive::RadiusStatistics;
 use super::direct::{Direct, by_shadow_rays};
-use super::hit_points::ShadowOrigin;
+use super::kept::KeptRadius;
 use super::lobes::lobe_use;
 use super::radiance::Radiance;
 use super::settings::{DirectLight, RadiusRule};
@@ -175,7 +174,7 @@ fn shadow_rays(scene: &Scene, settings: &RenderSettings) -> Feature {
         Feature::new("shadow rays", by_shadow_rays(scene, settings), reasons, "about a quarter of a pass");
     // Where eye samples are new in each pass, direct light is summed with all that they see.
     let of_pixel = if settings.method.renews_eye_samples() { 0 } else { Direct::BYTES_PER_PIXEL };
-    feature.with_bytes(size_of::<ShadowOrigin>(), of_pixel)
+    feature.with_bytes(size_of::<f32>(), of_pixel)
 }
 
 fn guidance(emits: bool, settings: &RenderSettings) -> Feature {
@@ -205,7 +204,7 @@ fn asked_for(settings: &RenderSettings) -> [Feature; 3] {
             ["the default radius rule", "another --radius-rule"],
             "five moments of each photon that counts",
         )
-        .with_bytes(size_of::<RadiusStatistics>(), 0),
+        .with_bytes(size_of::<KeptRadius>(), 0),
         Feature::new(
             "live error",
             settings.error,

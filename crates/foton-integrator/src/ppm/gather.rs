@@ -6,7 +6,7 @@
 
 use foton_transport::Quantity;
 use foton_transport::camera_paths::Gloss;
-use foton_transport::photon_map::{LANES, Packet, Photon};
+use foton_transport::photon_map::{LANES, Packet, PacketTests, Photon};
 
 use super::lanes::{Face, cosine_ratio, counting_lanes, distances2, offsets, shading_factor};
 use super::slots::{ClassTerm, Found};
@@ -15,7 +15,7 @@ use super::tally::Tally;
 /// Sums the photons that count for Lambertian hit points. `SHADED` corrects for interpolated normals.
 #[inline(always)]
 pub(super) fn collect<const LAYERS: usize, const SHADED: bool, const MOMENTS: bool>(
-    packet: &Packet,
+    (packet, tests): (&Packet, &PacketTests),
     shading_normals: &[[f32; LANES]; 3],
     photons: &[Photon],
     term: &ClassTerm,
@@ -24,7 +24,7 @@ pub(super) fn collect<const LAYERS: usize, const SHADED: bool, const MOMENTS: bo
 ) {
     tally.candidates += photons.len() as u64;
     for photon in photons {
-        let counts = counting_lanes(packet, photon);
+        let counts = counting_lanes(packet, tests, photon);
         if !any(&counts) {
             continue;
         }
@@ -89,8 +89,8 @@ fn add_power<const SHADED: bool>(
 /// Sums the photons that count for hit points with a BSDF of their own, weighed by it one by one.
 #[inline(always)]
 pub(super) fn collect_gloss<const LAYERS: usize, const MOMENTS: bool>(
-    packet: &Packet,
-    gloss: &[Option<Gloss>],
+    (packet, tests): (&Packet, &PacketTests),
+    gloss: &[Gloss],
     photons: &[Photon],
     term: &ClassTerm,
     found: &mut Found<LAYERS>,
@@ -98,7 +98,7 @@ pub(super) fn collect_gloss<const LAYERS: usize, const MOMENTS: bool>(
 ) {
     tally.candidates += photons.len() as u64;
     for photon in photons {
-        let counts = counting_lanes(packet, photon);
+        let counts = counting_lanes(packet, tests, photon);
         if !any(&counts) {
             continue;
         }
@@ -109,7 +109,7 @@ pub(super) fn collect_gloss<const LAYERS: usize, const MOMENTS: bool>(
         let class = Found::<LAYERS>::class_layer(photon);
         for l in (0..LANES).filter(|&l| counts[l] != 0) {
             // Gathered lobes weigh all photons, specular ones only those whose light no eye path can find.
-            let Some(gloss) = gloss[l].as_ref().filter(|g| !g.specular || photon.is_lone()) else { continue };
+            let Some(gloss) = gloss.get(l).filter(|g| !g.specular || photon.is_lone()) else { continue };
             found.count[l] += 1;
             let geometric = face.cosine(wi, packet, (gloss.frame.normal / 127.0).to_array(), l).abs() * 127.0;
             let shading = wi.dot(gloss.frame.normal).abs();

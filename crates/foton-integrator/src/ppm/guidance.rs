@@ -1,7 +1,7 @@
 //! Guided emission: which photons are noted, and when cells are learnt from them.
 
 use foton_scene::Sources;
-use foton_transport::camera_paths::EyePaths;
+use foton_transport::camera_paths::{EyePaths, GlossIndex};
 use foton_transport::codec::{Reader, StateError, Writer};
 use foton_transport::guide::{Cells, Samples, Training, Worth, WorthPoints, grow, is_training_pass};
 use foton_transport::photon_map::Chunk;
@@ -100,6 +100,6 @@ impl Guidance {
 
 /// Adds what eye samples have found to points that stand for what is seen.
 pub(super) fn add_points(points: &mut WorthPoints, eye: &EyePaths) {
-    let is_specular = |gloss: u32| eye.gloss.get(gloss as usize).is_some_and(|gloss| gloss.specular);
+    let is_specular = |gloss: GlossIndex| eye.gloss.get(gloss.get()).is_some_and(|gloss| gloss.specular);
     points.add(&eye.hit_points, |hit_point| hit_point.gloss.is_some_and(is_specular));
 }

@@ -49,7 +49,7 @@ impl Ppm {
     #[must_use]
     pub(crate) fn radii(&self) -> Radii {
         let mut radius2: Vec<f64> = match &self.renewal {
-            None => self.hit_points.statistics().map(Statistics::radius2).collect(),
+            None => self.hit_points.in_sample_order().map(|s| s.radius2()).collect(),
             // Of pixels: hit points come and go, also while a pass is under way.
             Some(renewal) => {
                 let seen = (0..self.shapes.len()).filter(|&pixel| renewal.pixels.is_seen(pixel));

@@ -45,7 +45,7 @@ impl LaidOut {
         let EyeSamples { scene, paths, .. } = eye;
         let found = &paths.hit_points;
         let shadow_rays = by_shadow_rays(scene, settings);
-        let mut hit_points = lay_out(scene, settings, paths, (shadow_rays, BAND), cancel)?;
+        let mut hit_points = lay_out(scene, paths, (shadow_rays, BAND), cancel)?;
         if widened != 1.0 {
             hit_points = hit_points.widened(widened);
         }
@@ -71,18 +71,20 @@ impl LaidOut {
     }
 }
 
-/// Lays out hit points for a render with such settings, with or without shadow rays; neighbours are looked for among so many.
+/// Lays out hit points, without room for statistics, with or without shadow rays; neighbours are looked for among so many.
 pub(crate) fn lay_out(
     scene: &Scene,
-    settings: &RenderSettings,
     paths: &EyePaths,
     (shadow_rays, in_band): (bool, usize),
     cancel: &Cancel,
 ) -> Result<HitPoints, Cancelled> {
     let how = Layout { shading_normals: lobe_use(scene).shading_normals, shadow_rays, in_band };
-    let hit_points = HitPoints::new(&paths.hit_points, &paths.gloss, paths.pixel_start(), how, cancel)?;
-    let moments = settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive;
-    Ok(if moments { hit_points.with_radius_statistics() } else { hit_points })
+    HitPoints::new(&paths.hit_points, &paths.gloss, paths.pixel_start(), how, cancel)
+}
+
+/// Whether hit points keep what radii that adapt go by, and the error's upper end.
+pub(crate) fn has_moments(settings: &RenderSettings) -> bool {
+    settings.error || settings.ppm.radius_rule == RadiusRule::Adaptive
 }
 
 /// First discs that stand for all, by which photons are aimed.

@@ -2,7 +2,7 @@
 #![allow(clippy::needless_range_loop, reason = "rows of lanes advance together; indices are what vectorises")]
 
 use foton_math::glam::Vec3;
-use foton_transport::photon_map::{LANES, Packet, Photon};
+use foton_transport::photon_map::{LANES, Packet, PacketTests, Photon};
 use foton_transport::shading::MIN_COSINE;
 
 /// A photon counts only where its surface faces about the same way: the cosine between the normals must exceed this.
@@ -12,7 +12,7 @@ const MIN_NORMAL_COSINE: f32 = 0.1;
 /// eye's and the photon's side), patch, and length of the joined path: the marks of equal patches cancel, others are above any
 /// remaining_edges.
 #[inline(always)]
-pub(super) fn counting_lanes(packet: &Packet, photon: &Photon) -> [u32; LANES] {
+pub(super) fn counting_lanes(packet: &Packet, tests: &PacketTests, photon: &Photon) -> [u32; LANES] {
     let p = photon.position;
     let [n0, n1, n2] = photon.normal;
     let n = [f32::from(n0), f32::from(n1), f32::from(n2)];
@@ -27,9 +27,9 @@ pub(super) fn counting_lanes(packet: &Packet, photon: &Photon) -> [u32; LANES] {
         let height = (dx * nx[l] + dy * ny[l] + dz * nz[l]) * 127.0;
         let cosine = n[0] * nx[l] + n[1] * ny[l] + n[2] * nz[l];
         let counted = (distance2 <= packet.radius2[l])
-            & (height * height <= packet.slab2[l] * packet.radius2[l])
+            & (height * height <= tests.slab2[l] * packet.radius2[l])
             & (cosine > MIN_NORMAL_COSINE)
-            & (edges ^ packet.patch[l] <= packet.remaining_edges[l]);
+            & (edges ^ tests.patch[l] <= tests.remaining_edges[l]);
         counts[l] = u32::from(counted).wrapping_neg();
     }
     counts

@@ -83,12 +83,12 @@ impl Ppm {
     /// The statistics of a pixel's hit point in sample order.
     pub(super) fn statistics(&self, pixel: usize, h: usize) -> Statistics {
         let hit_points = &self.hit_points;
-        let of_slot = || hit_points.statistics_slots[hit_points.slot_of[h] as usize];
+        let of_slot = || hit_points.statistics_of(hit_points.slot_of[h] as usize);
         self.renewal.as_deref().map_or_else(of_slot, |renewal| renewal.statistics(hit_points, pixel, h))
     }
 
     pub(super) fn per_pixel<T>(&self, f: impl Fn(&[Statistics]) -> T) -> Vec<T> {
-        let mut statistics = self.hit_points.statistics().copied();
+        let mut statistics = self.hit_points.in_sample_order();
         let mut of_pixel = Vec::new();
         let spans = self.hit_points.pixel_start.windows(2).map(|w| (w[1] - w[0]) as usize);
         spans

@@ -98,7 +98,7 @@ impl Ppm {
             let slot = self.hit_points.slot_of[h] as usize;
             let packet = &self.hit_points.packets[slot / LANES];
             let gloss = self.hit_points.gloss(slot);
-            counting_lanes(packet, photon)[slot % LANES] != 0
+            counting_lanes(packet, &packet.tests(), photon)[slot % LANES] != 0
                 && gloss.is_none_or(|gloss| !gloss.specular || photon.is_lone())
         })
     }

@@ -189,10 +189,7 @@ impl Ppm {
             + self.hit_points.bytes()
             + self.light.bytes()
             + self.direct.as_ref().map_or(0, Direct::bytes)
-            + self
-                .renewal
-                .as_ref()
-                .map_or(0, |r| r.bytes(!self.hit_points.radius_statistics_slots.is_empty()))
+            + self.renewal.as_ref().map_or(0, |r| r.bytes(!self.hit_points.radius_statistics.is_empty()))
             + self.error.as_ref().map_or(0, ErrorSums::bytes)
             + self.grid.bytes()
             + self.guidance.bytes()

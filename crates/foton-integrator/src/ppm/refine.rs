@@ -4,9 +4,10 @@ use std::f32::consts::PI;
 
 use foton_math::Rgb;
 use foton_transport::Quantity;
-use foton_transport::photon_map::{LANES, Packet};
+use foton_transport::photon_map::Packet;
 
 use super::arrived::Lanes;
+use super::kept::KeptStatistics;
 use super::rule::Rule;
 use super::slots::{Found, Slots};
 use super::tally::Tally;
@@ -42,19 +43,21 @@ pub(super) fn refine<const LAYERS: usize>(
         if packet.radius2[l] < 0.0 {
             continue;
         }
-        let slot = index * LANES + l;
-        let statistics = &mut slots.statistics[slot];
-        let (count, smallest2) = (u64::from(found.count[l]), f64::from(slots.smallest2[slot]));
-        slots.sums.take_off(statistics);
+        let place = slots.places(index).start + l;
+        let mut statistics = slots.statistics[place].beside(packet.radius2[l]);
+        let (count, smallest2) =
+            (u64::from(found.count[l]), f64::from(slots.smallest2[slots.first_place[index] as usize + l]));
+        slots.sums.take_off(&statistics);
         let floored = match rule.common {
             None => {
-                let known = slots.radius_statistics.get(slot).filter(|_| rule.adapts);
-                let alpha = known.map_or(rule.alpha, |e| e.alpha(rule.alpha));
+                let known = slots.radius_statistics.get(place).filter(|_| rule.adapts);
+                let alpha = known.map_or(rule.alpha, |kept| kept.sums().alpha(rule.alpha));
                 statistics.refine(count, alpha, smallest2)
             }
             Some(rho) => statistics.shrink(count, rho, smallest2),
         };
-        slots.sums.add(statistics);
+        slots.sums.add(&statistics);
+        slots.statistics[place] = KeptStatistics::new(&statistics);
         tally.floored += u64::from(floored);
         tally.accepted += count;
         packet.radius2[l] = statistics.radius2() as f32;

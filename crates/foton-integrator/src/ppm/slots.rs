@@ -2,14 +2,15 @@
 //! keep of it. What radii go by is added with the last batch only: a pass that is cancelled between two has not happened.
 
 use std::f32::consts::PI;
+use std::ops::Range;
 
 use foton_math::Rgb;
 use foton_transport::photon_map::{LANES, Packet, PathClass, Photon};
 
-use super::adaptive::{DiscMoments, RadiusStatistics};
+use super::adaptive::DiscMoments;
 use super::arrived::{BatchSums, Entries, Lanes, SlotMoments};
 use super::hit_points::BlockSums;
-use super::statistics::Statistics;
+use super::kept::{KeptRadius, KeptStatistics};
 use crate::error::Question;
 
 /// Light found by a packet's lanes.
@@ -85,11 +86,13 @@ impl<const LAYERS: usize> Found<LAYERS> {
     }
 
     /// Adds what the pass has found to what radii go by.
-    pub(crate) fn add_radius_statistics(&self, packet: &Packet, radius_statistics: &mut [RadiusStatistics]) {
-        for (lane, radius_statistics) in
+    pub(crate) fn add_radius_statistics(&self, packet: &Packet, radius_statistics: &mut [KeptRadius]) {
+        for (lane, kept) in
             radius_statistics.iter_mut().enumerate().filter(|(l, _)| self.disc.squares[*l] > 0.0)
         {
-            radius_statistics.add(packet.radius2[lane], lane, self.moment[lane], &self.disc);
+            let mut sums = kept.sums();
+            sums.add(packet.radius2[lane], lane, self.moment[lane], &self.disc);
+            *kept = KeptRadius::new(&sums);
         }
     }
 
@@ -135,13 +138,24 @@ impl<const LAYERS: usize> Found<LAYERS> {
 
 /// What the hit points of a block keep, and what a pass brings them.
 pub(crate) struct Slots<'a, const LAYERS: usize> {
-    pub(crate) statistics: &'a mut [Statistics],
-    /// Smallest squared radii.
+    /// Of its packets, and of the one after them.
+    pub(crate) first_place: &'a [u32],
+    pub(crate) statistics: &'a mut [KeptStatistics],
+    /// Smallest squared radii, of all hit points.
     pub(crate) smallest2: &'a [f32],
     /// Empty unless radii adapt or the error is asked for.
-    pub(crate) radius_statistics: &'a mut [RadiusStatistics],
+    pub(crate) radius_statistics: &'a mut [KeptRadius],
     /// By packet.
     pub(crate) lanes: &'a mut [Lanes],
     pub(crate) entries: &'a mut Entries<LAYERS>,
     pub(crate) sums: &'a mut BlockSums,
+}
+
+impl<const LAYERS: usize> Slots<'_, LAYERS> {
+    /// Where the hit points of the packet of that index lie among those of the block.
+    #[inline]
+    pub(crate) fn places(&self, index: usize) -> Range<usize> {
+        let [first, end] = [index, index + 1].map(|i| (self.first_place[i] - self.first_place[0]) as usize);
+        first..end
+    }
 }

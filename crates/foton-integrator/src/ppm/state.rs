@@ -6,8 +6,8 @@ use foton_transport::codec::{Reader, StateError, Writer};
 use foton_transport::photon_map::LANES;
 use foton_transport::{Ledger, LightUse, Loss};
 
-use super::adaptive::RadiusStatistics;
 use super::algorithm::Ppm;
+use super::kept::{KeptRadius, KeptStatistics};
 use super::settings::Alpha;
 use super::statistics::Statistics;
 use crate::changes::Changes;
@@ -57,10 +57,7 @@ impl Ppm {
             out.u64(self.shapes.len() as u64);
             renewal.write(&mut out);
         } else {
-            let statistics = &self.hit_points.statistics_slots;
-            out.u64(statistics.len() as u64);
-            statistics.iter().for_each(|s| s.write(&mut out));
-            self.hit_points.radius_statistics_slots.iter().for_each(|e| e.write(&mut out));
+            self.write_hit_points(&mut out);
         }
         self.light.write(&mut out);
         if let Some(direct) = &self.direct {
@@ -145,20 +142,44 @@ impl Ppm {
         Ok(())
     }
 
+    /// What hit points keep, by slot, with those that are empty.
+    fn write_hit_points(&self, out: &mut Writer) {
+        let slots = self.hit_points.packets.len() * LANES;
+        out.u64(slots as u64);
+        for slot in 0..slots {
+            self.hit_points.statistics_at(slot).unwrap_or(Statistics::EMPTY_SLOT).write(out);
+        }
+        let slots = if self.hit_points.radius_statistics.is_empty() { 0 } else { slots };
+        for slot in 0..slots {
+            let of_hit_point = |_| self.hit_points.radius_statistics[self.hit_points.place(slot)];
+            let kept = self.hit_points.statistics_at(slot).map_or_else(KeptRadius::default, of_hit_point);
+            kept.write(out);
+        }
+    }
+
     fn restore_hit_points(&mut self, input: &mut Reader<'_>) -> Result<(), StateError> {
         let hit_points = &mut self.hit_points;
-        input.expect(hit_points.statistics_slots.len())?;
-        for (slot, statistics) in hit_points.statistics_slots.iter_mut().enumerate() {
-            let read = Statistics::read(input)?;
+        let slots = hit_points.packets.len() * LANES;
+        input.expect(slots)?;
+        for slot in 0..slots {
+            let (read, is_empty) = (Statistics::read(input)?, hit_points.statistics_at(slot).is_none());
             // Slots without a hit point stay without.
-            if (read.radius2() < 0.0) != (statistics.radius2() < 0.0) {
+            if (read.radius2() < 0.0) != is_empty {
                 return Err(StateError::Impossible);
             }
-            *statistics = read;
-            hit_points.packets[slot / LANES].radius2[slot % LANES] = statistics.radius2() as f32;
+            if !is_empty {
+                let place = hit_points.place(slot);
+                hit_points.statistics[place] = KeptStatistics::new(&read);
+                hit_points.packets[slot / LANES].radius2[slot % LANES] = read.radius2() as f32;
+            }
         }
-        for radius_statistics in &mut hit_points.radius_statistics_slots {
-            *radius_statistics = RadiusStatistics::read(input)?;
+        let slots = if hit_points.radius_statistics.is_empty() { 0 } else { slots };
+        for slot in 0..slots {
+            let read = KeptRadius::read(input)?;
+            if hit_points.statistics_at(slot).is_some() {
+                let place = hit_points.place(slot);
+                hit_points.radius_statistics[place] = read;
+            }
         }
         hit_points.follow_radii();
         Ok(())

@@ -32,7 +32,17 @@ impl Statistics {
 
     /// Of a hit point that has gathered in one pass alone, with what its pixel knows.
     pub(crate) const fn of_display(radius2: f64, found: u64) -> Self {
-        Self { accumulated: 0.0, radius2, found }
+        Self::of(0.0, radius2, found)
+    }
+
+    /// What [`Statistics::accumulated`] and the others have told.
+    pub(crate) const fn of(accumulated: f64, radius2: f64, found: u64) -> Self {
+        Self { accumulated, radius2, found }
+    }
+
+    /// N.
+    pub(crate) const fn accumulated(&self) -> f64 {
+        self.accumulated
     }
 
     /// r² in square scene units.

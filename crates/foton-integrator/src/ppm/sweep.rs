@@ -12,6 +12,7 @@ use super::gather::{collect, collect_gloss};
 use super::hit_points::{BLOCK, HitPoints};
 use super::refine::refine;
 use super::rule::Rule;
+use super::shading_normals::ShadingNormals;
 use super::slots::{ClassTerm, Found, Slots};
 use super::tally::Tally;
 use crate::by_block::ByBlock;
@@ -39,7 +40,7 @@ pub(super) fn sweep<const LAYERS: usize>(
     arrived: &mut Arrived<LAYERS>,
     tallies: ByBlock<'_, Tally>,
 ) {
-    if hit_points.radius_statistics_slots.is_empty() {
+    if hit_points.radius_statistics.is_empty() {
         sweep_with::<LAYERS, NO_MOMENTS>(hit_points, photons, rule, arrived, tallies);
     } else {
         sweep_with::<LAYERS, MOMENTS>(hit_points, photons, rule, arrived, tallies);
@@ -54,11 +55,14 @@ fn sweep_with<const LAYERS: usize, const MOMENTS: bool>(
     tallies: ByBlock<'_, Tally>,
 ) {
     let blocks = hit_points.packets.len().div_ceil(BLOCK);
-    let radius_statistics = by_block(&mut hit_points.radius_statistics_slots, blocks);
-    let shading = &hit_points.shading_normals;
-    let (first_glossy, gloss_slots) = (hit_points.first_glossy, &hit_points.gloss_slots);
-    let kept = hit_points.statistics_slots.par_chunks_mut(BLOCK * LANES);
-    let kept = kept.zip(hit_points.smallest2_slots.par_chunks(BLOCK * LANES)).zip(radius_statistics);
+    let first_place = &hit_points.first_place;
+    let statistics = by_block(&mut hit_points.statistics, first_place);
+    let radius_statistics = by_block(&mut hit_points.radius_statistics, first_place);
+    let shading = &hit_points.shading;
+    let (first_glossy, gloss) = (hit_points.first_glossy, &hit_points.gloss[..]);
+    let first_gloss = first_place[first_glossy] as usize;
+    let smallest2 = &hit_points.smallest2[..];
+    let kept = statistics.into_par_iter().zip(radius_statistics);
     let brought = arrived.lanes.par_chunks_mut(BLOCK).zip(&mut arrived.blocks);
     hit_points
         .packets
@@ -69,18 +73,35 @@ fn sweep_with<const LAYERS: usize, const MOMENTS: bool>(
         .zip(tallies.places(blocks))
         .enumerate()
         .for_each(|(block, ((((packets, bounds), kept), ((lanes, entries), sums)), tally))| {
-            let ((statistics, smallest2), radius_statistics) = kept;
-            let slots = Slots { statistics, smallest2, radius_statistics, lanes, entries, sums };
+            let (statistics, radius_statistics) = kept;
             let first = block * BLOCK;
-            let block = Block { first, first_glossy, packets, bounds, slots, shading, gloss_slots };
+            let slots = Slots {
+                first_place: &first_place[first..=first + packets.len()],
+                statistics,
+                smallest2,
+                radius_statistics,
+                lanes,
+                entries,
+                sums,
+            };
+            let block = Block { first, first_glossy, first_gloss, packets, bounds, slots, shading, gloss };
             tally.fill(|| rule.arch.dispatch(OfBlock::<LAYERS, MOMENTS> { block, photons, rule }));
         });
 }
 
-/// Slots in the shares of blocks; empty shares of none.
-fn by_block<T>(slots: &mut [T], blocks: usize) -> Vec<&mut [T]> {
-    let mut shares = slots.chunks_mut(BLOCK * LANES);
-    (0..blocks).map(|_| shares.next().unwrap_or_default()).collect()
+/// Values by place in the shares of blocks; empty shares of none.
+fn by_block<'a, T>(values: &'a mut [T], first_place: &[u32]) -> Vec<&'a mut [T]> {
+    let mut rest = values;
+    let packets = first_place.len() - 1;
+    (0..packets.div_ceil(BLOCK))
+        .map(|block| {
+            let [first, end] = [block, block + 1].map(|b| first_place[packets.min(b * BLOCK)] as usize);
+            let length = rest.len().min(end - first);
+            let (share, others) = std::mem::take(&mut rest).split_at_mut(length);
+            rest = others;
+            share
+        })
+        .collect()
 }
 
 /// The packets of one task, and all that belongs to them.
@@ -88,11 +109,13 @@ struct Block<'a, const LAYERS: usize> {
     /// Index of the first packet.
     first: usize,
     first_glossy: usize,
+    /// The place of the first hit point that is not Lambertian.
+    first_gloss: usize,
     packets: &'a mut [Packet],
     bounds: &'a mut [Aabb],
     slots: Slots<'a, LAYERS>,
-    shading: &'a [[[f32; LANES]; 3]],
-    gloss_slots: &'a [Option<Gloss>],
+    shading: &'a ShadingNormals,
+    gloss: &'a [Gloss],
 }
 
 /// The work on a block, compiled for each instruction set; the best that the machine has is taken. Everything that this calls
@@ -113,7 +136,7 @@ impl<const LAYERS: usize, const MOMENTS: bool> WithSimd for OfBlock<'_, LAYERS, 
         let mut runs = Vec::new();
         // On the heap: else the compiler takes the sums apart into registers of the wrong shapes.
         let mut found = Box::new(Found::<LAYERS>::NONE);
-        let Block { first, first_glossy, packets, bounds, mut slots, shading, gloss_slots } = block;
+        let Block { first, first_glossy, first_gloss, packets, bounds, mut slots, shading, gloss } = block;
         let earlier = slots.entries.begin();
         let has_photons = !rule.batch.is_closing() && !map.photons().is_empty();
         for (i, (packet, bounds)) in packets.iter_mut().zip(bounds).enumerate() {
@@ -134,7 +157,12 @@ impl<const LAYERS: usize, const MOMENTS: bool> WithSimd for OfBlock<'_, LAYERS, 
             }
             *found = Found::NONE;
             let term = ClassTerm::new(rule.question, packet);
-            let how = Weighing { index, first_glossy, shading, gloss_slots, term: &term };
+            let places = slots.places(i);
+            let glossy = index.checked_sub(first_glossy).map(|_| {
+                let first = slots.first_place[i] as usize - first_gloss;
+                &gloss[first..first + places.len()]
+            });
+            let how = Weighing { index, shading, glossy, term: &term };
             collect_runs::<LAYERS, MOMENTS>(packet, &how, &runs, &mut found, &mut tally);
             for (l, place) in before.each() {
                 found.add_earlier(l, &earlier[place]);
@@ -146,8 +174,7 @@ impl<const LAYERS: usize, const MOMENTS: bool> WithSimd for OfBlock<'_, LAYERS, 
                 continue;
             }
             if MOMENTS {
-                let of_packet = i * LANES..(i + 1) * LANES;
-                found.add_radius_statistics(packet, &mut slots.radius_statistics[of_packet]);
+                found.add_radius_statistics(packet, &mut slots.radius_statistics[places]);
             }
             if refine((i, packet), &found, &mut slots, rule, &mut tally) {
                 *bounds = packet.bounds();
@@ -165,9 +192,9 @@ impl<const LAYERS: usize, const MOMENTS: bool> WithSimd for OfBlock<'_, LAYERS, 
 struct Weighing<'a> {
     /// Of the packet.
     index: usize,
-    first_glossy: usize,
-    shading: &'a [[[f32; LANES]; 3]],
-    gloss_slots: &'a [Option<Gloss>],
+    shading: &'a ShadingNormals,
+    /// Of its hit points, where they are not Lambertian.
+    glossy: Option<&'a [Gloss]>,
     term: &'a ClassTerm,
 }
 
@@ -180,13 +207,14 @@ fn collect_runs<const LAYERS: usize, const MOMENTS: bool>(
     found: &mut Found<LAYERS>,
     tally: &mut Tally,
 ) {
-    let &Weighing { index, first_glossy, shading, gloss_slots, term } = how;
-    if let Some(glossy) = index.checked_sub(first_glossy) {
-        let gloss = &gloss_slots[glossy * LANES..(glossy + 1) * LANES];
+    let &Weighing { index, shading, glossy, term } = how;
+    let packet = (packet, &packet.tests());
+    if let Some(gloss) = glossy {
         for photons in runs {
             collect_gloss::<LAYERS, MOMENTS>(packet, gloss, photons, term, found, tally);
         }
-    } else if let Some(normals) = shading.get(index) {
+    } else if !shading.is_empty() {
+        let normals = shading.of(index).unwrap_or(&packet.0.normal);
         for photons in runs {
             collect::<LAYERS, true, MOMENTS>(packet, normals, photons, term, found, tally);
         }

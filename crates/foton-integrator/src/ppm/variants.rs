@@ -84,7 +84,7 @@ impl Variants {
         };
         let mut runs: Vec<Render> = settings.iter().enumerate().map(start).collect::<Result<_, _>>()?;
         begin_alike(&mut runs);
-        let widest = |run: &&Render| ppm(run).hit_points.statistics().map(|s| s.radius2()).sum::<f64>();
+        let widest = |run: &&Render| ppm(run).hit_points.in_sample_order().map(|s| s.radius2()).sum::<f64>();
         let widest = runs.iter().max_by(|a, b| widest(a).total_cmp(&widest(b)));
         let Some(everywhere) =
             widest.map(|run| Grid::new(&ppm(run).hit_points.packets, cancel)).transpose()?

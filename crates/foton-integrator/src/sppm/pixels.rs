@@ -72,10 +72,13 @@ impl Pixels {
                 let mut found = 0;
                 for h in range {
                     let slot = hit_points.slot_of[h] as usize;
-                    found += hit_points.statistics_slots[slot].photons_found();
+                    found += hit_points.statistics_of(slot).photons_found();
                     if radius_statistics.is_some() {
                         let weight = f64::from(hit_points.weights[h].luminance());
-                        of_pass.add_hit_point(&hit_points.radius_statistics_slots[slot], weight);
+                        of_pass.add_hit_point(
+                            &hit_points.radius_statistics[hit_points.place(slot)].sums(),
+                            weight,
+                        );
                     }
                 }
                 if let Some(sums) = &mut radius_statistics {

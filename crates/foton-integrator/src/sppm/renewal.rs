@@ -125,7 +125,8 @@ impl Renewal {
     /// The statistics of a hit point in sample order, with the radius that its pixel has come to and the photons of all the pixel's.
     pub(crate) fn statistics(&self, hit_points: &HitPoints, pixel: usize, h: usize) -> Statistics {
         let slot = hit_points.slot_of[h] as usize;
-        let r2 = radius2(self.pixels.factor(pixel), self.first_radius2[h], hit_points.smallest2_slots[slot]);
+        let smallest2 = hit_points.smallest2[hit_points.place(slot)];
+        let r2 = radius2(self.pixels.factor(pixel), self.first_radius2[h], smallest2);
         Statistics::of_display(r2, self.pixels.photons_found(pixel))
     }
 

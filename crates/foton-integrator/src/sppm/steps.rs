@@ -11,7 +11,7 @@ use super::renewal::{LIT_BLOCK, Renewal};
 use crate::by_block::ByBlock;
 use crate::ppm::Ppm;
 use crate::ppm::direct::Lighting;
-use crate::ppm::laid_out::lay_out;
+use crate::ppm::laid_out::{has_moments, lay_out};
 use crate::ppm::settings::RadiusRule;
 use crate::ppm::under_way::UnderWay;
 
@@ -55,7 +55,8 @@ impl Ppm {
         // Neighbours lie in a few rows. They are found sooner there than in the whole, and every pass looks for them.
         let in_band = (ROWS * paths.hit_points.len()).div_ceil(height as usize).max(MIN_BAND);
         let how = (self.has_shadow_rays(), in_band);
-        let hit_points = lay_out(&self.scene, &self.settings, &paths, how, cancel)?;
+        let hit_points = lay_out(&self.scene, &paths, how, cancel)?;
+        let hit_points = hit_points.with_statistics(has_moments(&self.settings));
         let grid = Grid::new(&hit_points.packets, cancel)?;
         (self.hit_points, self.grid) = (hit_points, grid);
         self.light.make_room_for(&self.hit_points);

@@ -18,6 +18,8 @@ const NODE_COST: f32 = 1.0;
 const QUAD_COST: f32 = 1.0;
 /// Cost of testing a sphere, a disc or a tube.
 const OTHER_COST: f32 = 0.7;
+/// Cost of an instance: of bringing a ray into its space and going through its tree.
+const INSTANCE_COST: f32 = 12.0;
 /// Says that a subtree holds what no quad can.
 const MANY: u32 = u32::MAX;
 
@@ -47,7 +49,7 @@ struct Collapse<'a> {
     out: Collapsed,
 }
 
-/// Collapses a tree with one primitive a leaf.
+/// Collapses a tree with one primitive a leaf; what has an index behind those of all primitives is an instance.
 pub(super) fn collapse(
     tree: &Bvh2,
     primitives: &[Primitive],
@@ -75,8 +77,13 @@ impl Collapse<'_> {
         self.tree.primitive_indices[leaf.first_index as usize]
     }
 
-    fn is_triangle(&self, leaf: &Bvh2Node) -> bool {
-        matches!(self.primitives[self.primitive(leaf) as usize], Primitive::Triangle(_))
+    /// Cost of testing what is in a leaf, and whether it is a triangle.
+    fn cost(&self, leaf: &Bvh2Node) -> (f32, bool) {
+        match self.primitives.get(self.primitive(leaf) as usize) {
+            Some(Primitive::Triangle(_)) => (QUAD_COST, true),
+            Some(_) => (OTHER_COST, false),
+            None => (INSTANCE_COST, false),
+        }
     }
 
     /// Children before parents.
@@ -95,8 +102,8 @@ impl Collapse<'_> {
             let node = &self.tree.nodes[index as usize];
             let area = half_area(node);
             let cuts = if node.is_leaf() {
-                let triangle = self.is_triangle(node);
-                let cost = area * if triangle { QUAD_COST } else { OTHER_COST };
+                let (cost, triangle) = self.cost(node);
+                let cost = area * cost;
                 Cuts { cost: [cost; WIDTH], left: [0; WIDTH], triangles: if triangle { 1 } else { MANY } }
             } else {
                 let first = node.first_index as usize;
@@ -158,6 +165,12 @@ impl Collapse<'_> {
     }
 
     fn emit_leaf(&mut self, index: u32) -> Child {
+        let leaf = &self.tree.nodes[index as usize];
+        if leaf.is_leaf()
+            && let Some(instance) = (self.primitive(leaf) as usize).checked_sub(self.primitives.len())
+        {
+            return Child::instance(instance);
+        }
         let first = self.out.order.len();
         let mut open = vec![index];
         while let Some(index) = open.pop() {

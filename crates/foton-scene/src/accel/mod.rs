@@ -1,4 +1,5 @@
 //! Rays against many primitives: an eight-wide tree behind two questions, nearest hit and any hit.
+//! Meshes that several shapes share have trees of their own below it ([`instance`]).
 //!
 //! [`cluster`] builds a binary tree, [`collapse`] makes nodes of eight boxes and leaves of four triangles of it, and both are
 //! tested side by side. Boxes are padded so that the watertight triangle test behind them stays watertight.
@@ -6,27 +7,37 @@
 mod cluster;
 mod collapse;
 mod divide;
+mod instance;
+mod mesh_tree;
 mod node;
+mod stack;
 
-use foton_math::glam::{Vec2, Vec4};
+use std::cell::RefCell;
+use std::collections::HashSet;
+use std::sync::Arc;
+
+use foton_math::glam::Vec2;
 use foton_math::{Aabb, Cancelled, Ray};
 use rayon::prelude::*;
 
-use crate::build::{BuildOptions, BuildStep};
+use crate::build::{BuildOptions, BuildStep, Patch};
+use crate::description::Mesh;
+use crate::normalise::Normalisation;
 use crate::plane::Plane;
 use crate::primitive::{Primitive, ShearedRay};
-use node::{BoxRay, Child, Node, QUAD, Quad, Target, WIDTH};
+pub(crate) use instance::{Instance, padding_for};
+pub(crate) use mesh_tree::MeshTree;
+use node::{BoxRay, Child, Node, QUAD, Quad, Target};
+use stack::{Best, Place, Stack, descend, slot_of};
 
 /// Boxes grow by this share of the scene's half-size on each side: rounding errors of the triangle test, with a margin.
-const PADDING: f32 = 1e-6;
+pub(crate) const PADDING: f32 = 1e-6;
 
 /// Nodes that a query near a box may visit for each primitive that it may: in most scenes it visits far fewer.
 const NODES_PER_VISIT: usize = 64;
 
-/// Places on a ray's stack before it spills to the heap.
-const STACK: usize = 32;
-
-/// A tree over primitives.
+/// A tree over primitives and instances.
+#[derive(Default)]
 pub(crate) struct Accel {
     /// The first is the root; there is none without primitives.
     nodes: Vec<Node>,
@@ -34,6 +45,8 @@ pub(crate) struct Accel {
     primitives: Vec<Primitive>,
     /// Those of triangles; whatever for other primitives.
     planes: Vec<Plane>,
+    /// Meshes that several shapes share. Their triangles have indices behind those of `primitives`, one instance after the other.
+    instances: Vec<Instance>,
 }
 
 /// The nearest thing on a ray.
@@ -51,30 +64,56 @@ impl Accel {
     /// Builds the tree. Returns it with `order`, where `order[i]` is the old index of primitive `i`.
     pub(crate) fn build(
         primitives: &[Primitive],
+        instances: Vec<Instance>,
         options: &BuildOptions<'_>,
     ) -> Result<(Self, Vec<u32>), Cancelled> {
-        if primitives.is_empty() {
-            return Ok((
-                Self { nodes: Vec::new(), quads: Vec::new(), primitives: Vec::new(), planes: Vec::new() },
-                Vec::new(),
-            ));
-        }
-        let gauge = options.step(BuildStep::Tree, cluster::items(primitives.len()));
-        let bounds = primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
+        let boxes = || primitives.iter().map(Primitive::bounds).chain(instances.iter().map(|i| i.bounds));
+        let bounds = boxes().fold(Aabb::EMPTY, Aabb::union);
         let padding = bounds.size().max_element() * 0.5 * PADDING;
-        let padded = |p: &Primitive| {
-            let b = p.bounds();
-            obvhs::aabb::Aabb { min: (b.min - padding).into(), max: (b.max + padding).into() }
-        };
-        let boxes: Vec<_> = primitives.iter().map(padded).collect();
+        Self::build_padded(primitives, instances, padding, options)
+    }
+
+    /// The same with boxes that are so much larger than what is in them.
+    pub(crate) fn build_padded(
+        primitives: &[Primitive],
+        mut instances: Vec<Instance>,
+        padding: f32,
+        options: &BuildOptions<'_>,
+    ) -> Result<(Self, Vec<u32>), Cancelled> {
+        let count = primitives.len() + instances.len();
+        if count == 0 {
+            return Ok((Self::default(), Vec::new()));
+        }
+        let gauge = options.step(BuildStep::Tree, cluster::items(count));
+        let padded =
+            |b: Aabb| obvhs::aabb::Aabb { min: (b.min - padding).into(), max: (b.max + padding).into() };
+        let all = primitives.iter().map(Primitive::bounds).chain(instances.iter().map(|i| i.bounds));
+        let boxes: Vec<_> = all.map(padded).collect();
         let tree = cluster::build(&boxes, &gauge)?;
         drop(boxes);
         let collapsed = collapse::collapse(&tree, primitives, &gauge)?;
         drop(tree);
         let ordered: Vec<Primitive> = collapsed.order.iter().map(|&i| primitives[i as usize]).collect();
         let planes = ordered.par_iter().map(Primitive::plane).collect();
-        let accel = Self { nodes: collapsed.nodes, quads: collapsed.quads, primitives: ordered, planes };
-        Ok((accel, collapsed.order))
+        let mut first = primitives.len() as u32;
+        for instance in &mut instances {
+            instance.first = first;
+            first += instance.len() as u32;
+        }
+        let (nodes, quads) = (collapsed.nodes, collapsed.quads);
+        Ok((Self { nodes, quads, primitives: ordered, planes, instances }, collapsed.order))
+    }
+
+    /// Makes of a tree over the triangles of one mesh one for instances. `triangles` are their numbers in the mesh in the tree's
+    /// order, `patches` what continues what, and `free` edges that nothing continues; `to_boxes` brings the mesh into the tree's space, where boxes are `padding` too large.
+    pub(crate) fn into_mesh_tree(
+        self,
+        mesh: &Arc<Mesh>,
+        triangles: Vec<u32>,
+        (patches, free): (Vec<Patch>, Vec<(u32, u8)>),
+        (to_boxes, padding): (Normalisation, f32),
+    ) -> MeshTree {
+        MeshTree::new((self.nodes, &self.quads), mesh, triangles, (patches, free), (to_boxes, padding))
     }
 
     /// The nearest hit in the ray's interval.
@@ -117,6 +156,7 @@ impl Accel {
                         best = Best { t, primitive: other as u32, triangle: None };
                     }
                 }
+                Target::Instance(instance) => self.instances[instance].nearest(&sheared, &mut best),
             }
             while next.is_none() {
                 let Some(place) = stack.pop() else { break };
@@ -126,9 +166,10 @@ impl Accel {
         (best.primitive != u32::MAX).then(|| Hit {
             t: best.t,
             primitive: best.primitive,
-            barycentric: best.triangle.map_or(Vec2::ZERO, |(quad, lane)| {
-                sheared.weights(&self.quads[quad as usize].triangle(lane))
-            }),
+            barycentric: match best.triangle {
+                Some((quad, lane)) => sheared.weights(&self.quads[quad as usize].triangle(lane)),
+                None => self.weights_of(best.primitive, &sheared),
+            },
         })
     }
 
@@ -160,6 +201,7 @@ impl Accel {
                     })
                 }
                 Target::Other(other) => sheared.hit_other(&self.primitives[other], ray.t_max).is_some(),
+                Target::Instance(instance) => self.instances[instance].occludes(&sheared),
             };
             if hit {
                 return true;
@@ -168,9 +210,54 @@ impl Accel {
         false
     }
 
+    /// The weights where a ray meets a primitive that is no triangle of the scene's own.
+    #[inline(always)]
+    fn weights_of(&self, primitive: u32, ray: &ShearedRay) -> Vec2 {
+        let placed = self.placed(primitive);
+        let corners =
+            |(instance, triangle): (usize, usize)| self.instances[instance].placed(triangle).corners;
+        placed.map_or(Vec2::ZERO, |placed| ray.weights(&corners(placed)))
+    }
+
     /// Calls `visit` with the index of each primitive whose box, or that of its leaf, meets a box, until about `max` were visited:
-    /// where very many lie in one place, visiting all from each would never end.
-    pub(crate) fn for_each_near(&self, near: &Aabb, max: usize, mut visit: impl FnMut(usize)) {
+    /// where very many lie in one place, visiting all from each would never end. Instances are left out.
+    pub(crate) fn for_each_near(&self, near: &Aabb, max: usize, visit: impl FnMut(usize)) {
+        self.walk_near(near, max, visit, |_, _| {});
+    }
+
+    /// The same of all primitives, those of instances too.
+    pub(crate) fn for_each_near_of_all(&self, near: &Aabb, max: usize, visit: impl FnMut(usize)) {
+        self.for_each_near_of_others(near, max, None, visit);
+    }
+
+    /// The same, but for those of one instance.
+    pub(crate) fn for_each_near_of_others(
+        &self,
+        near: &Aabb,
+        max: usize,
+        but: Option<usize>,
+        visit: impl FnMut(usize),
+    ) {
+        let visit = RefCell::new(visit);
+        let of_instance = |i: usize, left: &mut usize| {
+            if Some(i) == but {
+                return;
+            }
+            let instance = &self.instances[i];
+            instance.for_each_near(near, left, |i| visit.borrow_mut()(instance.index(i) as usize));
+        };
+        self.walk_near(near, max, |i| visit.borrow_mut()(i), of_instance);
+    }
+
+    /// Calls `visit` with each primitive, and `visit_instance` with each instance and how many primitives it may visit, whose box meets
+    /// a box.
+    fn walk_near(
+        &self,
+        near: &Aabb,
+        max: usize,
+        mut visit: impl FnMut(usize),
+        mut visit_instance: impl FnMut(usize, &mut usize),
+    ) {
         let (mut left, mut nodes) = (max, max.saturating_mul(NODES_PER_VISIT));
         let mut stack = Stack::new();
         if !self.nodes.is_empty() {
@@ -188,21 +275,50 @@ impl Accel {
                     }
                 }
                 Target::Quad(quad) => {
-                    let first = self.quads[quad].first as usize;
-                    left = left.saturating_sub(self.quads[quad].len());
-                    (first..first + self.quads[quad].len()).for_each(&mut visit);
+                    let quad = &self.quads[quad];
+                    for lane in 0..quad.len() {
+                        left = left.saturating_sub(1);
+                        visit(quad.first as usize + lane);
+                    }
                 }
                 Target::Other(other) => {
                     left -= 1;
                     visit(other);
                 }
+                Target::Instance(instance) => visit_instance(instance, &mut left),
             }
         }
     }
 
-    /// The primitives in the tree's order.
+    /// The scene's own primitives, in the tree's order: all but those of instances.
     pub(crate) fn primitives(&self) -> &[Primitive] {
         &self.primitives
+    }
+
+    /// Meshes that several shapes share, where they stand.
+    pub(crate) fn instances(&self) -> &[Instance] {
+        &self.instances
+    }
+
+    /// The index of the instance that a primitive belongs to, if any, and its place in the instance's tree.
+    #[inline(always)]
+    pub(crate) fn placed(&self, primitive: u32) -> Option<(usize, usize)> {
+        if (primitive as usize) < self.primitives.len() { None } else { self.found(primitive) }
+    }
+
+    #[inline(never)]
+    fn found(&self, primitive: u32) -> Option<(usize, usize)> {
+        let i = self.instances.partition_point(|i| i.index(0) <= primitive).checked_sub(1)?;
+        Some((i, (primitive - self.instances[i].index(0)) as usize))
+    }
+
+    /// A primitive by its index, in scene units.
+    #[inline(always)]
+    pub(crate) fn primitive(&self, index: u32) -> Primitive {
+        match self.placed(index) {
+            None => self.primitives[index as usize],
+            Some((instance, triangle)) => self.instances[instance].primitive(triangle),
+        }
     }
 
     /// The plane of a triangle, by its index in the tree's order.
@@ -211,103 +327,20 @@ impl Accel {
         &self.planes[index]
     }
 
+    /// The trees of instances, each once.
+    pub(crate) fn mesh_trees(&self) -> impl Iterator<Item = &Arc<MeshTree>> {
+        let mut seen = HashSet::new();
+        self.instances.iter().map(|i| &i.tree).filter(move |tree| seen.insert(Arc::as_ptr(tree)))
+    }
+
     /// Bytes held.
     pub(crate) fn bytes(&self) -> usize {
         size_of_val(&self.nodes[..])
             + size_of_val(&self.quads[..])
             + size_of_val(&self.primitives[..])
             + size_of_val(&self.planes[..])
-    }
-}
-
-/// A place in the tree that a ray has still to visit.
-#[derive(Clone, Copy)]
-struct Place {
-    /// Where the ray enters its box.
-    t: f32,
-    child: Child,
-}
-
-/// Places to visit, the next on top. Few trees are deep enough for the heap.
-struct Stack {
-    places: [Place; STACK],
-    length: usize,
-    spilled: Vec<Place>,
-}
-
-impl Stack {
-    #[inline(always)]
-    const fn new() -> Self {
-        Self { places: [Place { t: 0.0, child: Child::NONE }; STACK], length: 0, spilled: Vec::new() }
-    }
-
-    #[inline(always)]
-    fn push(&mut self, place: Place) {
-        if let Some(free) = self.places.get_mut(self.length) {
-            *free = place;
-            self.length += 1;
-        } else {
-            self.spilled.push(place);
-        }
-    }
-
-    #[inline(always)]
-    fn pop(&mut self) -> Option<Place> {
-        if let Some(spilled) = self.spilled.pop() {
-            return Some(spilled);
-        }
-        self.length = self.length.checked_sub(1)?;
-        self.places.get(self.length).copied()
-    }
-}
-
-/// The lowest slot of those in the mask.
-#[inline(always)]
-const fn slot_of(entered: u32) -> usize {
-    entered.trailing_zeros() as usize & (WIDTH - 1)
-}
-
-/// Pushes the children entered, the farthest first, and returns the nearest.
-#[inline(always)]
-fn descend(node: &Node, near: &[Vec4; 2], mut entered: u32, stack: &mut Stack) -> Option<Place> {
-    if entered == 0 {
-        return None;
-    }
-    let place = |slot: usize| Place { t: near[slot / 4].as_ref()[slot % 4], child: node.children[slot] };
-    let mut sorted = [place(slot_of(entered)); WIDTH];
-    let mut count = 1;
-    entered &= entered - 1;
-    while entered != 0 && count < WIDTH {
-        let place = place(slot_of(entered));
-        entered &= entered - 1;
-        // Insertion from the far end; few boxes are entered at once.
-        let mut i = count;
-        while i > 0 && place.t < sorted[i - 1].t {
-            sorted[i] = sorted[i - 1];
-            i -= 1;
-        }
-        sorted[i] = place;
-        count += 1;
-    }
-    for place in sorted[1..count].iter().rev() {
-        stack.push(*place);
-    }
-    Some(sorted[0])
-}
-
-/// The nearest hit so far.
-struct Best {
-    t: f32,
-    primitive: u32,
-    /// Quad and lane of the triangle hit.
-    triangle: Option<(u32, u32)>,
-}
-
-impl Best {
-    /// Of hits at one distance the first counts.
-    #[inline(always)]
-    const fn is_beaten_by(&self, t: f32) -> bool {
-        t < self.t || self.primitive == u32::MAX
+            + size_of_val(&self.instances[..])
+            + self.mesh_trees().map(|tree| tree.bytes()).sum::<usize>()
     }
 }
 

@@ -29,6 +29,8 @@ pub(super) enum Target {
     Quad(usize),
     /// The index of a primitive that is no triangle.
     Other(usize),
+    /// An instance's index.
+    Instance(usize),
 }
 
 impl Child {
@@ -48,13 +50,18 @@ impl Child {
         Self((index as u32 & Self::INDEX) | 2 << 30)
     }
 
+    pub(super) const fn instance(index: usize) -> Self {
+        Self((index as u32 & Self::INDEX) | 3 << 30)
+    }
+
     #[inline(always)]
     pub(super) const fn target(self) -> Target {
         let index = (self.0 & Self::INDEX) as usize;
         match self.0 >> 30 {
             0 => Target::Node(index),
             1 => Target::Quad(index),
-            _ => Target::Other(index),
+            2 => Target::Other(index),
+            _ => Target::Instance(index),
         }
     }
 }
@@ -148,7 +155,7 @@ impl BoxRay {
 #[derive(Clone, Debug)]
 pub(super) struct Quad {
     /// Vertex, axis, lane. NaN in empty lanes: nothing hits them.
-    vertices: [[Vec4; 3]; 3],
+    pub(super) vertices: [[Vec4; 3]; 3],
     /// Index of the first one's primitive; the others follow.
     pub(super) first: u32,
 }

@@ -104,7 +104,8 @@ fn what_is_divided_becomes_no_chain() {
 fn rays_hit_in_a_heap_of_ties_what_they_hit_one_by_one() {
     let mut stream = Stream::new(16, Purpose::Test, 0, 0);
     for (name, primitives) in heaps(1500) {
-        let (accel, order) = Accel::build(&primitives, &BuildOptions::default()).expect("not cancelled");
+        let (accel, order) =
+            Accel::build(&primitives, Vec::new(), &BuildOptions::default()).expect("not cancelled");
         let mut sorted = order.clone();
         sorted.sort_unstable();
         assert!(sorted.into_iter().eq(0..1500), "{name}");
@@ -116,7 +117,8 @@ fn rays_hit_in_a_heap_of_ties_what_they_hit_one_by_one() {
                 (bounds.min + part * bounds.size(), warp::square_to_sphere(stream.next_2d()));
             let ray = Ray::new(target - from * 3.0, from);
             let alone = |p: &Primitive| {
-                let (accel, _) = Accel::build(&[*p], &BuildOptions::default()).expect("not cancelled");
+                let (accel, _) =
+                    Accel::build(&[*p], Vec::new(), &BuildOptions::default()).expect("not cancelled");
                 accel.nearest(ray).map(|hit| hit.t)
             };
             let nearest = primitives.iter().filter_map(alone).reduce(f32::min);

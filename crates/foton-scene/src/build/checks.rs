@@ -2,9 +2,13 @@
 
 use foton_math::Rgb;
 use foton_math::glam::DVec3;
+use rayon::prelude::*;
 
 use super::error::BuildError;
+use super::extent::Extent;
 use super::gather::even_scale;
+use super::gauge::Instancing;
+use super::instances::{Extents, Known, shared_meshes};
 use super::textures::Textures;
 use crate::description::{
     Bsdf, Coating, Colour, EmitterDescription, EmitterKind, Geometry, Material, SceneDescription,
@@ -202,36 +206,24 @@ pub(super) fn check_material(material: &Material, textures: &Textures<'_>) -> Re
 pub(super) fn shape_bounds(shape: &ShapeDescription) -> (DVec3, DVec3) {
     let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let mut finite = true;
-    let mut add = |p: DVec3, is_seen: bool| {
+    let mut add = |p: DVec3| {
         finite &= p.is_finite();
-        if is_seen {
-            min = min.min(p);
-            max = max.max(p);
-        }
+        min = min.min(p);
+        max = max.max(p);
     };
     let scale = shape.to_world.matrix3.x_axis.length();
     let around = |c: DVec3, r: f64| [c - r, c + r];
     match &shape.geometry {
-        Geometry::Mesh(mesh) => {
-            let mut is_used = vec![false; mesh.positions.len()];
-            for triangle in mesh.triangles.iter().filter(|t| mesh.has_area(**t)) {
-                triangle.iter().for_each(|&i| is_used[i as usize] = true);
-            }
-            for (&p, is_used) in mesh.positions.iter().zip(is_used) {
-                add(shape.to_world.transform_point3(p), is_used);
-            }
-        }
+        Geometry::Mesh(mesh) => return Extent::new(mesh).under(&shape.to_world),
         Geometry::Sphere { centre, radius } => {
-            around(shape.to_world.transform_point3(*centre), radius * scale)
-                .into_iter()
-                .for_each(|p| add(p, true));
+            around(shape.to_world.transform_point3(*centre), radius * scale).into_iter().for_each(&mut add);
         }
         Geometry::Disc => {
-            around(shape.to_world.translation, scale).into_iter().for_each(|p| add(p, true));
+            around(shape.to_world.translation, scale).into_iter().for_each(&mut add);
         }
         Geometry::Cylinder { from, to, radius } => {
             for end in [from, to].map(|&p| shape.to_world.transform_point3(p)) {
-                around(end, radius * scale).into_iter().for_each(|p| add(p, true));
+                around(end, radius * scale).into_iter().for_each(&mut add);
             }
         }
     }
@@ -239,10 +231,17 @@ pub(super) fn shape_bounds(shape: &ShapeDescription) -> (DVec3, DVec3) {
 }
 
 /// The corners of all surfaces in world units; the origin where there are none.
-pub(super) fn world_bounds(description: &SceneDescription) -> Result<(DVec3, DVec3), BuildError> {
+pub(super) fn world_bounds(
+    description: &SceneDescription,
+    known: &Known<'_>,
+) -> Result<(DVec3, DVec3), BuildError> {
     let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for shape in &description.shapes {
-        let (low, high) = shape_bounds(shape);
+    let extents = Extents::of(&shared_meshes(description, Instancing::default()), known);
+    let bounds = |(i, shape): (usize, &ShapeDescription)| {
+        extents.of_shape(i, shape).unwrap_or_else(|| shape_bounds(shape))
+    };
+    let all: Vec<_> = description.shapes.par_iter().enumerate().map(bounds).collect();
+    for (shape, (low, high)) in description.shapes.iter().zip(all) {
         if low.is_nan() {
             return Err(BuildError::NotFinite(shape.name.clone()));
         }

@@ -1,14 +1,15 @@
 //! Shapes to one list of primitives in scene units.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
-use foton_math::glam::{DAffine3, DMat3, Vec2, Vec3};
+use foton_math::glam::{DAffine3, Vec2, Vec3};
 use foton_math::{Aabb, Cancelled};
 
 use super::error::BuildError;
 use super::gauge::{BuildOptions, Gauge};
 use super::orientation::orientation;
-use crate::accel::Accel;
+use crate::accel::{Accel, Instance};
 use crate::attributes::Attributes;
 use crate::census::Census;
 use crate::description::{
@@ -17,7 +18,7 @@ use crate::description::{
 use crate::discrete::Discrete;
 use crate::emitter::{Emitter, Kind, Pattern};
 use crate::normalise::Normalisation;
-use crate::plane::triangle_normal;
+use crate::placement::{Placed, Placement};
 use crate::primitive::Primitive;
 use crate::scene::{Mixtures, Part, Scene};
 use crate::texture::Sampler;
@@ -25,19 +26,20 @@ use crate::texture::Sampler;
 /// How far a transform's axes may be from equal length and right angles and still keep a sphere round.
 const ROUNDNESS: f64 = 1e-4;
 
-/// Vertex normals this close to a triangle's own (within 0.03°) say that it is flat.
-const FLAT_COSINE: f32 = 1.0 - 1e-7;
-
 /// Primitives of a scene as they are gathered, before the tree orders them.
 #[derive(Default)]
 pub(super) struct Gathered {
     pub(super) primitives: Vec<Primitive>,
     shape_of: Vec<u32>,
-    pub(super) vertex_normals: Vec<[Vec3; 3]>,
+    vertex_normals: Vec<[Vec3; 3]>,
     vertex_uvs: Vec<[Vec2; 3]>,
     pub(super) census: Census,
     /// By texture, the attribute of meshes that it shows.
     attributes: Vec<Option<(String, Attributes)>>,
+    /// Primitives of instances.
+    placed: usize,
+    /// What triangles of meshes that shapes share take of an attribute at their corners, by mesh and name.
+    shared_corners: HashMap<(usize, String), Arc<[[u32; 3]]>>,
 }
 
 impl Gathered {
@@ -128,50 +130,74 @@ impl Gathered {
         let smooth = !mesh.normals.is_empty();
         let textured = self.census.textures || self.census.anisotropy;
         let has_uvs = !mesh.texture_coordinates.is_empty();
-        check_lengths(shape, mesh)?;
-        if !mesh.texture_coordinates.iter().all(|uv| uv.is_finite()) {
-            return Err(BuildError::NotFinite(shape.name.clone()));
+        check_mesh(shape, mesh)?;
+        let placement = Placement::new(shape, to_scene);
+        if smooth && !placement.can_be_inverted() {
+            return Err(BuildError::Singular(shape.name.clone()));
         }
-        let mirrored = shape.to_world.matrix3.determinant() < 0.0;
-        let positions: Vec<Vec3> =
-            mesh.positions.iter().map(|&p| to_scene.point(shape.to_world.transform_point3(p))).collect();
-        let normals = smooth.then(|| world_normals(shape, mesh)).transpose()?;
+        let positions: Vec<Vec3> = mesh.positions.iter().map(|&p| placement.point(p)).collect();
+        let normals: Vec<Vec3> = mesh.normals.iter().map(|&n| placement.normal(n)).collect();
         let mut corners_kept = Vec::new();
-        for (i, triangle) in mesh.triangles.iter().enumerate() {
+        for (i, &vertices) in mesh.triangles.iter().enumerate() {
             gauge.check_at(i)?;
-            if triangle.iter().any(|&i| i as usize >= positions.len()) {
-                return Err(BuildError::BadMesh(shape.name.clone()));
-            }
-            let [a, mut b, mut c] = *triangle;
-            // A mirroring transform turns the winding around; so does flipping.
-            if mirrored != shape.flip_normals {
-                (b, c) = (c, b);
-            }
-            let corners = |[a, b, c]: [u32; 3]| [a, b, c].map(|i| positions[i as usize]);
-            let flat = triangle_normal(corners([a, b, c])).filter(|_| mesh.has_area(*triangle));
-            let Some(flat) = flat else {
+            let normal = smooth.then_some(|i: u32| normals[i as usize]);
+            let placed = placement.oriented(vertices, |i| positions[i as usize], normal);
+            let Some(Placed { vertices, corners, normals }) = placed.filter(|_| mesh.has_area(vertices))
+            else {
                 self.census.degenerate_triangles += 1;
                 continue;
             };
-            let mut at_vertices = None;
-            if let Some(normals) = &normals {
-                let [na, nb, nc] = [a, b, c].map(|i| normals[i as usize]);
-                if (na + nb + nc).dot(flat) < 0.0 {
-                    (b, c) = (c, b);
-                }
-                let usable = [na, nb, nc].iter().all(|n| *n != Vec3::ZERO);
-                let flat = [na, nb, nc].iter().all(|n| n.dot(flat).abs() > FLAT_COSINE);
-                at_vertices = (usable && !flat).then(|| [a, b, c].map(|i| normals[i as usize]));
-            }
             self.census.triangles += 1;
-            self.push(index, Primitive::Triangle(corners([a, b, c])), at_vertices);
+            self.push(index, Primitive::Triangle(corners), normals);
             if let Some(uvs) = self.vertex_uvs.last_mut().filter(|_| textured && has_uvs) {
-                *uvs = [a, b, c].map(|i| mesh.texture_coordinates[i as usize].as_vec2());
+                *uvs = vertices.map(|i| mesh.texture_coordinates[i as usize].as_vec2());
             }
-            corners_kept.extend((!mesh.attributes.is_empty()).then_some(([a, b, c], i as u32)));
+            corners_kept.extend((!mesh.attributes.is_empty()).then_some((vertices, i as u32)));
         }
         self.keep_attributes(index, mesh, &corners_kept);
         Ok(())
+    }
+
+    /// Adds a mesh that several shapes share, where one of them has it.
+    pub(super) fn add_instance(
+        &mut self,
+        index: u32,
+        shape: &ShapeDescription,
+        instance: &Instance,
+    ) -> Result<(), BuildError> {
+        let mesh = &instance.tree.mesh;
+        if !mesh.normals.is_empty() && !instance.placement.can_be_inverted() {
+            return Err(BuildError::Singular(shape.name.clone()));
+        }
+        self.placed += instance.len();
+        self.census.instances += 1;
+        self.census.triangles += instance.len() as u64;
+        self.census.degenerate_triangles += (mesh.triangles.len() - instance.len()) as u64;
+        for (name, kept) in self.attributes.iter_mut().flatten() {
+            if let Some(attribute) = mesh.attributes.iter().find(|a| a.name == *name) {
+                let of_mesh = (Arc::as_ptr(mesh) as usize, name.clone());
+                let corners = self.shared_corners.entry(of_mesh).or_insert_with(|| {
+                    let numbered = mesh.triangles.iter().zip(0..);
+                    numbered.map(|(&t, face)| if attribute.is_of_faces() { [face; 3] } else { t }).collect()
+                });
+                kept.add(index, 0, attribute, Arc::clone(corners));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether there are as many primitives at most as indices.
+    pub(super) fn check_count(&self) -> Result<(), BuildError> {
+        let all = self.primitives.len() + self.placed;
+        if self.primitives.len() > i32::MAX as usize || all >= u32::MAX as usize {
+            return Err(BuildError::TooLarge);
+        }
+        Ok(())
+    }
+
+    /// Whether any primitive from one on has interpolated normals.
+    pub(super) fn is_smooth_from(&self, first: usize) -> bool {
+        self.vertex_normals[first..].iter().any(|n| n[0] != Vec3::ZERO)
     }
 
     fn push(&mut self, shape: u32, primitive: Primitive, normals: Option<[Vec3; 3]>) {
@@ -208,16 +234,18 @@ impl Gathered {
 
     pub(super) fn into_scene(
         self,
+        instances: Vec<Instance>,
         normalisation: Normalisation,
         bounds: Aabb,
         options: &BuildOptions<'_>,
     ) -> Result<Scene, Cancelled> {
-        let (accel, order) = Accel::build(&self.primitives, options)?;
+        let (accel, order) = Accel::build(&self.primitives, instances, options)?;
         let smooth = self.vertex_normals.iter().any(|n| n[0] != Vec3::ZERO);
         let ordered = order.iter().map(|&i| i as usize);
         Ok(Scene {
             order: order.iter().copied().collect(),
             coincidences: Arc::default(),
+            placings: Arc::default(),
             parts: ordered.clone().map(|i| Part { shape: self.shape_of[i], ..Part::default() }).collect(),
             vertex_uvs: ordered.clone().filter_map(|i| self.vertex_uvs.get(i).copied()).collect(),
             textures: Arc::default(),
@@ -248,8 +276,8 @@ impl Gathered {
     }
 }
 
-/// Whether a mesh has as much of everything as it has vertices, or triangles.
-fn check_lengths(shape: &ShapeDescription, mesh: &Mesh) -> Result<(), BuildError> {
+/// Whether a mesh has as much of everything as it has vertices, or triangles, and these have vertices that are there.
+pub(super) fn check_mesh(shape: &ShapeDescription, mesh: &Mesh) -> Result<(), BuildError> {
     let vertices = mesh.positions.len();
     let fits = |n: usize| n == 0 || n == vertices;
     let is_sound = |a: &Attribute| {
@@ -258,24 +286,16 @@ fn check_lengths(shape: &ShapeDescription, mesh: &Mesh) -> Result<(), BuildError
     };
     if !(fits(mesh.normals.len())
         && fits(mesh.texture_coordinates.len())
-        && mesh.attributes.iter().all(is_sound))
+        && mesh.attributes.iter().all(is_sound)
+        && mesh.triangles.iter().flatten().all(|&i| (i as usize) < vertices))
     {
         return Err(BuildError::BadMesh(shape.name.clone()));
     }
-    if mesh.attributes.iter().any(|a| !a.values.iter().all(|v| v.is_finite())) {
+    let are_finite = mesh.texture_coordinates.iter().all(|uv| uv.is_finite());
+    if !are_finite || mesh.attributes.iter().any(|a| !a.values.iter().all(|v| v.is_finite())) {
         return Err(BuildError::NotFinite(shape.name.clone()));
     }
     Ok(())
-}
-
-/// Unit vertex normals in world space; zero where a normal has no direction.
-fn world_normals(shape: &ShapeDescription, mesh: &Mesh) -> Result<Vec<Vec3>, BuildError> {
-    let inverse = shape.to_world.matrix3.inverse();
-    if !inverse.is_finite() {
-        return Err(BuildError::Singular(shape.name.clone()));
-    }
-    let m: DMat3 = inverse.transpose() * if shape.flip_normals { -1.0 } else { 1.0 };
-    Ok(mesh.normals.iter().map(|&n| (m * n).normalize_or_zero().as_vec3()).collect())
 }
 
 /// The factor by which the transform scales the given axes, if it keeps them of one length and perpendicular within

@@ -35,12 +35,26 @@ impl BuildStep {
 /// Is told what building is at and which share of that is done, from any thread.
 pub type Tell<'a> = dyn Fn(BuildStep, f64) + Sync + 'a;
 
+/// Whether shapes that share a mesh share a tree over it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Instancing {
+    /// Where that saves much memory and time: rays are a little slower.
+    #[default]
+    Worthwhile,
+    /// Never.
+    Never,
+    /// Wherever two do.
+    Always,
+}
+
 /// How a scene is built.
 #[derive(Clone, Default)]
 pub struct BuildOptions<'a> {
     /// What is modelled even if the scene has none of it: its picture is the same, but takes more work and memory. For tests and
     /// measurements of what leaving things out saves.
     pub forced: Census,
+    /// Whether shapes that share a mesh share a tree: the picture is the same.
+    pub instancing: Instancing,
     /// Ends the build within a fraction of a second.
     pub cancel: Cancel,
     /// Who is told how far it is.

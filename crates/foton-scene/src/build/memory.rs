@@ -6,11 +6,18 @@ use std::sync::Arc;
 use foton_math::Rgb;
 use foton_math::glam::{DVec2, DVec3};
 
+use super::gauge::Instancing;
+use super::instances::shared_meshes;
+use crate::accel::Instance;
 use crate::description::{Bitmap, EmitterKind, Geometry, Mesh, SceneDescription, TextureKind};
+use crate::scene::Shape;
 
 /// Bytes for each primitive while the tree is built: the primitive twice, its box, both trees and the table of cuts between them.
 /// Measured from outside on meshes of 2·10⁵ to 10⁶ triangles: 400 to 410.
 const BYTES_PER_PRIMITIVE: usize = 432;
+
+/// Bytes for each instance while the tree is built: itself, its shape, its box and the nodes above it.
+const BYTES_PER_INSTANCE: usize = size_of::<Instance>() + size_of::<Shape>() + BYTES_PER_PRIMITIVE;
 
 impl SceneDescription {
     /// Bytes held, meshes and pictures that are shared once.
@@ -27,7 +34,23 @@ impl SceneDescription {
     /// Bytes held at most while [`Scene::build`](crate::Scene::build) makes a scene of it, its own included.
     #[must_use]
     pub fn build_bytes(&self) -> usize {
-        self.bytes() + self.primitives() * BYTES_PER_PRIMITIVE
+        let shared = shared_meshes(self, Instancing::default());
+        let of_instances: usize =
+            shared.iter().map(|(mesh, shapes)| mesh.triangles.len() * shapes.len()).sum();
+        let trees: usize = shared.iter().map(|(mesh, _)| mesh.triangles.len()).sum();
+        let instances: usize = shared.iter().map(|(_, shapes)| shapes.len()).sum();
+        self.bytes()
+            + (self.primitives() - of_instances + trees) * BYTES_PER_PRIMITIVE
+            + instances * BYTES_PER_INSTANCE
+    }
+
+    /// Primitives that a build works through: those of a mesh that is built once for many shapes once.
+    #[must_use]
+    pub fn primitives_to_build(&self) -> usize {
+        let shared = shared_meshes(self, Instancing::default());
+        let saved: usize =
+            shared.iter().map(|(mesh, shapes)| mesh.triangles.len() * (shapes.len() - 1)).sum();
+        self.primitives() - saved
     }
 
     /// Triangles, those without area too, and other surfaces.

@@ -3,8 +3,10 @@
 mod checks;
 mod emitters;
 mod error;
+mod extent;
 mod gather;
 mod gauge;
+mod instances;
 mod materials;
 mod memory;
 mod orientation;
@@ -16,11 +18,13 @@ use std::sync::Arc;
 use foton_math::glam::{DVec3, Vec3};
 use foton_math::{Aabb, Rgb};
 
+use crate::accel::Instance;
 use crate::coincident::Coincidences;
 use crate::description::{Colour, Material, SceneDescription, SensorDescription, ShapeDescription};
 use crate::emitter::{Aim, Area, Emitter, Kind};
 use crate::normalise::Normalisation;
-use crate::scene::{Mixtures, Moving, Part, Scene, Shape};
+use crate::primitive::Primitive;
+use crate::scene::{Mixtures, Moving, Part, Placing, Scene, Shape};
 use crate::sensor::Sensor;
 use crate::texture::{Sampler, samplers};
 use checks::{
@@ -31,9 +35,11 @@ use emitters::{ball, emitter_choice, unattached_emitter};
 pub use error::BuildError;
 use gather::Gathered;
 pub(crate) use gauge::Gauge;
-pub use gauge::{BuildOptions, BuildStep, Tell};
+pub use gauge::{BuildOptions, BuildStep, Instancing, Tell};
+use instances::{Instances, Known};
 use orientation::orientation;
-pub(crate) use patches::Patch;
+use patches::Patches;
+pub(crate) use patches::{Patch, PlacedPatches};
 use textures::{Textures, check_attributes};
 
 impl Scene {
@@ -53,31 +59,64 @@ impl Scene {
         description: &SceneDescription,
         options: &BuildOptions<'_>,
     ) -> Result<Self, BuildError> {
+        Self::build_knowing(description, &Known::default(), options)
+    }
+
+    /// The scene of a description that was edited since this one was built, as [`Scene::build_with`] makes it. Trees over meshes that
+    /// several shapes share are not built again.
+    ///
+    /// # Errors
+    /// As [`Scene::build_with`].
+    pub fn rebuild(
+        &self,
+        description: &SceneDescription,
+        options: &BuildOptions<'_>,
+    ) -> Result<Self, BuildError> {
+        Self::build_knowing(description, &Known::of(self), options)
+    }
+
+    fn build_knowing(
+        description: &SceneDescription,
+        known: &Known<'_>,
+        options: &BuildOptions<'_>,
+    ) -> Result<Self, BuildError> {
         if description.motion.is_still() {
-            return Self::build_still(description, world_bounds(description)?, options);
+            return Self::build_still(description, world_bounds(description, known)?, known, options);
         }
         let mut bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for time in description.motion.times() {
-            let (min, max) = world_bounds(&description.at(time))?;
+            let (min, max) = world_bounds(&description.at(time), known)?;
             bounds = (bounds.0.min(min), bounds.1.max(max));
         }
         // Whoever does not ask for another time sees what the first camera's shutter sees first.
         let [open, _] = description.motion.shutter(0);
-        let scene = Self::build_still(&description.at(open), bounds, options)?;
+        let scene = Self::build_still(&description.at(open), bounds, known, options)?;
         let moving = Moving { description: description.clone(), bounds };
         Ok(Self { moving: Some(Arc::new(moving)), ..scene })
     }
 
+    /// The scene of a description in which nothing moves, with the scene units of this one, of which something does.
+    pub(crate) fn build_at_another_time(
+        &self,
+        description: &SceneDescription,
+        bounds: (DVec3, DVec3),
+        options: &BuildOptions<'_>,
+    ) -> Result<Self, BuildError> {
+        Self::build_still(description, bounds, &Known::of(self), options)
+    }
+
     /// The same of a description in which nothing moves; all that ever is lies between `min` and `max`.
-    pub(crate) fn build_still(
+    fn build_still(
         description: &SceneDescription,
         (min, max): (DVec3, DVec3),
+        known: &Known<'_>,
         options: &BuildOptions<'_>,
     ) -> Result<Self, BuildError> {
         options.cancel.check()?;
         let normalisation = Normalisation::for_bounds(min, max);
         check_sensors(&description.sensors, &normalisation)?;
         let mixtures = Mixtures::new(&description.materials)?;
+        let mut instances = Instances::new(description, &normalisation, known, options)?;
         let gauge = options.step(BuildStep::Shapes, description.primitives());
         let mut gathered = Gathered::new(options.forced.clone(), &description.textures);
         check_surfaces(description, &mut gathered)?;
@@ -85,12 +124,15 @@ impl Scene {
         // Attributes of meshes come later: nothing here asks for their values.
         let samplers_so_far = samplers(&description.textures, &vec![None; description.textures.len()]);
         let of = (&mixtures, &*samplers_so_far);
-        let mut parts = Parts { gathered, of, shapes, emitters, casters: Aabb::EMPTY };
+        let mut parts = Parts { gathered, of, shapes, emitters, casters: Aabb::EMPTY, instances: Vec::new() };
         for (i, shape) in description.shapes.iter().enumerate() {
-            parts.add(i as u32, shape, description, &normalisation, &gauge)?;
+            let instance = instances.take(i);
+            parts.add((i as u32, shape), instance, description, &normalisation, &gauge)?;
         }
-        let Parts { mut gathered, shapes, mut emitters, casters, .. } = parts;
-        let bounds = gathered.primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
+        let Parts { mut gathered, shapes, mut emitters, casters, instances, .. } = parts;
+        let boxes =
+            gathered.primitives.iter().map(Primitive::bounds).chain(instances.iter().map(|i| i.bounds));
+        let bounds = boxes.fold(Aabb::EMPTY, Aabb::union);
         let bounds = if bounds.is_empty() { Aabb::around(Vec3::ZERO, 1.0) } else { bounds };
         let attributes = gathered.attributes();
         let samplers = samplers(&description.textures, &attributes);
@@ -107,7 +149,7 @@ impl Scene {
         let mut index = 0..;
         let is_hidden = |i: usize| i >= surfaces && description.hidden.emitters.contains(&(i - surfaces));
         emitters.retain(|_| !index.next().is_some_and(is_hidden));
-        let mut scene = gathered.into_scene(normalisation, bounds, options)?;
+        let mut scene = gathered.into_scene(instances, normalisation, bounds, options)?;
         scene.shapes = shapes;
         if attributes.iter().all(Option::is_none) && !patterned {
             scene.order = Arc::default();
@@ -138,11 +180,17 @@ impl Scene {
             self.shapes.iter().map(|s| self.materials[s.material as usize].lambertian()).collect();
         let spreads: Vec<bool> =
             self.shapes.iter().map(|s| self.materials_of(s).any(Material::spreads)).collect();
-        let patches = patches::find(&self.accel, |i| spreads[self.shape_of(i) as usize], options)?;
+        let stores = |i: u32| match (self.parts.get(i as usize), self.accel.placed(i)) {
+            (Some(part), _) => spreads[part.shape as usize],
+            (None, placed) => placed.is_some_and(|(i, _)| spreads[self.accel.instances()[i].shape as usize]),
+        };
+        let Patches { own: patches, placed, .. } = patches::find(&self.accel, stores, options)?;
         let coincidences = Coincidences::find(self, options)?;
         for (i, (part, patch)) in Arc::make_mut(&mut self.parts).iter_mut().zip(patches).enumerate() {
-            *part = Part { patch, coincides: coincidences.share(i as u32).any, ..*part };
+            *part = Part { patch, coincides: coincidences.share(i).any, ..*part };
         }
+        let placing = |(i, patches)| Placing { patches, coincides: coincidences.has_instance(i) };
+        self.placings = placed.into_iter().enumerate().map(placing).collect();
         self.coincidences = Arc::new(coincidences);
         for emitter in emitters {
             if let Kind::Area(area) = &mut emitter.kind {
@@ -225,18 +273,20 @@ struct Parts<'a> {
     emitters: Vec<Emitter>,
     /// A box around what throws caustics.
     casters: Aabb,
+    /// Meshes that several shapes share.
+    instances: Vec<Instance>,
 }
 
 impl Parts<'_> {
     fn add(
         &mut self,
-        index: u32,
-        shape: &ShapeDescription,
+        (index, shape): (u32, &ShapeDescription),
+        instance: Option<Instance>,
         description: &SceneDescription,
         normalisation: &Normalisation,
         gauge: &Gauge<'_>,
     ) -> Result<(), BuildError> {
-        let Self { gathered, of: (mixtures, textures), shapes, emitters, casters } = self;
+        let Self { gathered, of: (mixtures, textures), shapes, emitters, casters, instances } = self;
         let first = gathered.primitives.len();
         let is_hidden = description.hidden.shapes.contains(&(index as usize));
         if shape.material >= description.materials.len() {
@@ -244,23 +294,27 @@ impl Parts<'_> {
         }
         let mut materials = mixtures.materials(shape.material).map(|i| &description.materials[i]);
         if !is_hidden {
-            gathered.add(index, shape, normalisation, gauge)?;
+            match &instance {
+                Some(instance) => gathered.add_instance(index, shape, instance)?,
+                None => gathered.add(index, shape, normalisation, gauge)?,
+            }
             let radiance =
                 if let Some(Colour::Texture(texture)) = shape.radiance { Some(texture) } else { None };
             let mut textures = materials.clone().flat_map(Material::textures).chain(radiance);
             textures.try_for_each(|texture| check_attributes(texture, shape, description))?;
         }
         gauge.add(gathered.primitives.len() - first)?;
-        if gathered.primitives.len() > i32::MAX as usize {
-            return Err(BuildError::TooLarge);
-        }
-        let smooth = gathered.vertex_normals[first..].iter().any(|n| n[0] != Vec3::ZERO);
+        gathered.check_count()?;
+        let is_smooth = instance.as_ref().map(|instance| !instance.tree.mesh.normals.is_empty());
+        let smooth = is_smooth.unwrap_or_else(|| gathered.is_smooth_from(first));
         if !is_hidden {
             materials.clone().for_each(|material| gathered.census.count(material, textures, smooth));
         }
         let primitives = &gathered.primitives[first..];
+        let around = |b: Aabb| primitives.iter().map(Primitive::bounds).fold(b, Aabb::union);
+        let extent = instance.as_ref().map_or_else(|| around(Aabb::EMPTY), |instance| instance.bounds);
         if materials.any(|material| material.casts(textures)) {
-            *casters = primitives.iter().fold(*casters, |b, p| b.union(p.bounds()));
+            *casters = casters.union(extent);
         }
         let shines = |radiance: &Colour| *radiance != Colour::Constant(Rgb::BLACK) && !is_hidden;
         let emitter = shape.radiance.filter(shines).map(|radiance| {
@@ -269,7 +323,7 @@ impl Parts<'_> {
             emitters.push(Emitter { name: shape.name.clone(), kind, aim: Aim::default() });
             emitters.len() as u32 - 1
         });
-        let extent = primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
+        instances.extend(instance);
         shapes.push(Shape {
             name: shape.name.clone(),
             steps_across: steps_across(&extent),

@@ -3,7 +3,7 @@
 use foton_math::glam::DVec3;
 use foton_math::{Aabb, Ray, Rgb};
 
-use super::share::MAX_NEAR;
+use super::share::{MAX_NEAR, Share};
 use super::sheet::{Sheet, meet_at, tolerance, weights};
 use crate::description::{Bsdf, Dielectric, Material, Null};
 use crate::scene::Scene;
@@ -26,15 +26,14 @@ impl Scene {
     /// Makes of the surface that a ray hit the one that counts among those that lie in it.
     #[inline(never)]
     pub(crate) fn settle(&self, ray: &Ray, hit: &mut Surface) {
-        let primitives = self.accel.primitives();
-        let (own, p) = (&primitives[hit.primitive as usize], hit.position.as_dvec3());
+        let (own, p) = (&self.accel.primitive(hit.primitive), hit.position.as_dvec3());
         let mut found = [None; MAX];
         let mut count = 0;
         let reach = hit.error.max_element() + 2.0 * self.coincidences.gap(hit.shape as usize);
-        self.accel.for_each_near(&Aabb::around(hit.position, reach), MAX_NEAR, |j| {
-            let primitive = &primitives[j];
-            let is_own = j as u32 == hit.primitive;
-            if !is_own && (!self.coincidences.share(j as u32).any || !meet_at(own, primitive, p)) {
+        self.accel.for_each_near_of_all(&Aabb::around(hit.position, reach), MAX_NEAR, |j| {
+            let (j, primitive) = (j as u32, &self.accel.primitive(j as u32));
+            let is_own = j == hit.primitive;
+            if !is_own && (!self.share(j).any || !meet_at(own, primitive, p)) {
                 return;
             }
             let sheet = Sheet::of(primitive, p);
@@ -46,8 +45,7 @@ impl Scene {
                 .flatten()
                 .any(|c: &Candidate| c.shape == shape && c.normal.dot(sheet.normal) > 0.0 && !is_own);
             if !known && count < MAX {
-                found[count] =
-                    Some(Candidate { primitive: j as u32, shape, rank, normal: sheet.normal, gap });
+                found[count] = Some(Candidate { primitive: j, shape, rank, normal: sheet.normal, gap });
                 count += 1;
             }
         });
@@ -56,7 +54,7 @@ impl Scene {
         found.sort_unstable_by_key(|c| c.map(|c| (std::cmp::Reverse(c.rank), c.shape, c.primitive)));
         let Some(first) = found.first().copied().flatten().filter(|_| count > 1) else { return };
         if first.primitive != hit.primitive {
-            let primitive = &primitives[first.primitive as usize];
+            let primitive = &self.accel.primitive(first.primitive);
             *hit = self.surface_of(ray, first.primitive, weights(primitive, p), hit.position);
         }
         let gap = found.iter().flatten().map(|c| c.gap).fold(0.0, f64::max) as f32;
@@ -77,7 +75,7 @@ impl Scene {
     }
 
     /// Whether of two primitives that share a part of a surface the first counts there on a side of its own, as it is.
-    pub(super) fn counts(&self, first: usize, other: usize, outward: bool, agree: bool) -> bool {
+    pub(super) fn counts(&self, first: u32, other: u32, outward: bool, agree: bool) -> bool {
         let [shape, its_shape] = [first, other].map(|i| self.shape_of(i));
         let fronts = [shape, its_shape].map(|s| self.material(s).front);
         let two_dielectrics = fronts.iter().all(|f| matches!(f, Bsdf::Dielectric(Dielectric { .. })));
@@ -107,10 +105,19 @@ impl Scene {
         merged.then_some([inside, outside])
     }
 
+    /// What a primitive has in common with others. Of an instance all primitives may have.
+    #[inline(always)]
+    pub(crate) fn share(&self, primitive: u32) -> Share {
+        if primitive as usize >= self.parts.len() && self.part(primitive).coincides {
+            return Share::UNSETTLED;
+        }
+        self.coincidences.share(primitive as usize)
+    }
+
     /// Whether any surfaces lie in one another.
     #[must_use]
     pub fn has_coincident_surfaces(&self) -> bool {
-        !self.coincidences.shared.is_empty()
+        !self.coincidences.gaps.is_empty()
     }
 
     /// Pairs of shapes of which the first hides the second where both lie in one surface and face the same way: the first is

@@ -13,6 +13,9 @@ pub(crate) struct Share {
 }
 
 impl Share {
+    /// Where only the hit itself can tell.
+    pub(super) const UNSETTLED: Self = Self { any: true, unsettled: [true; 2] };
+
     /// Whether hits from a side are to be settled.
     #[inline(always)]
     pub(crate) const fn is_unsettled(self, outward: bool) -> bool {
@@ -25,6 +28,8 @@ impl Share {
 pub(crate) struct Coincidences {
     /// By primitive in the tree's order; empty where there are none.
     pub(super) shared: Vec<Share>,
+    /// By instance: whether any part of its surface lies in another. Empty where there are none.
+    pub(super) instances: Vec<bool>,
     /// Pairs of shapes that share a part of a surface, the lower index first, each once, and whether their normals agree.
     pub(super) shapes: Vec<([u32; 2], bool)>,
     /// By shape: how far apart its surface and those in it may be, for rays that start there.
@@ -32,10 +37,15 @@ pub(crate) struct Coincidences {
 }
 
 impl Coincidences {
-    /// What a primitive has in common with others.
+    /// What a primitive of the scene's own has in common with others.
     #[inline(always)]
-    pub(crate) fn share(&self, primitive: u32) -> Share {
-        self.shared.get(primitive as usize).copied().unwrap_or_default()
+    pub(crate) fn share(&self, primitive: usize) -> Share {
+        self.shared.get(primitive).copied().unwrap_or_default()
+    }
+
+    /// Whether a part of an instance lies in another surface.
+    pub(crate) fn has_instance(&self, instance: usize) -> bool {
+        self.instances.get(instance).copied().unwrap_or(false)
     }
 
     /// How far from a shape's surface another may lie that counts as the same.

@@ -163,7 +163,7 @@ impl Beam {
         match &self.picture {
             Picture::Even => intensity,
             Picture::Texture(sampler) => {
-                let corner = Corner { shape: 0, primitive: 0, weights: Vec2::ZERO };
+                let corner = Corner::default();
                 intensity * sampler.colour(&At { uv, corner })
             }
         }

@@ -173,8 +173,12 @@ impl Pattern {
     pub(super) fn radiance(&self, part: usize, primitive: &Primitive, place: &Place) -> Rgb {
         let uvs = self.uvs.get(part).copied().unwrap_or_default();
         let uv = coordinate(primitive, place.position, place.barycentric, uvs, &self.to_object);
-        let corner =
-            Corner { shape: self.shape, primitive: self.first + part as u32, weights: place.barycentric };
+        let corner = Corner {
+            shape: self.shape,
+            primitive: self.first + part as u32,
+            weights: place.barycentric,
+            is_turned: false,
+        };
         self.sampler.colour(&At { uv, corner })
     }
 }

@@ -59,7 +59,7 @@ pub const SHAPEGROUP: Plugin = Plugin {
 pub const INSTANCE: Plugin = Plugin {
     name: "instance",
     label: "",
-    help: "Around a `shapegroup` or a reference to one: its shapes once more, at another place. Each takes the memory of a shape of its own.",
+    help: "Around a `shapegroup` or a reference to one: its shapes once more, at another place. Many instances of a large mesh share one tree over it.",
     parameters: &[TO_WORLD],
 };
 

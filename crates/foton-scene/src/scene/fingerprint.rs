@@ -22,6 +22,12 @@ impl Scene {
         // Writing into a number never fails.
         let _ = write!(hash, "{:?}{:?}", self.normalisation, self.accel.primitives());
         let _ = write!(hash, "{:?}{:?}", self.parts, self.shapes);
+        for instance in self.accel.instances() {
+            let _ = write!(hash, "{:?}{}", instance.placement, instance.shape);
+        }
+        for tree in self.accel.mesh_trees() {
+            let _ = write!(hash, "{:?}", tree.mesh);
+        }
         let _ = write!(hash, "{:?}{:?}", self.vertex_normals, self.vertex_uvs);
         let _ = write!(hash, "{:?}{:?}{:?}", self.materials, self.textures, self.emitters);
         hash.0

@@ -6,7 +6,6 @@ use foton_math::Frame;
 use foton_math::glam::{Vec2, Vec3};
 
 use super::Scene;
-use crate::attributes::Corner;
 use crate::primitive::Primitive;
 use crate::surface::Surface;
 use crate::texture::{At, Sampler};
@@ -56,9 +55,7 @@ impl Scene {
     /// Where textures are looked up for a point, or for what an eye sample sees around it.
     #[inline]
     pub(super) fn lookup(&self, surface: &Surface, footprint: Option<&Footprint>) -> Lookup {
-        let primitive = self.order.get(surface.primitive as usize).copied().unwrap_or_default();
-        let corner = Corner { shape: surface.shape, primitive, weights: surface.barycentric };
-        let at = At { uv: self.texture_coordinate(surface), corner };
+        let at = At { uv: self.texture_coordinate(surface), corner: self.corner(surface) };
         let sides = footprint.map(|f| f.sides.map(|side| self.change_of_coordinate(surface, side)));
         Lookup { at, sides }
     }
@@ -68,9 +65,9 @@ impl Scene {
         let to_object = self.shapes[surface.shape as usize].to_object;
         // The change of the angle around an axis, in turns.
         let turn = |p: Vec2, d: Vec2, least: f32| p.perp_dot(d) / (2.0 * PI * p.length_squared().max(least));
-        match self.accel.primitives()[surface.primitive as usize] {
+        match self.accel.primitive(surface.primitive) {
             Primitive::Triangle(corners) => {
-                let [a, b, c] = self.vertex_uvs[surface.primitive as usize];
+                let [a, b, c] = self.uvs_of(surface.primitive);
                 let weights = change_of_weights(corners, along);
                 (b - a) * weights.x + (c - a) * weights.y
             }
@@ -100,16 +97,13 @@ impl Scene {
     /// How the unit shading normal changes along a vector in the tangent plane. Relief is left out.
     #[must_use]
     pub fn change_of_normal(&self, surface: &Surface, along: Vec3) -> Vec3 {
-        let i = surface.primitive as usize;
-        let change = match self.accel.primitives()[i] {
+        let change = match self.accel.primitive(surface.primitive) {
             Primitive::Triangle(corners) => {
-                let Some([a, b, c]) = self.vertex_normals.get(i).filter(|n| n[0] != Vec3::ZERO) else {
-                    return Vec3::ZERO;
-                };
+                let Some([a, b, c]) = self.normals_of(surface.primitive) else { return Vec3::ZERO };
                 let (v, w) = (surface.barycentric.x, surface.barycentric.y);
-                let normal = *a * (1.0 - v - w) + *b * v + *c * w;
+                let normal = a * (1.0 - v - w) + b * v + c * w;
                 let weights = change_of_weights(corners, along);
-                let change = (*b - *a) * weights.x + (*c - *a) * weights.y;
+                let change = (b - a) * weights.x + (c - a) * weights.y;
                 // Interpolated normals may be turned to the side of the geometric one.
                 change / normal.length().copysign(normal.dot(surface.shading_normal))
             }

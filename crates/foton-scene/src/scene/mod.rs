@@ -6,6 +6,7 @@ mod lookup;
 mod mixture;
 mod motion;
 mod parametrisation;
+mod primitives;
 mod relief;
 mod scattering;
 mod surface;
@@ -20,7 +21,7 @@ use foton_math::{Aabb, Ray};
 
 use crate::accel::{Accel, Hit};
 use crate::bsdf::Coats;
-use crate::build::Patch;
+use crate::build::{Patch, PlacedPatches};
 use crate::census::Census;
 use crate::coincident::Coincidences;
 use crate::description::{Colour, Material};
@@ -59,12 +60,23 @@ pub(crate) struct Part {
     pub(crate) coincides: bool,
 }
 
+/// What the primitives of an instance belong to, beside its shape.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Placing {
+    pub(crate) patches: PlacedPatches,
+    /// Whether any of them lies in another's surface somewhere.
+    pub(crate) coincides: bool,
+}
+
 /// An immutable scene, in scene units (see [`Normalisation`]). What is large is shared by its clones.
 #[derive(Clone)]
 pub struct Scene {
     pub(crate) accel: Arc<Accel>,
-    /// What each primitive belongs to, in the tree's order.
+    /// What each primitive belongs to, in the tree's order. This and what follows is of the scene's own primitives: those of instances
+    /// come behind, and `primitives.rs` works out theirs.
     pub(crate) parts: Arc<[Part]>,
+    /// By instance.
+    pub(crate) placings: Arc<[Placing]>,
     pub(crate) coincidences: Arc<Coincidences>,
     /// Unit vertex normals of each primitive in the tree's order; zeros where flat. Empty when the scene has none.
     pub(crate) vertex_normals: Arc<[[Vec3; 3]]>,
@@ -118,11 +130,6 @@ impl Scene {
     #[inline(always)]
     pub fn nearest_hit(&self, ray: Ray) -> Option<Hit> {
         self.accel.nearest(ray)
-    }
-
-    /// The shape of a primitive, by its index in the tree's order.
-    pub(crate) fn shape_of(&self, primitive: usize) -> u32 {
-        self.parts[primitive].shape
     }
 
     /// The material of a shape.
@@ -200,6 +207,7 @@ impl Scene {
     pub fn bytes(&self) -> usize {
         self.accel.bytes()
             + self.parts.len() * size_of::<Part>()
+            + self.placings.len() * size_of::<Placing>()
             + self.vertex_normals.len() * size_of::<[Vec3; 3]>()
             + self.vertex_uvs.len() * size_of::<[Vec2; 3]>()
             + self.order.len() * size_of::<u32>()

@@ -40,7 +40,7 @@ impl Scene {
         let [open, close] = moving.description.motion.shutter(sensor);
         let now = moving.description.at(open + share * (close - open));
         let options = BuildOptions { cancel: cancel.clone(), ..BuildOptions::default() };
-        match Self::build_still(&now, moving.bounds, &options) {
+        match self.build_at_another_time(&now, moving.bounds, &options) {
             Ok(scene) => Ok(Arc::new(Self { moving: self.moving.clone(), ..scene })),
             // What could be built once can be built anywhere on its way.
             Err(BuildError::Cancelled(cancelled)) => Err(cancelled),

@@ -27,10 +27,9 @@ impl Scene {
 
     /// Texture coordinate of a point.
     pub(super) fn texture_coordinate(&self, surface: &Surface) -> Vec2 {
-        let i = surface.primitive as usize;
-        let uvs = self.vertex_uvs.get(i).copied().unwrap_or_default();
+        let (primitive, uvs) = (self.accel.primitive(surface.primitive), self.uvs_of(surface.primitive));
         let to_object = &self.shapes[surface.shape as usize].to_object;
-        coordinate(&self.accel.primitives()[i], surface.position, surface.barycentric, uvs, to_object)
+        coordinate(&primitive, surface.position, surface.barycentric, uvs, to_object)
     }
 
     /// How far the point moves for each step of u and of v, in scene units: ∂p/∂u and ∂p/∂v, as Mitsuba 3 has them. Zeros where texture
@@ -39,10 +38,9 @@ impl Scene {
         use std::f32::consts::PI;
         let to_object = self.shapes[surface.shape as usize].to_object;
         let to_scene = |v: Vec3| to_object.transpose() * v;
-        match self.accel.primitives()[surface.primitive as usize] {
+        match self.accel.primitive(surface.primitive) {
             Primitive::Triangle([a, b, c]) => {
-                let [ta, tb, tc] =
-                    self.vertex_uvs.get(surface.primitive as usize).copied().unwrap_or_default();
+                let [ta, tb, tc] = self.uvs_of(surface.primitive);
                 let (e, f, s, t) = (b - a, c - a, tb - ta, tc - ta);
                 let determinant = s.x * t.y - s.y * t.x;
                 if determinant == 0.0 {

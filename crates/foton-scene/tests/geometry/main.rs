@@ -9,6 +9,7 @@ mod contacts;
 mod descriptions;
 mod double;
 mod far;
+mod instances;
 mod patches;
 mod ray_origins;
 mod reference;

@@ -3,7 +3,7 @@
 use foton_math::Rgb;
 
 use super::eye_pass::{EyePaths, NO_SHAPE};
-use super::hit_point::HitPoint;
+use super::hit_point::{GlossIndex, HitPoint};
 
 /// What was found of the first samples of each pixel, and where.
 pub(super) struct Earlier {
@@ -30,9 +30,9 @@ impl Earlier {
         }
         let range = self.start[pixel] as usize..self.start[pixel + 1] as usize;
         for hit_point in &self.paths.hit_points[range] {
-            let gloss = hit_point.gloss.map(|gloss| {
-                paths.gloss.push(self.paths.gloss[gloss as usize]);
-                paths.gloss.len() as u32 - 1
+            let gloss = hit_point.gloss.and_then(|gloss| {
+                paths.gloss.push(self.paths.gloss[gloss.get()]);
+                GlossIndex::last_of(paths.gloss.len())
             });
             paths.hit_points.push(HitPoint { gloss, ..*hit_point });
         }
@@ -40,9 +40,10 @@ impl Earlier {
         self.paths.emission[pixel]
     }
 
-    /// What was counted on the way, without what was found.
-    pub(super) fn counts(self) -> EyePaths {
-        let EyePaths { rays, dropped, left_out, .. } = self.paths;
-        EyePaths { rays, dropped, left_out, ..EyePaths::default() }
+    /// Adds what was counted on the way, without what was found.
+    pub(super) fn add_counts_to(&self, paths: &mut EyePaths) {
+        paths.rays += self.paths.rays;
+        paths.dropped += self.paths.dropped;
+        paths.left_out = self.paths.left_out.or(paths.left_out);
     }
 }

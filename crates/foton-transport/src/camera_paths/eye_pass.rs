@@ -47,7 +47,7 @@ impl EyePaths {
     pub fn append(&mut self, part: Self) {
         let before = self.gloss.len() as u32;
         self.hit_points.extend(
-            part.hit_points.into_iter().map(|h| HitPoint { gloss: h.gloss.map(|g| g + before), ..h }),
+            part.hit_points.into_iter().map(|h| HitPoint { gloss: h.gloss.map(|g| g.after(before)), ..h }),
         );
         self.gloss.extend(part.gloss);
         self.counts.extend(part.counts);

@@ -10,6 +10,6 @@ mod trace;
 mod walk;
 
 pub use eye_pass::{EyePass, EyePaths, NO_SHAPE};
-pub use hit_point::{Gloss, HitPoint};
+pub use hit_point::{Gloss, GlossIndex, HitPoint, slab2};
 pub use pixel_samples::PixelSamples;
 pub use radius::FirstRadius;

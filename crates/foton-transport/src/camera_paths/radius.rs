@@ -12,7 +12,7 @@
 use std::f32::consts::PI;
 
 use foton_math::glam::Vec3;
-use foton_scene::{Scene, Surface};
+use foton_scene::Scene;
 
 /// c: a disc of four footprints' radius holds some 16 footprints.
 const FOOTPRINTS: f32 = 4.0;
@@ -68,14 +68,6 @@ pub(super) fn on_surface(area: f32, cosine: f32) -> f32 {
 fn smallest_radius(largest_coordinate: f32) -> f32 {
     let exponent = largest_coordinate.max(f32::MIN_POSITIVE).log2().floor();
     8.0 * f32::EPSILON * exponent.exp2()
-}
-
-/// Squared half-thickness of the slab around the tangent plane in which photons count, over the squared radius.
-///
-/// A plane needs none, but a neighbouring step or a parallel sheet must stay out. A curved surface leaves its tangent plane
-/// by r/2R, and is let in as long as normals agree.
-pub(super) fn slab2(surface: &Surface) -> f32 {
-    if surface.curved { 1.0 } else { 0.01 }
 }
 
 #[cfg(test)]

@@ -15,6 +15,9 @@ use crate::not_finite::{self, LeftOut, Quantity};
 /// Pixels of one task.
 const CHUNK: usize = 1024;
 
+/// Tasks for each thread whose hit points are held apart from the others', before they are joined.
+const HELD: usize = 16;
+
 /// Room for so many hit points of a task at first.
 const MAX_RESERVED: usize = 1 << 14;
 
@@ -33,24 +36,23 @@ impl EyePass<'_> {
     ) -> Result<EyePaths, Cancelled> {
         let (earlier, done) = (Earlier::new(earlier), AtomicUsize::new(0));
         let all = self.sensor().width as usize * self.sensor().height as usize;
-        let parts: Vec<EyePaths> = (0..all.div_ceil(CHUNK))
-            .into_par_iter()
-            .map(|chunk| {
-                let pixels = (chunk * CHUNK..all.min((chunk + 1) * CHUNK)).map(|p| p as u32);
-                let of = pixels.len();
-                let part = self.go_on(&earlier, samples, pixels, cancel);
-                let so_far = done.fetch_add(of, Ordering::Relaxed) + of;
-                tell(so_far as f64 / all as f64);
-                cancel.check().map(|()| part)
-            })
-            .collect::<Result<_, _>>()?;
-        let mut all = EyePaths { samples, ..earlier.counts() };
-        all.hit_points.reserve_exact(parts.iter().map(|p| p.hit_points.len()).sum());
-        for part in parts {
-            cancel.check()?;
-            all.append(part);
+        let of_chunk = |chunk: usize| {
+            let pixels = (chunk * CHUNK..all.min((chunk + 1) * CHUNK)).map(|p| p as u32);
+            let of = pixels.len();
+            let part = self.go_on(&earlier, samples, pixels, cancel);
+            let so_far = done.fetch_add(of, Ordering::Relaxed) + of;
+            tell(so_far as f64 / all as f64);
+            cancel.check().map(|()| part)
+        };
+        let mut paths = EyePaths { samples, ..EyePaths::default() };
+        let (chunks, held) = (all.div_ceil(CHUNK), HELD * rayon::current_num_threads());
+        for first in (0..chunks).step_by(held) {
+            let some = first..chunks.min(first + held);
+            let parts: Vec<EyePaths> = some.into_par_iter().map(of_chunk).collect::<Result<_, _>>()?;
+            parts.into_iter().for_each(|part| paths.append(part));
         }
-        Ok(all)
+        earlier.add_counts_to(&mut paths);
+        Ok(paths)
     }
 
     /// Follows all samples of some pixels; once cancelled no more of them.
@@ -113,8 +115,6 @@ impl EyePass<'_> {
             paths.counts.push((paths.hit_points.len() - before) as u32);
             paths.emission.push(emission);
         }
-        // All parts are held at one time.
-        paths.hit_points.shrink_to_fit();
         paths
     }
 }

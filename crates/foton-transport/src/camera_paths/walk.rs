@@ -8,9 +8,9 @@ use foton_scene::{Footprint, LobeFlags, LobeSample, Scattering, Surface, Transpo
 
 use super::eye_pass::{EyePass, EyePaths};
 use super::highlights::{EmitterDraw, Glossy};
-use super::hit_point::{Gloss, HitPoint};
+use super::hit_point::{Gloss, GlossIndex, HitPoint};
 use super::pixel_samples::SamplePoints;
-use super::radius::{on_surface, slab2};
+use super::radius::on_surface;
 use crate::differential::{Bend, Differential};
 use crate::lobes::LobeSplit;
 use crate::not_finite::{self, LeftOut, Quantity};
@@ -191,7 +191,7 @@ impl<'a, 'b> Walk<'a, 'b> {
                 let Part { lobes, specular, .. } = part;
                 let gloss = Gloss { scattering: *scattering, frame, wo, lobes, specular };
                 self.paths.gloss.push(gloss);
-                (branch.weight, Some(self.paths.gloss.len() as u32 - 1))
+                (branch.weight, GlossIndex::last_of(self.paths.gloss.len()))
             }
         };
         if weight.is_black() || !self.is_finite(weight, surface) {
@@ -210,14 +210,14 @@ impl<'a, 'b> Walk<'a, 'b> {
             position: surface.position,
             normal,
             shading_normal: surface.shading_normal * side,
-            origin: surface.ray_origin(normal),
+            offset: surface.ray_offset(),
             weight,
             gloss,
             footprint,
             radius2,
             smallest2,
             patch: surface.patch_towards(side > 0.0),
-            slab2: slab2(surface),
+            curved: surface.curved,
             remaining_edges: (self.pass.max_depth - branch.edges).min(255) as u8,
         });
     }

@@ -11,5 +11,5 @@ pub use chunk::{CHUNK, Chunk};
 pub use grid::{Grid, MAX_CELLS};
 pub use groups::{BAND, Groups, group};
 pub use map::PhotonMap;
-pub use packet::{LANES, Packet, rows};
+pub use packet::{LANES, Packet, PacketTests, rows};
 pub use photon::{PathClass, Photon};

@@ -4,7 +4,7 @@ use foton_math::Aabb;
 use foton_math::glam::Vec3;
 
 use super::photon::patch_mark;
-use crate::camera_paths::HitPoint;
+use crate::camera_paths::{HitPoint, slab2};
 use crate::not_finite::{LeftOut, Quantity, Surface};
 
 /// Hit points in a packet.
@@ -20,7 +20,18 @@ pub struct Packet {
     pub normal: [[f32; LANES]; 3],
     /// Squared radii; negative in empty lanes.
     pub radius2: [f32; LANES],
-    /// See [`HitPoint::slab2`].
+    /// See [`HitPoint::remaining_edges`].
+    pub remaining_edges: [u8; LANES],
+    /// See [`HitPoint::patch`].
+    pub patch: [u8; LANES],
+    /// Bits of the lanes that are [`HitPoint::curved`].
+    pub curved: u16,
+}
+
+/// What a packet holds in short, in rows to test photons against.
+#[derive(Clone, Debug)]
+pub struct PacketTests {
+    /// See [`slab2`].
     pub slab2: [f32; LANES],
     /// See [`HitPoint::remaining_edges`].
     pub remaining_edges: [i32; LANES],
@@ -46,17 +57,27 @@ impl Packet {
             position: rows(members.clone().map(|h| h.position)),
             normal: rows(members.clone().map(|h| h.normal / 127.0)),
             radius2: [-1.0; LANES],
-            slab2: [0.0; LANES],
             remaining_edges: [0; LANES],
             patch: [0; LANES],
+            curved: 0,
         };
         for (lane, h) in members.enumerate() {
             packet.radius2[lane] = h.radius2;
-            packet.slab2[lane] = h.slab2;
-            packet.remaining_edges[lane] = i32::from(h.remaining_edges);
-            packet.patch[lane] = patch_mark(h.patch);
+            packet.remaining_edges[lane] = h.remaining_edges;
+            packet.patch[lane] = h.patch;
+            packet.curved |= u16::from(h.curved) << lane;
         }
         packet
+    }
+
+    /// What photons are tested against beside position, normal and radius.
+    #[inline(always)]
+    pub fn tests(&self) -> PacketTests {
+        PacketTests {
+            slab2: std::array::from_fn(|l| slab2(self.curved >> l & 1 != 0)),
+            remaining_edges: self.remaining_edges.map(i32::from),
+            patch: self.patch.map(patch_mark),
+        }
     }
 
     /// The record of a value at a lane that was not finite.

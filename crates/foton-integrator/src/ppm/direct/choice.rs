@@ -50,7 +50,7 @@ pub(super) fn noise(scene: &Scene, lights: &Lights, settings: &RenderSettings) -
     let found = pass.follow((0..n).map(|i| (i * pixels / n) as u32), &Cancel::default());
     let (mut square, mut mean) = (0.0, 0.0);
     for (i, point) in found.hit_points.iter().enumerate() {
-        let is_specular = point.gloss.is_some_and(|g| found.gloss[g as usize].specular);
+        let is_specular = point.gloss.is_some_and(|g| found.gloss[g.get()].specular);
         if point.remaining_edges < 1 || is_specular {
             continue;
         }
@@ -73,7 +73,7 @@ fn light(scene: &Scene, lights: &Lights, point: &HitPoint, stream: &mut Stream) 
     let scrambles: [Scramble; SCRAMBLES] =
         std::array::from_fn(|_| std::array::from_fn(|_| stream.next_bits()));
     let at = Receiver {
-        origin: point.origin,
+        origin: point.origin(),
         normal: point.shading_normal,
         edges: u32::from(point.remaining_edges),
     };

@@ -114,13 +114,13 @@ impl Lighting<'_> {
         for (point, h) in hit_points.of_pixel(pixel).enumerate() {
             let slot = hit_points.slot_of[h] as usize;
             // A path of two edges: one to the hit point, one to the emitter.
-            let edges = hit_points.packets[slot / LANES].remaining_edges[slot % LANES];
+            let edges = u32::from(hit_points.packets[slot / LANES].remaining_edges[slot % LANES]);
             let gloss = hit_points.gloss(slot);
             if edges < 1 || gloss.is_some_and(|g| g.specular) {
                 continue;
             }
-            let place = &hit_points.shadow_slots[slot];
-            let at = Receiver { origin: place.origin, normal: place.shading_normal, edges: edges as u32 };
+            let (origin, normal) = hit_points.shadow_origin(slot);
+            let at = Receiver { origin, normal, edges };
             let mut add = |Arrival { irradiance, from, emitter, .. }: Arrival| {
                 let value = gloss.map_or(Rgb::WHITE, |g| g.eval(from));
                 let term = hit_points.weights[h] * value * irradiance;

@@ -84,7 +84,7 @@ fn state(ppm: &Ppm) -> (Vec<u8>, String) {
 #[test]
 fn a_render_whose_samples_were_followed_in_steps_has_the_bits_of_one_at_once() {
     let at_once = after(start(EyeSamples::new(scene(), settings())), 2);
-    assert!(!at_once.hit_points.gloss_slots.is_empty() && at_once.hit_points.first_glossy > 0);
+    assert!(!at_once.hit_points.gloss.is_empty() && at_once.hit_points.first_glossy > 0);
     assert!(at_once.light.emission().iter().any(|e| e.r > 0.0));
     for steps in [&[1][..], &[1, 4], &[1, 2, 3, 4, 5], &[6]] {
         let mut eye = EyeSamples::new(scene(), settings());

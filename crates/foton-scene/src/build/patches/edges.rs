@@ -77,13 +77,13 @@ fn sorted(mut edges: Vec<Edge>, gauge: &Gauge<'_>) -> Result<Vec<Edge>, Cancelle
 /// Joins triangles that have both vertices of an edge in common, and clears the bits of their sides in `free`.
 pub(super) fn join_equal_edges(
     primitives: &[Primitive],
-    stores: &(impl Fn(usize) -> bool + Sync),
+    stores: &(impl Fn(u32) -> bool + Sync),
     sets: &mut Sets,
     free: &mut [u8],
     gauge: &Gauge<'_>,
 ) -> Result<(), Cancelled> {
     let sides_of = |i: usize| match primitives[i] {
-        Primitive::Triangle(corners) if gauge.check().is_ok() && stores(i) => Some(corners),
+        Primitive::Triangle(corners) if gauge.check().is_ok() && stores(i as u32) => Some(corners),
         _ => None,
     };
     let edges: Vec<Edge> = (0..primitives.len())

@@ -12,6 +12,13 @@ impl Sets {
         Self { parent: (0..primitives as u32).collect(), turned: vec![false; primitives] }
     }
 
+    /// Adds a set of one; its number.
+    pub(super) fn add(&mut self) -> u32 {
+        self.parent.push(self.parent.len() as u32);
+        self.turned.push(false);
+        self.parent.len() as u32 - 1
+    }
+
     /// The set of a primitive, and whether it is turned against it.
     pub(super) fn root(&mut self, mut i: u32) -> (u32, bool) {
         let mut turned = false;

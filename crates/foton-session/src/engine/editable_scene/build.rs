@@ -25,9 +25,9 @@ impl EditableScene {
     /// The scene of a description with the sensors as they are; `None` where building it was given up.
     fn scene_of(&self, description: &SceneDescription, cancel: &Cancel) -> Result<Option<Scene>, String> {
         let description = &SceneDescription { sensors: self.rendered_sensors(), ..description.clone() };
-        let is_quick = description.primitives() < QUICK;
+        let is_quick = description.primitives_to_build() < QUICK;
         let cancel = if is_quick { Cancel::default() } else { cancel.clone() };
-        match Scene::build_with(description, &BuildOptions { cancel, ..BuildOptions::default() }) {
+        match self.scene.rebuild(description, &BuildOptions { cancel, ..BuildOptions::default() }) {
             Ok(scene) => Ok(Some(scene)),
             Err(BuildError::Cancelled(_)) => Ok(None),
             Err(cause) => Err(cause.to_string()),

@@ -167,8 +167,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "photons of another surface do not count",
         file: "crates/foton-integrator/src/ppm/lanes.rs",
-        from: "edges ^ packet.patch[l] <= packet.remaining_edges[l]",
-        to: "(edges & 255) <= packet.remaining_edges[l]",
+        from: "edges ^ tests.patch[l] <= tests.remaining_edges[l]",
+        to: "(edges & 255) <= tests.remaining_edges[l]",
         target: ANALYTIC,
         test: "a_card_above_a_floor_has_its_own_light_and_so_has_the_floor",
     },
