@@ -3,6 +3,7 @@
 //!
 //! Two drivers share this: `mutate`, which any stable compiler builds, and libFuzzer's targets.
 
+mod gltf;
 pub mod memory;
 pub mod pbrt;
 pub mod seeds;
@@ -23,12 +24,13 @@ static COUNTED: memory::Counted = memory::Counted;
 pub type Reader = fn(&[u8]) -> String;
 
 /// Everything that is fuzzed: its name, and what reads. A reader says in a line how it ended, for drivers to tell runs apart.
-pub const TARGETS: [(&str, Reader); 6] = [
+pub const TARGETS: [(&str, Reader); 7] = [
     ("xml", xml),
     ("pbrt", pbrt::pbrt),
     ("obj", obj),
     ("ply", ply),
     ("image", image),
+    ("gltf", gltf::read),
     ("checkpoint", read_checkpoint),
 ];
 
@@ -130,8 +132,11 @@ pub fn obj(data: &[u8]) -> String {
     as_mesh("obj", data)
 }
 
-/// A PLY file; STL and `.serialized` share the bounds and are fed from here too.
+/// A PLY file; STL, OFF and `.serialized` share the bounds and are fed from here too.
 pub fn ply(data: &[u8]) -> String {
+    if data.starts_with(b"OFF") || data.get(1..4) == Some(b"OFF") {
+        return by_path("off", data);
+    }
     let kind = if data.starts_with(&[0x1c, 0x04]) {
         "serialized"
     } else if data.starts_with(b"ply") {
@@ -140,6 +145,19 @@ pub fn ply(data: &[u8]) -> String {
         "stl"
     };
     as_mesh(kind, data)
+}
+
+/// A mesh file that is a scene of its own.
+fn by_path(extension: &str, data: &[u8]) -> String {
+    let path = scratch(extension);
+    if std::fs::write(&path, data).is_err() {
+        return "no place to write".into();
+    }
+    let said = match foton_format::open(&path, &Options::default()) {
+        Ok(opened) => format!("{:?}", Scene::build(&opened.description).map(|s| format!("{:?}", s.census()))),
+        Err(error) => error.diagnostics().iter().map(|fault| fault.message.clone()).collect(),
+    };
+    said.chars().filter(|c| !c.is_ascii_digit()).take(400).collect()
 }
 
 /// Where inputs lie that are read by path.

@@ -34,6 +34,8 @@ const PLY: &str = "ply\nformat ascii 1.0\ncomment c\nelement vertex 4\nproperty 
 
 const STL: &str = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n";
 
+const OFF: &str = "COFF\n4 2 0\n0 0 0 255 0 0 255\n1 0 0 0 255 0 255\n1 1 0 0 0 255 255\n0 1 0 9 9 9 255\n4 0 1 2 3\n3 0 1 2 1.0 0 0\n";
+
 /// A file that scenes name.
 pub fn file(name: &str) -> Option<Vec<u8>> {
     match name {
@@ -148,7 +150,8 @@ pub fn of(target: &str) -> Vec<Vec<u8>> {
         "xml" => vec![ROOM.into(), WHOLE.into()],
         "pbrt" => crate::pbrt::seeds(),
         "obj" => vec![OBJ.into()],
-        "ply" => vec![PLY.into(), CORNERS.into(), STL.into(), binary_ply(), binary_stl()],
+        "ply" => vec![PLY.into(), CORNERS.into(), STL.into(), OFF.into(), binary_ply(), binary_stl()],
+        "gltf" => crate::gltf::seeds(),
         "image" => vec![png(), exr(), hdr(), bmp(), tga(), PPM.into()],
         "checkpoint" => {
             let (file, state) = crate::genuine_checkpoint();

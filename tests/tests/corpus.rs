@@ -52,6 +52,11 @@ fn pictures_that_fuzzing_found_break_nothing() {
 }
 
 #[test]
+fn gltf_files_that_fuzzing_found_break_nothing() {
+    replay("gltf");
+}
+
+#[test]
 fn checkpoints_that_fuzzing_found_break_nothing() {
     replay("checkpoint");
 }

@@ -1,7 +1,7 @@
 //! Scene files and meshes to scene descriptions; the only reader of scene files.
 //!
 //! The format is a subset of Mitsuba 3's XML, so that one file renders alike in both; files of its predecessor (version
-//! 0.6) are read, too. All problems of a file are found in one go, each with its place and the nearest known name.
+//! 0.6) are read, too, and so are scenes of pbrt and glTF. All problems of a file are found in one go, each with its place and the nearest known name.
 //! Nothing is rendered or downloaded here, and media are not read.
 //!
 //! ```

@@ -1,13 +1,15 @@
 //! Opens scene files, and scenes from memory.
 
+use std::borrow::Cow;
 use std::cell::RefCell;
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
+use std::io;
 use std::path::Path;
 
-use foton_input::Named;
+use foton_input::{Named, of_other_case, shown_path};
 use foton_scene::description::SceneDescription;
 
-use crate::diagnostic::{OpenError, Place, Report};
+use crate::diagnostic::{Diagnostic, OpenError, Place, Report, Severity};
 use crate::encoding::decoded;
 use crate::files::Files;
 use crate::hash::{self, Fnv1a};
@@ -25,17 +27,36 @@ use crate::{gltf, mitsuba::read::include, pbrt, standalone};
 /// Everything that is wrong with the file, unless it is not well-formed XML: then the first problem. Or that reading was cancelled.
 pub fn open(path: &Path, options: &Options) -> Result<Opened, OpenError> {
     let files = RefCell::new((Vec::new(), HashSet::new()));
+    let others = RefCell::new(BTreeMap::new());
     let read = |file: &Path| {
         // The file itself may be a pipe; what it names may not.
         let named = if file == path { Named::ByUser } else { Named::ByFile };
-        let bytes = options.read(file, named)?;
+        let (file, bytes) = match options.read(file, named) {
+            Ok(bytes) => (Cow::Borrowed(file), bytes),
+            Err(error) if error.kind() == io::ErrorKind::NotFound && named == Named::ByFile => {
+                let there = of_other_case(file).ok_or(error)?;
+                let bytes = options.read(&there, named)?;
+                others.borrow_mut().insert(file.to_owned(), there.clone());
+                (Cow::Owned(there), bytes)
+            }
+            Err(error) => return Err(error),
+        };
         let (in_order, known) = &mut *files.borrow_mut();
-        if known.insert(file.to_owned()) {
-            in_order.push(file.to_owned());
+        if known.insert(file.to_path_buf()) {
+            in_order.push(file.into_owned());
         }
         Ok(bytes)
     };
-    let opened = open_from(path, &read, options)?;
+    let mut opened = open_from(path, &read, options)?;
+    for (named, there) in others.into_inner() {
+        let message = format!(
+            "{} is not there and {} is taken, whose letters differ by their case alone",
+            shown_path(&named),
+            shown_path(&there)
+        );
+        let file = path.to_string_lossy().into_owned();
+        opened.warnings.push(Diagnostic::new(Severity::Warning, file, Place::default(), message));
+    }
     Ok(Opened { files: files.into_inner().0, ..opened })
 }
 

@@ -43,12 +43,21 @@ fn principled_reads_numbers_textures_and_either_way_of_stating_its_index() {
     assert_eq!((plain.eta, plain.roughness), (1.7, 0.5.into()));
     for (inside, error) in [
         ("<float name='eta' value='1.5'/><float name='specular' value='0.5'/>", "not both"),
-        ("<float name='metallic' value='1.5'/>", "must lie between 0 and 1"),
         ("<texture type='checkerboard' name='specular'/>", "texture"),
     ] {
         let message = open(&format!("<bsdf type='principled'>{inside}</bsdf>")).unwrap_err();
         assert!(message.contains(error), "{message}");
     }
+    let (Bsdf::Principled(cut), warnings) =
+        bsdf("principled", "<float name='metallic' value='1.5'/><float name='roughness' value='-0.5'/>")
+    else {
+        panic!()
+    };
+    assert_eq!((cut.metallic, cut.roughness), (1.0.into(), 0.0.into()));
+    assert!(
+        warnings[0].contains("\"metallic\" must lie between 0 and 1, and is cut to that"),
+        "{warnings:?}"
+    );
 }
 
 #[test]

@@ -67,7 +67,7 @@ fn every_format_has_the_colours_of_a_png() {
     let bits = read("t.pbm", b"P1 2 1 0 1").unwrap().0;
     assert_eq!(bits.pixels, [Rgb::WHITE, Rgb::BLACK]);
     assert!(
-        read("t.dds", &tga).unwrap_err().contains("it is no PNG, JPEG, BMP, TGA, PNM"),
+        read("t.dds", &tga).unwrap_err().contains("it is no PNG, JPEG, WebP, BMP, TGA, PNM"),
         "no mark, no name"
     );
 }

@@ -12,7 +12,9 @@
 //! ```
 
 mod open;
+mod other_case;
 mod quote;
 
 pub use open::{Limit, Named, Refusal, read_file};
+pub use other_case::of_other_case;
 pub use quote::{MAX_QUOTE, is_printable, json, printable, quoted, shown, shown_bytes, shown_path};

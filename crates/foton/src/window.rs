@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use foton_format::{OpenError, Opened, Options, Progress, Saved, Severity, beyond_mitsuba_3, save_edited};
+use foton_format::{
+    OpenError, Opened, Options, Origin, Progress, Saved, Severity, beyond_mitsuba_3, save_edited,
+};
 use foton_input::printable;
 use foton_integrator::Cancel;
 use foton_preview::{BuiltIn, Close, WindowError};
@@ -131,18 +133,42 @@ impl Loader for Files {
         // What stands in the file already a person knows.
         let (mut notes, known) = match saved {
             Saved::Changed => (Vec::new(), beyond_mitsuba_3(&opened.description)),
-            Saved::Anew { why } => {
-                let whole = format!("The whole scene was rewritten, with its meshes beside it: {why}");
-                (vec![whole], Vec::new())
-            }
+            Saved::Anew { why } => (written_anew(opened, &why), Vec::new()),
         };
-        notes.extend(beyond_mitsuba_3(edited).into_iter().filter(|note| !known.contains(note)));
+        let beyond = beyond_mitsuba_3(edited).into_iter().filter(|note| !known.contains(note));
+        notes.extend(beyond.map(|note| capitalised(&note)));
         Ok(SavedScene { note: notes.join("\n"), reopened: self.reopened(path) })
     }
 
     fn import(&self, path: &Path, cancel: &Cancel) -> Result<SceneDescription, String> {
         foton_format::import(path, &self.options(None, cancel)).map_err(|error| lines(&error))
     }
+}
+
+/// What to say of a scene that has a new file.
+fn written_anew(opened: &Opened, why: &str) -> Vec<String> {
+    let mut notes = match &opened.origin {
+        Origin::Mitsuba(_) => {
+            vec![format!("The whole scene was rewritten, with its meshes beside it: {why}")]
+        }
+        Origin::Foreign(of) => {
+            let kind = of.kind;
+            vec![format!(
+                "What was {kind} is saved as a Mitsuba scene, with its meshes and pictures beside it"
+            )]
+        }
+    };
+    if opened.warnings.iter().any(|warning| warning.line > 0) {
+        notes.push(
+            "What the warnings in the scene name is not in the new file, or as foton renders it".to_owned(),
+        );
+    }
+    notes
+}
+
+fn capitalised(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// Everything that is wrong with a file, each with the line that it is about.

@@ -1,4 +1,4 @@
-//! Image files to linear pixels: PNG, JPEG, BMP, TGA and PNM from 8 or 16 bits of sRGB, Radiance HDR, PFM and OpenEXR as they are.
+//! Image files to linear pixels: PNG, JPEG, WebP, BMP, TGA and PNM from 8 or 16 bits of sRGB, Radiance HDR, PFM and OpenEXR as they are.
 //!
 //! Colours are taken as they are, whatever alpha says, as in Mitsuba 3; alpha is read only where it is asked for. A JPEG that ends too early is read as far as it goes, with a warning; the others are errors then. Every image is decoded once for each way to read it.
 
@@ -210,7 +210,7 @@ pub(crate) fn decode(
         return read.map(|bitmap| of_channel(bitmap, reading.channel));
     }
     let Some(format) = format(path, bytes) else {
-        return Err("it is no PNG, JPEG, BMP, TGA, PNM, PFM, Radiance HDR or EXR image".to_owned());
+        return Err("it is no PNG, JPEG, WebP, BMP, TGA, PNM, PFM, Radiance HDR or EXR image".to_owned());
     };
     let mut reader = ImageReader::with_format(CancelReader::new(Cursor::new(bytes), cancel), format);
     let mut limits = image::Limits::no_limits();
@@ -288,8 +288,9 @@ fn decode_pfm(bytes: &[u8], budget: &mut Budget) -> Result<Bitmap, String> {
 
 /// The format of an image that is no EXR image. TGA files have no mark at their beginning, and older ones none at all.
 fn format(path: &Path, bytes: &[u8]) -> Option<ImageFormat> {
-    use ImageFormat::{Bmp, Hdr, Jpeg, Png, Pnm, Tga};
-    let guessed = image::guess_format(bytes).ok().filter(|f| matches!(f, Bmp | Hdr | Jpeg | Png | Pnm));
+    use ImageFormat::{Bmp, Hdr, Jpeg, Png, Pnm, Tga, WebP};
+    let guessed =
+        image::guess_format(bytes).ok().filter(|f| matches!(f, Bmp | Hdr | Jpeg | Png | Pnm | WebP));
     let is_tga = || {
         path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("tga"))
             || bytes.ends_with(b"TRUEVISION-XFILE.\0")
@@ -357,6 +358,28 @@ fn check_size(width: u32, height: u32) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn webp_images_have_their_colours_and_opacities() {
+        let mut bytes = Vec::new();
+        let shades = image::RgbaImage::from_fn(8, 4, |x, y| {
+            image::Rgba([x as u8 * 30, y as u8 * 60, 7, x as u8 * 20])
+        });
+        shades.write_to(&mut Cursor::new(&mut bytes), ImageFormat::WebP).unwrap();
+        let linear = Reading { curve: Curve::Power(1.0), purpose: Purpose::Number, ..Reading::LIGHT };
+        let read = |channel| {
+            let reading = Reading { channel, ..linear };
+            decode(Path::new("a"), &bytes, reading, &mut Budget::new(None), &Cancel::default()).unwrap()
+        };
+        let (colours, opacities) = (read(None), read(Some(Channel::Opacity)));
+        assert_eq!((colours.width, colours.height), (8, 4));
+        assert_eq!(colours.pixels[8 * 2 + 3], Rgb::new(90.0, 120.0, 7.0) / 255.0);
+        assert_eq!(opacities.pixels[8 * 2 + 3], Rgb::splat(60.0 / 255.0));
+        for length in 0..bytes.len() / 2 {
+            let cut = &bytes[..length];
+            assert!(decode(Path::new("a"), cut, linear, &mut Budget::new(None), &Cancel::default()).is_err());
+        }
+    }
 
     #[test]
     fn a_jpeg_is_cut_wherever_it_ends_before_its_mark() {

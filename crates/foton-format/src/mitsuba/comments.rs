@@ -36,9 +36,57 @@ pub(super) fn mended(text: &str) -> Cow<'_, str> {
     mended.and_then(|bytes| String::from_utf8(bytes).ok()).map_or(Cow::Borrowed(text), Cow::Owned)
 }
 
+/// The text with white space in the place of a document type that declares nothing itself, as editors put it at the top of scenes. One that
+/// does stays, for the parser to refuse.
+pub(crate) fn without_document_type(text: &str) -> Cow<'_, str> {
+    const OPEN: &str = "<!DOCTYPE";
+    let mut at = 0;
+    // Before the first element there may be comments and instructions, which may hold anything.
+    let start = loop {
+        let rest = &text[at..];
+        let blank = rest.len() - rest.trim_start().len();
+        let rest = &rest[blank..];
+        at += blank;
+        let Some((_, close)) =
+            [("<!--", "-->"), ("<?", "?>")].iter().find(|(open, _)| rest.starts_with(open))
+        else {
+            break at;
+        };
+        let Some(end) = rest.find(close) else { return Cow::Borrowed(text) };
+        at += end + close.len();
+    };
+    let Some(end) = text[start..].starts_with(OPEN).then(|| text[start..].find('>')).flatten() else {
+        return Cow::Borrowed(text);
+    };
+    let declaration = &text[start..=start + end];
+    if declaration.contains('[') {
+        return Cow::Borrowed(text);
+    }
+    // As many bytes and lines: what comes after keeps its place.
+    let blank: String = declaration.bytes().map(|b| if b == b'\n' { '\n' } else { ' ' }).collect();
+    Cow::Owned([&text[..start], &blank, &text[start + end + 1..]].concat())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_document_type_that_declares_nothing_is_white_space() {
+        for (text, wanted) in [
+            ("<!DOCTYPE a><a/>", "            <a/>"),
+            (
+                "<?xml v?>\n<!-- <!DOCTYPE b> -->\n<!DOCTYPE a\n'é'><a/>",
+                "<?xml v?>\n<!-- <!DOCTYPE b> -->\n           \n     <a/>",
+            ),
+            ("<!DOCTYPE a [<!ENTITY b 'c'>]><a/>", "<!DOCTYPE a [<!ENTITY b 'c'>]><a/>"),
+            ("<a><!DOCTYPE a></a>", "<a><!DOCTYPE a></a>"),
+            ("<!DOCTYPE a", "<!DOCTYPE a"),
+            ("<!-- ", "<!-- "),
+        ] {
+            assert_eq!(without_document_type(text), wanted);
+        }
+    }
 
     #[test]
     fn hyphens_in_comments_keep_their_places_and_others_stay() {

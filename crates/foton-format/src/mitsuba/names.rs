@@ -24,6 +24,9 @@ pub(crate) const SHAPES: Plugins = Plugins {
         "sdfgrid",
         "ellipsoids",
         "ellipsoidsmesh",
+        "hair",
+        "heightfield",
+        "deformable",
     ],
 };
 
@@ -44,7 +47,15 @@ pub(crate) const EMITTERS: Plugins = Plugins {
 pub(crate) const SENSORS: Plugins = Plugins {
     kind: "sensor",
     supported: || plugins::names(plugins::sensors::ALL).collect(),
-    elsewhere: &["radiancemeter", "irradiancemeter", "distant", "batch"],
+    elsewhere: &[
+        "perspective_rdist",
+        "spherical",
+        "fluencemeter",
+        "radiancemeter",
+        "irradiancemeter",
+        "distant",
+        "batch",
+    ],
 };
 
 pub(crate) const FILMS: Plugins =

@@ -8,6 +8,8 @@
 //!   of boxes, a floor.
 //!   A scene with a camera of its own gets no floor.
 
+use std::collections::HashMap;
+
 use foton_math::Rgb;
 use foton_math::glam::{DAffine3, DMat3, DVec3};
 use foton_scene::description::{
@@ -25,6 +27,8 @@ const FILL: f64 = 0.95;
 const COVERING: f64 = 0.05;
 /// Irradiance that the default light brings to the middle of the model: a white surface there has radiance 1.
 const KEY_IRRADIANCE: f64 = std::f64::consts::PI;
+/// Of models of more triangles, instances counted, boxes around their meshes are looked at.
+const MANY: usize = 4_000_000;
 /// Names of the shapes that are added.
 pub(super) const ADDED: [&str; 2] = ["default-light", "default-floor"];
 /// Radiance of the default sky.
@@ -53,12 +57,16 @@ pub(crate) fn complete(
     file: &str,
     report: &mut Report,
 ) -> Result<(), String> {
-    let model = Model::of(scene, axes).ok_or_else(|| "the model has no extent".to_owned())?;
     let has_camera = !scene.sensors.is_empty();
+    let is_lit = !scene.emitters.is_empty() || scene.shapes.iter().any(|s| s.radiance.is_some());
+    if has_camera && is_lit && !scene.shapes.is_empty() {
+        return Ok(());
+    }
+    let model = Model::of(scene, axes).ok_or_else(|| "the model has no extent".to_owned())?;
     if !has_camera {
         model.add_camera(scene, file, report);
     }
-    if !model.emits && scene.emitters.is_empty() {
+    if !is_lit {
         model.add_light(scene, !has_camera, report);
     }
     Ok(())
@@ -77,6 +85,30 @@ impl Placed<'_> {
         let corner = |i: u32| to_world.transform_point3(mesh.positions[i as usize]);
         mesh.triangles.iter().filter(|t| mesh.has_area(**t)).map(move |t| t.map(corner))
     }
+
+    fn corners(&self) -> impl Iterator<Item = DVec3> {
+        self.triangles().flatten()
+    }
+}
+
+/// The corners of the bounds of points; `None` where there are none.
+fn bounds(points: impl Iterator<Item = DVec3>) -> Option<(DVec3, DVec3)> {
+    points.map(|p| (p, p)).reduce(|(low, high), (p, q)| (low.min(p), high.max(q)))
+}
+
+/// The bounds of the boxes around meshes, each mesh gone through once, however often it stands there.
+fn boxes(meshes: &[Placed<'_>]) -> Option<(DVec3, DVec3)> {
+    let mut known: HashMap<*const Mesh, Option<(DVec3, DVec3)>> = HashMap::new();
+    let corners = meshes.iter().flat_map(|Placed { mesh, to_world }| {
+        let alone = || bounds(Placed { mesh, to_world: DAffine3::IDENTITY }.corners());
+        let own = *known.entry(std::ptr::from_ref(*mesh)).or_insert_with(alone);
+        let corner = |(low, high): (DVec3, DVec3), i: i32| {
+            let side = |bit: i32, low: f64, high: f64| if i & bit == 0 { low } else { high };
+            DVec3::new(side(1, low.x, high.x), side(2, low.y, high.y), side(4, low.z, high.z))
+        };
+        own.into_iter().flat_map(move |own| (0..8).map(move |i| to_world.transform_point3(corner(own, i))))
+    });
+    bounds(corners)
 }
 
 /// What is to be looked at and lit.
@@ -84,7 +116,6 @@ struct Model {
     axes: Axes,
     low: DVec3,
     high: DVec3,
-    emits: bool,
     /// The side through which it is looked into, if it is a box.
     open_side: Option<DVec3>,
 }
@@ -100,15 +131,20 @@ impl Model {
                 _ => None,
             })
             .collect();
-        let points = || meshes.iter().flat_map(|m| m.triangles().flatten());
-        let low = points().reduce(DVec3::min)?;
-        let high = points().reduce(DVec3::max)?;
+        let triangles: usize = meshes.iter().map(|m| m.mesh.triangles.len()).sum();
+        let is_large = triangles > MANY;
+        let (low, high) =
+            if is_large { boxes(&meshes)? } else { bounds(meshes.iter().flat_map(Placed::corners))? };
         let emits = scene.shapes.iter().any(|s| s.radiance.is_some());
-        let mut model = Self { axes, low, high, emits, open_side: None };
+        let mut model = Self { axes, low, high, open_side: None };
         if !(model.size().max_element() > 0.0 && model.size().is_finite()) {
             return None;
         }
         let Axes { right, up, front } = axes;
+        if is_large && meshes.len() > 1 {
+            model.open_side = emits.then_some(front);
+            return Some(model);
+        }
         let sides =
             [front, right, -front, -right, up, -up].map(|side| (side, model.is_covered(side, &meshes)));
         let open = sides[..4].iter().find(|(_, covered)| !covered).map(|(side, _)| *side);

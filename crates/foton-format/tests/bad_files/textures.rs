@@ -14,7 +14,7 @@ fn textures_that_cannot_be_are_errors() {
         (
             &file("good.obj"),
             &[
-                "s.xml:2:55: cannot read good.obj: it is no PNG, JPEG, BMP, TGA, PNM, PFM, Radiance HDR or EXR image",
+                "s.xml:2:55: cannot read good.obj: it is no PNG, JPEG, WebP, BMP, TGA, PNM, PFM, Radiance HDR or EXR image",
             ],
         ),
         (&file("empty.exr"), &["s.xml:2:55: cannot read empty.exr: invalid: reference to missing bytes"]),

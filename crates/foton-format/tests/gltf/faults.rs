@@ -36,91 +36,96 @@ fn a_triangle_is_read() {
     assert_eq!(opened.description.shapes[0].name, "mesh-0");
 }
 
+/// What the accessor states of its numbers.
+const STATED: &str = r#""componentType":5126,"count":3,"type":"VEC3""#;
+
+/// What is replaced in the triangle, by what, and what is said then.
+const FAULTS: &[(&str, &str, &str)] = &[
+    ("\"2.0\"", "\"1.0\"", "asset: version \"1.0\" of glTF is not read, only 2.0"),
+    ("\"asset\"", "\"a\"", "the file is no glTF 2.0 file: it has no \"asset\" with a \"version\""),
+    ("\"nodes\":[0]", "\"nodes\":[7]", "scenes[0].nodes: there is no nodes[7]: the file has 1 of them"),
+    ("\"mesh\":0", "\"mesh\":2", "nodes[0].mesh: there is no meshes[2]: the file has 1 of them"),
+    ("\"mesh\":0", "\"mesh\":\"a\"", "nodes[0].mesh: must be a whole number from 0"),
+    (
+        "\"POSITION\":0",
+        "\"POSITION\":1",
+        "meshes[0].primitives[0].attributes.POSITION: there is no accessors[1]: the file has 1 of them",
+    ),
+    ("\"POSITION\":0", "\"A\":0", "meshes[0].primitives[0].attributes: needs a \"POSITION\""),
+    ("}}]}]", "},\"mode\":9}]}]", "meshes[0].primitives[0]: there is no mode 9"),
+    (
+        "}}]}]",
+        "},\"material\":0}]}]",
+        "meshes[0].primitives[0].material: there is no materials[0]: the file has 0 of them",
+    ),
+    (
+        "}}]}]",
+        "},\"indices\":0}]}]",
+        "meshes[0].primitives[0].indices: must be unsigned whole numbers, one each",
+    ),
+    (
+        STATED,
+        r#""componentType":5130,"count":3,"type":"VEC3""#,
+        "accessors[0]: needs a \"componentType\" and a \"type\" of glTF 2.0",
+    ),
+    (
+        STATED,
+        r#""componentType":5126,"count":3,"type":"VEC2""#,
+        "meshes[0].primitives[0].attributes.POSITION: needs 3 numbers for each vertex, not 2",
+    ),
+    (
+        STATED,
+        r#""componentType":5126,"count":0,"type":"VEC3""#,
+        "accessors[0]: needs a \"count\" from 1 to 4,294,967,295",
+    ),
+    (
+        STATED,
+        r#""componentType":5126,"count":4,"type":"VEC3""#,
+        "accessors[0]: 4 elements of 12 bytes, 12 apart, are not in bufferViews[0] of 36 bytes from byte 0",
+    ),
+    (
+        STATED,
+        r#""componentType":5126,"count":4000000000,"type":"VEC3""#,
+        "accessors[0]: 4000000000 elements of 12 bytes, 12 apart, are not in bufferViews[0] of 36 bytes from byte 0",
+    ),
+    ("\"bufferView\":0,", "", "the model has no extent"),
+    (
+        "\"bufferView\":0,",
+        "\"byteOffset\":18446744073709551615,\"bufferView\":0,",
+        "accessors[0]: 3 elements of 12 bytes, 12 apart, are not in bufferViews[0] of 36 bytes from byte 18446744073709551615",
+    ),
+    (
+        "\"byteLength\":36}]",
+        "\"byteLength\":37}]",
+        "bufferViews[0]: 37 bytes from byte 0 are not in a buffer of 36 bytes",
+    ),
+    ("\"byteLength\":36,", "\"byteLength\":40,", "buffers[0]: has 36 bytes and says that it has 40"),
+    ("AAAA\"", "*AAA\"", "buffers[0]: character 45 of its data is not of base64"),
+    (
+        "data:;",
+        "http://a/;",
+        "buffers[0]: \"http://a/;base64,AAAAAAAAAAAAAAAAAACAPw…\" is on the web: foton downloads nothing",
+    ),
+    ("AACAPwAA", "AADAfwAA", "meshes[0].primitives[0]: the position of vertex 1 is no number"),
+    (
+        "\"mesh\":0",
+        "\"mesh\":0,\"children\":[0]",
+        "nodes[0]: stands in two places of the tree, or within itself",
+    ),
+    ("\"mesh\":0", "\"mesh\":0,\"matrix\":[1]", "nodes[0].matrix: must be a list of 16 numbers"),
+    (
+        "\"mesh\":0",
+        "\"mesh\":0,\"matrix\":[1,0,0,1,0,1,0,0,0,0,1,0,0,0,0,1]",
+        "nodes[0].matrix: must be affine: 0 0 0 1 in the last row",
+    ),
+];
+
 #[test]
 fn each_fault_is_named_by_its_path() {
-    let json = r#""componentType":5126,"count":3,"type":"VEC3""#;
-    for (from, to, said) in [
-        ("\"2.0\"", "\"1.0\"", "asset: version \"1.0\" of glTF is not read, only 2.0"),
-        ("\"asset\"", "\"a\"", "the file is no glTF 2.0 file: it has no \"asset\" with a \"version\""),
-        ("\"nodes\":[0]", "\"nodes\":[7]", "scenes[0].nodes: there is no nodes[7]: the file has 1 of them"),
-        ("\"mesh\":0", "\"mesh\":2", "nodes[0].mesh: there is no meshes[2]: the file has 1 of them"),
-        ("\"mesh\":0", "\"mesh\":\"a\"", "nodes[0].mesh: must be a whole number from 0"),
-        (
-            "\"POSITION\":0",
-            "\"POSITION\":1",
-            "meshes[0].primitives[0].attributes.POSITION: there is no accessors[1]: the file has 1 of them",
-        ),
-        ("\"POSITION\":0", "\"A\":0", "meshes[0].primitives[0].attributes: needs a \"POSITION\""),
-        ("}}]}]", "},\"mode\":9}]}]", "meshes[0].primitives[0]: there is no mode 9"),
-        (
-            "}}]}]",
-            "},\"material\":0}]}]",
-            "meshes[0].primitives[0].material: there is no materials[0]: the file has 0 of them",
-        ),
-        (
-            "}}]}]",
-            "},\"indices\":0}]}]",
-            "meshes[0].primitives[0].indices: must be unsigned whole numbers, one each",
-        ),
-        (
-            json,
-            r#""componentType":5130,"count":3,"type":"VEC3""#,
-            "accessors[0]: needs a \"componentType\" and a \"type\" of glTF 2.0",
-        ),
-        (
-            json,
-            r#""componentType":5126,"count":3,"type":"VEC2""#,
-            "meshes[0].primitives[0].attributes.POSITION: needs 3 numbers for each vertex, not 2",
-        ),
-        (
-            json,
-            r#""componentType":5126,"count":0,"type":"VEC3""#,
-            "accessors[0]: needs a \"count\" from 1 to 4,294,967,295",
-        ),
-        (
-            json,
-            r#""componentType":5126,"count":4,"type":"VEC3""#,
-            "accessors[0]: 4 elements of 12 bytes, 12 apart, are not in bufferViews[0] of 36 bytes from byte 0",
-        ),
-        (
-            json,
-            r#""componentType":5126,"count":4000000000,"type":"VEC3""#,
-            "accessors[0]: 4000000000 elements of 12 bytes, 12 apart, are not in bufferViews[0] of 36 bytes from byte 0",
-        ),
-        ("\"bufferView\":0,", "", "the model has no extent"),
-        (
-            "\"bufferView\":0,",
-            "\"byteOffset\":18446744073709551615,\"bufferView\":0,",
-            "accessors[0]: 3 elements of 12 bytes, 12 apart, are not in bufferViews[0] of 36 bytes from byte 18446744073709551615",
-        ),
-        (
-            "\"byteLength\":36}]",
-            "\"byteLength\":37}]",
-            "bufferViews[0]: 37 bytes from byte 0 are not in a buffer of 36 bytes",
-        ),
-        ("\"byteLength\":36,", "\"byteLength\":40,", "buffers[0]: has 36 bytes and says that it has 40"),
-        ("AAAA\"", "*AAA\"", "buffers[0]: character 45 of its data is not of base64"),
-        (
-            "data:;",
-            "http://a/;",
-            "buffers[0]: \"http://a/;base64,AAAAAAAAAAAAAAAAAACAPw…\" is on the web: foton downloads nothing",
-        ),
-        ("AACAPwAA", "AADAfwAA", "meshes[0].primitives[0]: the position of vertex 1 is no number"),
-        (
-            "\"mesh\":0",
-            "\"mesh\":0,\"children\":[0]",
-            "nodes[0]: stands in two places of the tree, or within itself",
-        ),
-        ("\"mesh\":0", "\"mesh\":0,\"matrix\":[1]", "nodes[0].matrix: must be a list of 16 numbers"),
-        (
-            "\"mesh\":0",
-            "\"mesh\":0,\"matrix\":[1,0,0,1,0,1,0,0,0,0,1,0,0,0,0,1]",
-            "nodes[0].matrix: must be affine: 0 0 0 1 in the last row",
-        ),
-    ] {
+    for (from, to, said) in FAULTS {
         let text = TRIANGLE.replacen(from, to, 1);
         assert_ne!(text, TRIANGLE, "{from}");
-        assert_eq!(errors("fault", &text)[0], said, "{from} → {to}");
+        assert_eq!(errors("fault", &text)[0], *said, "{from} → {to}");
     }
 }
 

@@ -215,6 +215,19 @@ fn a_mesh_without_normals_is_stored_once_for_all_turns_of_it() {
     assert!(!Arc::ptr_eq(turned, stretched) && !Arc::ptr_eq(turned, mirrored));
 }
 
+#[test]
+fn an_off_file_with_colours_of_faces_is_painted_in_them() {
+    let folder = Folder::new("off");
+    let off = "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2 255 0 0\n3 0 2 3\n";
+    let opened = open(&folder.file("m.off", off.as_bytes()), &Options::default()).expect("a file");
+    let scene = &opened.description;
+    let reflectance = Colour::Texture(0);
+    assert_eq!(scene.materials[0].front, Bsdf::Diffuse(Diffuse { reflectance }));
+    let colours = &mesh(&opened, 0).attributes[0];
+    assert_eq!((colours.name.as_str(), &colours.values[..3]), ("face_color", &[1.0, 0.0, 0.0][..]));
+    foton_scene::Scene::build(scene).expect("a scene");
+}
+
 /// Scans state colours of their vertices, which are seen without asking.
 #[test]
 fn a_model_with_colours_of_vertices_is_painted_in_them() {

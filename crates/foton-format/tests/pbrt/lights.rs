@@ -165,3 +165,65 @@ fn pictures_are_thrown_with_the_intensity_that_they_have() {
     let solid = 4.0;
     assert!((f64::from(bitmap.pixels[0].r) * PI - 10.0 / solid).abs() < 1e-5, "{:?}", bitmap.pixels);
 }
+
+/// The direction of a point of a square of equal areas, by Clarberg's forward mapping. `[CLA08]`
+fn of_square(st: [f64; 2]) -> DVec3 {
+    let [u, v] = st.map(|c| 2.0 * c - 1.0);
+    let distance = 1.0 - (u.abs() + v.abs());
+    let r = 1.0 - distance.abs();
+    let phi = if r == 0.0 { 0.0 } else { ((v.abs() - u.abs()) / r + 1.0) * 0.25 * PI };
+    let across = r * (2.0 - r * r).sqrt();
+    DVec3::new(
+        (across * phi.cos()).copysign(u),
+        (across * phi.sin()).copysign(v),
+        (1.0 - r * r).copysign(distance),
+    )
+}
+
+/// A square of equal areas whose colours are the directions: (1 + d)/2.
+pub(super) fn square_of_directions() -> Vec<u8> {
+    const SIDE: u32 = 64;
+    let mut bytes = format!("PF\n{SIDE} {SIDE}\n-1.0\n").into_bytes();
+    let middle = |i: u32| (f64::from(i) + 0.5) / f64::from(SIDE);
+    // Rows of such a file begin at the bottom.
+    for (y, x) in (0..SIDE).rev().flat_map(|y| (0..SIDE).map(move |x| (y, x))) {
+        let colour = 0.5 + 0.5 * of_square([middle(x), middle(y)]);
+        bytes.extend(colour.to_array().iter().flat_map(|c| (*c as f32).to_le_bytes()));
+    }
+    bytes
+}
+
+#[test]
+fn squares_of_equal_areas_shine_from_where_they_say() {
+    for (transform, to_light) in
+        [("", [1.0, 1.0, 1.0]), ("Scale -1 1 1", [-1.0, 1.0, 1.0]), ("Scale 1 1 -1", [1.0, 1.0, -1.0])]
+    {
+        for plugin in ["infinite", "goniometric"] {
+            let light = format!("{transform} LightSource \"{plugin}\" \"string filename\" \"square.pfm\"");
+            let scene = read(&whole(&light));
+            let (to_world, bitmap, is_sky) = match emitter(&scene) {
+                EmitterKind::Environment { to_world, bitmap, .. } => (to_world, bitmap, true),
+                EmitterKind::Goniometric { to_world, bitmap, .. } => (to_world, bitmap, false),
+                other => panic!("{other:?}"),
+            };
+            for (i, pixel) in bitmap.pixels.iter().enumerate().step_by(97) {
+                let (x, y) = (i as u32 % bitmap.width, i as u32 / bitmap.width);
+                let phi = 2.0 * PI * (f64::from(x) + 0.5) / f64::from(bitmap.width);
+                let theta = PI * f64::from(y) / f64::from(bitmap.height - 1);
+                let (sin, cos) = theta.sin_cos();
+                // As the description says where columns and rows of both lie.
+                let own = if is_sky {
+                    DVec3::new(sin * phi.sin(), cos, -sin * phi.cos())
+                } else {
+                    DVec3::new(sin * phi.cos(), sin * phi.sin(), cos)
+                };
+                let wanted = to_world.transform_vector3(own) * DVec3::from(to_light);
+                let found = pixel.to_array().map(|c| 2.0 * f64::from(c) - 1.0);
+                assert!(
+                    (DVec3::from(found) - wanted).length() < 0.05,
+                    "{plugin} {transform}: {found:?} {wanted}"
+                );
+            }
+        }
+    }
+}

@@ -35,6 +35,7 @@ fn files(path: &Path) -> io::Result<Vec<u8>> {
         Some("t.ply.gz") => Ok(packed(PLY.as_bytes())),
         Some("light.spd") => Ok(b"# nm\n400 1\n700 1\n".to_vec()),
         Some("two.hdr") => Ok(picture()),
+        Some("square.pfm") => Ok(lights::square_of_directions()),
         Some("one.hdr") => Ok(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81".to_vec()),
         Some("parts/sphere.pbrt") => Ok(
             b"# inside\nTranslate 1 0 0\nShape \"sphere\"\nShape \"plymesh\" \"string filename\" \"t.ply\""

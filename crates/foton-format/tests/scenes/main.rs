@@ -1,6 +1,7 @@
 //! What a scene file means: every element against values worked out by hand or printed by Mitsuba 3.9.1.
 
 mod cameras;
+mod leniency;
 mod lights;
 
 use std::io;

@@ -88,8 +88,12 @@ impl FileDialog {
             area = area.vertical_scroll_offset((top - 0.5 * LIST_HEIGHT).max(0.0));
         }
         if self.entries.is_empty() {
+            let nothing = match self.purpose {
+                Purpose::Open => "Nothing here that can be opened",
+                Purpose::Save => "No file here would be replaced",
+            };
             ui.allocate_ui(egui::vec2(WIDTH, LIST_HEIGHT), |ui| {
-                ui.centered_and_justified(|ui| ui.weak("Nothing here that can be opened"));
+                ui.centered_and_justified(|ui| ui.weak(nothing));
             });
             return None;
         }

@@ -47,7 +47,8 @@ const SPECULAR_REFLECTANCE: Parameter = Parameter::share("specular_reflectance",
     .help("Factor on light that the layer reflects; white is physical.");
 
 const COAT_INT_IOR: Parameter = Parameter { role: None, label: "Coat index", ..INT_IOR };
-const COAT_EXT_IOR: Parameter = Parameter { role: None, label: "Coat index outside", ..EXT_IOR };
+const COAT_EXT_IOR: Parameter =
+    Parameter { role: None, label: "Coat index outside", advanced: true, ..EXT_IOR };
 
 /// The parameters of a rough layer.
 pub(crate) const ROUGH_COATING: &[Parameter] = &[

@@ -5,7 +5,7 @@ use crate::parameter::{Kind, Parameter};
 
 /// The picture.
 pub const FILENAME: Parameter = Parameter::other("filename", Kind::File, "required").help(
-    "The picture: PNG, JPEG, BMP, TGA, PNM, PFM, EXR or HDR. Its v begins at the top. Alpha does not change its colours.",
+    "The picture: PNG, JPEG, WebP, BMP, TGA, PNM, PFM, EXR or HDR. Its v begins at the top. Alpha does not change its colours.",
 );
 
 /// Whether numbers are taken as they are.

@@ -82,7 +82,13 @@ impl Reader<'_> {
         if parameter.holds(found.value) {
             return Some((found.value as f32).into());
         }
-        self.report.error(found.place, format!("\"{name}\" must lie between {min} and {max}"));
+        let message = format!("\"{name}\" must lie between {min} and {max}");
+        if p.subject().starts_with("principled") {
+            // Exporters pass on what their program lets a person type.
+            self.report.warning(found.place, format!("{message}, and is cut to that"));
+            return Some((found.value.clamp(min, max) as f32).into());
+        }
+        self.report.error(found.place, message);
         None
     }
 
@@ -184,7 +190,9 @@ impl Reader<'_> {
         let Some(Located { value, place }) = p.string(name, &mut self.report) else { return Some(0) };
         // Files before version 0.6 call the distribution of Ashikhmin and Shirley by their initials.
         let value = if name == DISTRIBUTION && value == "as" { "phong".to_owned() } else { value };
-        let known = words.iter().position(|word| *word == value);
+        // Mitsuba 0.6 takes them in any case.
+        let letters = |text: &str| text.to_ascii_lowercase().replace(['-', '_'], "");
+        let known = words.iter().position(|word| letters(word) == letters(&value));
         if known.is_none() {
             let hint = did_you_mean(&value, words.iter().copied());
             let all = words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");

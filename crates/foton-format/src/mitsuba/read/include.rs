@@ -11,7 +11,8 @@ use crate::diagnostic::{Place, Report};
 use crate::encoding::decoded;
 use crate::files::Files;
 use crate::limits::{Budget, Census, at_place};
-use crate::mitsuba::document::{Document, Element, NodeId};
+use crate::mitsuba::comments::without_document_type;
+use crate::mitsuba::document::{Attribute, Document, Element, NodeId};
 use crate::mitsuba::names::{OBJECT_TAGS, VALUE_TAGS};
 use crate::mitsuba::read::attributes::{check_attributes, parse_attribute};
 use crate::mitsuba::read::substitute::Parameters;
@@ -52,7 +53,9 @@ pub(crate) fn expand(
     parameters.allow(document);
     let mut walk = Walk { expanded, parameters, files, report, open: Vec::new(), files_included: 0 };
     let root = document.root();
-    let old = document.element(root).is_some_and(|e| is_old(e, &mut Report::new("", Path::new(""))));
+    walk.state_version(document, root);
+    let old =
+        walk.expanded.document.element(root).is_some_and(|e| is_old(e, &mut Report::new("", Path::new(""))));
     walk.element(root, old, None);
     walk.parameters.finish(walk.report);
     walk.expanded
@@ -204,6 +207,7 @@ impl Walk<'_, '_> {
             self.report.error(place, message);
         });
         let document = document.ok()?;
+        let version = version_by_words(&document);
         self.parameters.allow(&document);
         let outermost = self.open.first().map_or(include, |(_, include)| *include);
         let root = self.expanded.document.append(document, lines_before);
@@ -212,18 +216,55 @@ impl Walk<'_, '_> {
             return None;
         };
         self.expanded.stretches.push((first, outermost));
+        self.state(version, root);
         let element = self.expanded.document.element(root)?;
-        if element.attribute("version").is_none() {
-            let message = format!("<{}> needs the attribute \"version\"", shown(&element.name));
-            self.report.error(element.place, message);
-            return None;
-        }
         Some((root, is_old(element, self.report)))
     }
+
+    /// Puts a version into a root that states none.
+    fn state_version(&mut self, document: &Document, root: NodeId) {
+        if document.element(root).is_some_and(|element| element.name == "scene") {
+            self.state(version_by_words(document), root);
+        }
+    }
+
+    fn state(&mut self, version: &str, root: NodeId) {
+        let Some(element) = self.expanded.document.element_mut(root) else { return };
+        if element.attribute("version").is_some() {
+            return;
+        }
+        let place = element.place;
+        element.attributes.push(Attribute {
+            name: "version".to_owned(),
+            value: version.to_owned(),
+            place,
+            value_place: place,
+            broken: false,
+        });
+        let message = format!(
+            "this file states no version: by its words it is read as one of version {version}; if it is another, say so with \
+             version=\"…\""
+        );
+        self.report.warning(place, message);
+    }
+}
+
+/// The version that a file is of by its words: those of versions before 2 have capitals inside.
+fn version_by_words(document: &Document) -> &'static str {
+    let is_old = |element: &Element| {
+        let named = element.attribute("name").map_or("", |name| name.value.as_str());
+        let has_capital = named.starts_with(|c: char| c.is_ascii_lowercase())
+            && named.bytes().any(|b| b.is_ascii_uppercase())
+            && !named.contains('_');
+        has_capital && element.name != "default" || element.name == "lookAt"
+    };
+    let old = document.elements().any(|(_, element)| is_old(element));
+    if old { "0.6.0" } else { "3.0.0" }
 }
 
 /// Parses a text of XML whose size is known to be bearable.
 pub(crate) fn parse(text: &str, budget: &mut Budget) -> Result<Document, (Place, String)> {
+    let text = &without_document_type(text);
     let census = Census::of(text).map_err(|(offset, message)| (at_place(text, offset), message))?;
     budget.take(census.memory()).map_err(|message| (Place::default(), message))?;
     Document::parse(text)

@@ -1,8 +1,9 @@
 //! `<shape>` elements: meshes, rectangle, cube, sphere, disk and cylinder, each with its material and emission.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use foton_math::glam::{DAffine3, DMat3, DVec3};
+use foton_math::glam::{DAffine3, DMat3, DVec2, DVec3};
 use foton_scene::description::{Colour, Geometry, Keyframes, Mesh, ShapeDescription};
 use foton_scene::plugins::shapes::{
     self, CENTER, FACE_NORMALS, FILENAME, FLIP_NORMALS, FLIP_TEX_COORDS, P0, P1, RADIUS, SHAPE_INDEX,
@@ -19,6 +20,9 @@ use crate::mitsuba::read::transform::even_scale;
 
 /// How unevenly a sphere or a disk may be scaled: rounding of numbers in files, and a little less than the scene allows.
 const ROUNDNESS: f64 = 9e-5;
+
+/// Triangles of a disk that is not round.
+const SECTORS: u32 = 512;
 
 impl Reader<'_> {
     /// Reads a shape; nothing is added where its surface is not valid.
@@ -45,8 +49,8 @@ impl Reader<'_> {
         let geometry = match plugin {
             "obj" | "ply" | "stl" | "serialized" => self.mesh_file(&mut p, plugin, &to_world),
             "cylinder" => self.cylinder(&mut p, &mut to_world, place),
-            "sphere" => self.sphere(&mut p, to_world.matrix3, place),
-            "disk" => self.disk(to_world.matrix3, place),
+            "sphere" => self.sphere(&mut p, &mut to_world, place),
+            "disk" => Some(self.disk(to_world.matrix3, place)),
             "cube" => Some(Geometry::Mesh(Arc::new(Mesh::cube()))),
             _ => Some(Geometry::Mesh(Arc::new(Mesh::rectangle()))),
         };
@@ -172,15 +176,17 @@ impl Reader<'_> {
         Some(Geometry::Cylinder { from, to, radius: radius * scale })
     }
 
-    fn sphere(&mut self, p: &mut Properties<'_>, m: DMat3, place: Place) -> Option<Geometry> {
+    /// A sphere; one that its transform stretches stays round, as in Mitsuba 3, which scales its radius as its x axis.
+    fn sphere(&mut self, p: &mut Properties<'_>, to_world: &mut DAffine3, place: Place) -> Option<Geometry> {
         let centre = p.point(CENTER.name, &mut self.report).map_or(DVec3::ZERO, |c| c.value);
         let radius = p.number(RADIUS.name, &mut self.report);
-        if even_scale(m, ROUNDNESS).is_none() {
-            self.report.error(
-                place,
-                "a sphere can be turned, moved and scaled evenly, but not stretched or sheared",
-            );
-            return None;
+        if even_scale(to_world.matrix3, ROUNDNESS).is_none() {
+            let message = "a sphere stays round: its transform stretches or shears it, and its x axis alone says by how much it is scaled, \
+                           as in Mitsuba 3";
+            self.report.warning(place, message);
+            let there = to_world.transform_point3(centre);
+            to_world.matrix3 = rounded(to_world.matrix3);
+            to_world.translation = there - to_world.matrix3 * centre;
         }
         if let Some(radius) = radius.filter(|r| !RADIUS.holds(r.value)) {
             self.report.error(radius.place, "\"radius\" must be above zero");
@@ -189,15 +195,48 @@ impl Reader<'_> {
         Some(Geometry::Sphere { centre, radius: radius.map_or(RADIUS.default, |r| r.value) })
     }
 
-    fn disk(&mut self, m: DMat3, place: Place) -> Option<Geometry> {
+    /// A disk; an ellipse of triangles where its transform stretches it.
+    fn disk(&mut self, m: DMat3, place: Place) -> Geometry {
         // The disc lies in the xy plane; where its normal goes follows from that.
         let normal = m.x_axis.cross(m.y_axis).normalize_or_zero() * m.x_axis.length();
         if even_scale(DMat3::from_cols(m.x_axis, m.y_axis, normal), ROUNDNESS).is_none() {
-            self.report.error(place, "a disk must stay round: its transform stretches or shears it");
-            return None;
+            let message = format!(
+                "this disk is stretched or sheared by its transform: it is made of {SECTORS} triangles"
+            );
+            self.report.warning(place, message);
+            return Geometry::Mesh(Arc::new(disk_of_triangles()));
         }
-        Some(Geometry::Disc)
+        Geometry::Disc
     }
+}
+
+/// Axes at right angles that are all as long as the first one.
+fn rounded(m: DMat3) -> DMat3 {
+    let x = m.x_axis.normalize_or(DVec3::X);
+    let y = (m.y_axis - x * m.y_axis.dot(x)).try_normalize().unwrap_or_else(|| x.any_orthonormal_vector());
+    let z = x.cross(y) * m.determinant().signum();
+    DMat3::from_cols(x, y, z) * m.x_axis.length()
+}
+
+/// The unit disk in sectors that have its area, with the texture coordinates of a disk: distance and turn.
+fn disk_of_triangles() -> Mesh {
+    let step = TAU / f64::from(SECTORS);
+    // A sector's triangle is smaller than it by sin θ / θ.
+    let radius = (step / step.sin()).sqrt();
+    let mut mesh = Mesh::default();
+    for i in 0..SECTORS {
+        let [from, to] = [i, i + 1].map(f64::from);
+        let corner = |turn: f64| DVec3::new((turn * step).cos(), (turn * step).sin(), 0.0) * radius;
+        mesh.triangles.push([3 * i, 3 * i + 1, 3 * i + 2]);
+        mesh.positions.extend([DVec3::ZERO, corner(from), corner(to)]);
+        let turns = [0.5 * (from + to), from, to].map(|turn| turn / f64::from(SECTORS));
+        mesh.texture_coordinates.extend([
+            DVec2::new(0.0, turns[0]),
+            DVec2::new(radius, turns[1]),
+            DVec2::new(radius, turns[2]),
+        ]);
+    }
+    mesh
 }
 
 /// Whether Mitsuba 3 turns the normals around when a transform mirrors the surface: those of a sphere, and those that
@@ -207,7 +246,7 @@ impl Reader<'_> {
 pub(crate) fn is_turned_inside_out(plugin: &str, geometry: &Geometry) -> bool {
     match geometry {
         Geometry::Sphere { .. } => true,
-        Geometry::Mesh(mesh) => !matches!(plugin, "cube" | "rectangle") && mesh.normals.is_empty(),
+        Geometry::Mesh(mesh) => !matches!(plugin, "cube" | "rectangle" | "disk") && mesh.normals.is_empty(),
         Geometry::Disc | Geometry::Cylinder { .. } => false,
     }
 }

@@ -203,7 +203,9 @@ mod tests {
             Ok(all) => all,
             Err(e) => e.diagnostics().to_vec(),
         };
-        (value.unwrap_or_default(), messages.iter().map(ToString::to_string).collect())
+        // Versions are another matter.
+        let others = messages.iter().map(ToString::to_string).filter(|m| !m.contains("states no version"));
+        (value.unwrap_or_default(), others.collect())
     }
 
     #[test]

@@ -12,9 +12,15 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
     if value.is_finite() { Ok(value) } else { Err(format!("{} is not a finite number", quoted(text))) }
 }
 
-/// A whole number.
+/// A whole number, which may be written as "32.0".
 pub(crate) fn integer(text: &str) -> Result<i64, String> {
-    text.trim().parse().map_err(|_| format!("{} is not a whole number", quoted(text)))
+    /// Beyond it numbers of double precision are not all whole ones.
+    const LARGEST: f64 = (1u64 << 53) as f64;
+    let text = text.trim();
+    let whole = |number: &f64| number.fract() == 0.0 && number.abs() <= LARGEST;
+    let number =
+        text.parse().ok().or_else(|| text.parse::<f64>().ok().filter(whole).map(|number| number as i64));
+    number.ok_or_else(|| format!("{} is not a whole number", quoted(text)))
 }
 
 /// `true` or `false`, in any case.
@@ -110,6 +116,16 @@ mod tests {
         }
         for text in ["inf", "-inf", "NaN", "1e999"] {
             assert_eq!(number(text), Err(format!("\"{text}\" is not a finite number")));
+        }
+    }
+
+    #[test]
+    fn whole_numbers_may_have_a_point() {
+        for (text, value) in [("32", 32), (" 32.0 ", 32), ("-1.", -1), ("1e3", 1000)] {
+            assert_eq!(integer(text), Ok(value), "{text}");
+        }
+        for text in ["32.5", "1e300", "NaN", "deep", ""] {
+            assert_eq!(integer(text), Err(format!("\"{text}\" is not a whole number")));
         }
     }
 
