@@ -242,7 +242,7 @@ fn a_sphere_that_goes_by_direction_brings_the_same_light() {
 fn a_projector_lights_a_plane_as_its_picture_says() {
     let (axes, half) = (mirrored_frame(), Vec2::new(0.6, 0.4));
     let shown = |uv: Vec2| {
-        let corner = crate::attributes::Corner { shape: 0, primitive: 0, weights: Vec2::ZERO };
+        let corner = crate::attributes::Corner::default();
         picture().colour(&crate::texture::At { uv, corner })
     };
     let slide = slide(Picture::Texture(picture()));
