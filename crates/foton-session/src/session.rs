@@ -8,14 +8,14 @@ use foton_integrator::{
     ShouldSuspend, Stage, StateError, Suspended,
 };
 use foton_scene::Scene;
-use rayon::{ThreadPool, ThreadPoolBuildError};
+use rayon::ThreadPool;
 use thiserror::Error;
 
 use crate::clock::{StageClock, StageTimes};
 use crate::interrupt::Interrupt;
 use crate::panic::{Panic, catch_panic, inject_fault};
 use crate::stop::StopRule;
-use crate::threads::{self, Rank};
+use crate::threads::{self, NoThreads, Rank};
 
 /// Why a render did not start.
 #[derive(Debug, Error)]
@@ -25,7 +25,7 @@ pub enum StartError {
     Cancelled(#[from] Cancelled),
     /// No threads could be made.
     #[error("cannot make render threads: {0}")]
-    Threads(#[from] ThreadPoolBuildError),
+    Threads(#[from] NoThreads),
     /// A fault of our own.
     #[error(transparent)]
     Panicked(#[from] Panic),
@@ -140,7 +140,7 @@ impl Session {
     ///
     /// # Errors
     /// When the system gives no threads.
-    pub fn pool(threads: Option<usize>) -> Result<Arc<ThreadPool>, ThreadPoolBuildError> {
+    pub fn pool(threads: Option<usize>) -> Result<Arc<ThreadPool>, NoThreads> {
         threads::pool(threads, Rank::Equal)
     }
 

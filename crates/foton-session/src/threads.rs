@@ -5,6 +5,7 @@ use std::thread::available_parallelism;
 
 use foton_input::quoted;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use thiserror::Error;
 
 /// The most threads that can be asked for.
 pub const MAX: usize = 1024;
@@ -33,14 +34,48 @@ fn stated(text: &str) -> Result<Option<usize>, String> {
     }
 }
 
+/// Why there are no threads.
+#[derive(Debug, Error)]
+#[error("{0}")]
+pub struct NoThreads(String);
+
+impl NoThreads {
+    fn of_system(error: ThreadPoolBuildError) -> Self {
+        Self(error.to_string())
+    }
+}
+
+/// Address space of a thread's stack: the standard library's default.
+#[cfg(target_os = "linux")]
+const STACK: u64 = 2 << 20;
+
 /// Starts the threads that scenes are built on, once, before any work for them; what is wrong with `RAYON_NUM_THREADS`, if anything.
 ///
 /// # Errors
 /// Where the system gives no threads.
-pub fn start() -> Result<Option<String>, ThreadPoolBuildError> {
-    let text = std::env::var_os(VARIABLE).unwrap_or_default();
-    ThreadPoolBuilder::new().num_threads(count(None)).build_global()?;
+pub fn start() -> Result<Option<String>, NoThreads> {
+    let (text, count) = (std::env::var_os(VARIABLE).unwrap_or_default(), count(None));
+    check_room(count)?;
+    ThreadPoolBuilder::new().num_threads(count).build_global().map_err(NoThreads::of_system)?;
     Ok(stated(&text.to_string_lossy()).err())
+}
+
+/// Whether the stacks of so many threads fit into the address space that the system allows. Where they do not, the threads that start
+/// first may find no memory, which ends the program before anyone is told why.
+fn check_room(count: usize) -> Result<(), NoThreads> {
+    #[cfg(target_os = "linux")]
+    if let Some(limit) = rustix::process::getrlimit(rustix::process::Resource::As).current {
+        let stacks = count as u64 * STACK;
+        if stacks > limit {
+            let [stacks, limit] = [stacks, limit].map(|bytes| bytes >> 20);
+            return Err(NoThreads(format!(
+                "the stacks of {count} threads take {stacks} MiB, and the system confines the program to {limit} MiB (ulimit -v)"
+            )));
+        }
+    }
+    #[cfg(not(target_os = "linux"))]
+    let _ = count;
+    Ok(())
 }
 
 /// How the render's threads stand to the rest of the machine.
@@ -59,12 +94,11 @@ pub(crate) enum Rank {
 const STEPS_BEHIND: i32 = 10;
 
 /// Threads to render on, by default as many as the machine has; one pool serves any number of renders, one at a time.
-pub(crate) fn pool(threads: Option<usize>, rank: Rank) -> Result<Arc<ThreadPool>, ThreadPoolBuildError> {
-    ThreadPoolBuilder::new()
-        .num_threads(count(threads))
-        .start_handler(move |_| step_back(rank))
-        .build()
-        .map(Arc::new)
+pub(crate) fn pool(threads: Option<usize>, rank: Rank) -> Result<Arc<ThreadPool>, NoThreads> {
+    let count = count(threads);
+    check_room(count)?;
+    let pool = ThreadPoolBuilder::new().num_threads(count).start_handler(move |_| step_back(rank)).build();
+    pool.map(Arc::new).map_err(NoThreads::of_system)
 }
 
 /// Ranks the calling thread. Linux keeps niceness by thread; elsewhere it belongs to the process, and the window would sink
@@ -97,6 +131,14 @@ mod tests {
             assert!(stated(text).is_err_and(|said| said.contains(text)), "{text}");
         }
         assert_eq!(count(Some(usize::MAX)), MAX);
+    }
+
+    #[test]
+    fn stacks_that_fit_nowhere_are_refused_before_any_thread_starts() {
+        // Where nothing is confined, any number fits.
+        let confined = rustix::process::getrlimit(rustix::process::Resource::As).current;
+        assert_eq!(check_room(1 << 50).is_err(), confined.is_some());
+        assert!(check_room(1).is_ok());
     }
 
     #[test]

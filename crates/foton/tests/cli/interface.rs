@@ -187,7 +187,7 @@ fn what_info_says_of_a_scene_has_its_keys() {
     let found = events(&folder.done("info scene.xml --json").stdout);
     let info = named(&found, "info");
     has_keys(info, "event scene hash census sensors emitters integrator features memory");
-    has_keys(&info["census"], "shapes triangles spheres discs tubes degenerate_triangles emitters");
+    has_keys(&info["census"], "shapes triangles spheres discs tubes instances degenerate_triangles emitters");
     has_keys(&info["sensors"][0], "name width height");
     has_keys(&info["emitters"][0], "name type watts share");
     has_keys(&info["features"][0], "name on why cost bytes_per_hit_point bytes_per_pixel");

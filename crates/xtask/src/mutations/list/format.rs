@@ -63,7 +63,7 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "a JPEG that ends early is said",
         file: "crates/foton-format/src/image/mod.rs",
-        from: "if bytes.starts_with(&JPEG_START) && is_cut_jpeg(&bytes) {",
+        from: "    if is_cut_jpeg(&bytes) {",
         to: "if false {",
         target: PICTURES,
         test: "a_jpeg_that_ends_early_is_read_as_far_as_it_goes_and_that_is_said",

@@ -143,8 +143,8 @@ pub(super) const LIST: &[Mutation] = &[
     Mutation {
         what: "sums of photons are finite",
         file: "crates/foton-integrator/src/ppm/refine.rs",
-        from: "if !out.is_finite() {",
-        to: "if false {",
+        from: "if irradiance.is_finite() {",
+        to: "if true {",
         target: ANALYTIC,
         test: "what_all_photons_together_bring_to_a_hit_point",
     },
