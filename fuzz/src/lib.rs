@@ -5,7 +5,7 @@
 
 mod gltf;
 pub mod memory;
-pub mod pbrt;
+mod pbrt;
 pub mod seeds;
 
 use std::cell::RefCell;
@@ -26,7 +26,7 @@ pub type Reader = fn(&[u8]) -> String;
 /// Everything that is fuzzed: its name, and what reads. A reader says in a line how it ended, for drivers to tell runs apart.
 pub const TARGETS: [(&str, Reader); 7] = [
     ("xml", xml),
-    ("pbrt", pbrt::pbrt),
+    ("pbrt", pbrt_scene),
     ("obj", obj),
     ("ply", ply),
     ("image", image),
@@ -118,6 +118,26 @@ pub fn xml(data: &[u8]) -> String {
     scene(text, &files)
 }
 
+/// Memory that reading a scene of pbrt may take: a file of kilobytes may ask for any number of instances and triangles.
+const PBRT_MEMORY: u64 = 16 << 20;
+
+/// A scene of pbrt, with files beside it that it may name.
+pub fn pbrt_scene(data: &[u8]) -> String {
+    let files = |path: &Path| match path.to_str() {
+        Some("f.pbrt") => Ok(data.to_vec()),
+        Some(name) => {
+            pbrt::file(name).or_else(|| seeds::file(name)).ok_or_else(|| std::io::ErrorKind::NotFound.into())
+        }
+        None => no_files(path),
+    };
+    let options = Options {
+        memory: Some(PBRT_MEMORY),
+        allow_missing: data.len().is_multiple_of(2),
+        ..Options::default()
+    };
+    outcome(foton_format::open_from(Path::new("f.pbrt"), &files, &options))
+}
+
 fn as_mesh(kind: &str, data: &[u8]) -> String {
     let xml = format!(
         "<scene version='3.0.0'><sensor type='perspective'/>\
@@ -187,7 +207,7 @@ fn sum_chunks(png: &mut [u8]) {
 pub fn image(data: &[u8]) -> String {
     let path = scratch("image");
     let mut data = data.to_vec();
-    if data.starts_with(b"\x89PNG") && data.len() % 4 != 0 {
+    if data.starts_with(b"\x89PNG") && !data.len().is_multiple_of(4) {
         sum_chunks(&mut data);
     }
     if std::fs::write(&path, data).is_err() {

@@ -1,11 +1,4 @@
-//! Scenes of pbrt: what mutation starts from, and what reads it.
-
-use std::path::Path;
-
-use foton_format::{Options, open_from};
-
-/// Memory that reading may take: a file of kilobytes may ask for any number of instances and triangles.
-const MEMORY: u64 = 16 << 20;
+//! Scenes of pbrt: what mutation starts from, and files that they name.
 
 /// One of everything that a file of version 4 may say.
 const NEW: &str = "Option \"integer seed\" 1 ColorSpace \"rec2020\"
@@ -59,20 +52,16 @@ const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\npr
 const SQUARE: &[u8] = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x40\x20\x81";
 
 /// What mutation starts from.
-pub fn seeds() -> Vec<Vec<u8>> {
+pub(crate) fn seeds() -> Vec<Vec<u8>> {
     vec![NEW.into(), OLD.into()]
 }
 
-/// A scene of pbrt, with files beside it that it may name.
-pub fn pbrt(data: &[u8]) -> String {
-    let files = |path: &Path| match path.to_str() {
-        Some("f.pbrt") => Ok(data.to_vec()),
-        Some("part.pbrt") => Ok(b"Translate 1 0 0 Shape \"sphere\"".to_vec()),
-        Some("m.ply") => Ok(PLY.into()),
-        Some("square.hdr") => Ok(SQUARE.into()),
-        Some(name) => crate::seeds::file(name).ok_or_else(|| std::io::ErrorKind::NotFound.into()),
-        None => Err(std::io::ErrorKind::NotFound.into()),
-    };
-    let options = Options { memory: Some(MEMORY), allow_missing: data.len() % 2 == 0, ..Options::default() };
-    crate::outcome(open_from(Path::new("f.pbrt"), &files, &options))
+/// A file beside a scene, which it may name.
+pub(crate) fn file(name: &str) -> Option<Vec<u8>> {
+    match name {
+        "part.pbrt" => Some(b"Translate 1 0 0 Shape \"sphere\"".to_vec()),
+        "m.ply" => Some(PLY.into()),
+        "square.hdr" => Some(SQUARE.into()),
+        _ => None,
+    }
 }
