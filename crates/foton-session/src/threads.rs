@@ -65,7 +65,7 @@ pub fn start() -> Result<Option<String>, NoThreads> {
 fn check_room(count: usize) -> Result<(), NoThreads> {
     #[cfg(target_os = "linux")]
     if let Some(limit) = rustix::process::getrlimit(rustix::process::Resource::As).current {
-        let stacks = count as u64 * STACK;
+        let stacks = (count as u64).saturating_mul(STACK);
         if stacks > limit {
             let [stacks, limit] = [stacks, limit].map(|bytes| bytes >> 20);
             return Err(NoThreads(format!(

@@ -53,9 +53,10 @@ impl MeshTree {
         Self { nodes, quads, mesh, triangles, patches, patch_numbers, free, to_boxes, padding }
     }
 
-    /// Bytes held beside the mesh.
+    /// Bytes held, those of the mesh too: the scene keeps it.
     pub(crate) fn bytes(&self) -> usize {
-        size_of_val(&self.nodes[..])
+        self.mesh.bytes()
+            + size_of_val(&self.nodes[..])
             + size_of_val(&self.quads[..])
             + size_of_val(&self.triangles[..])
             + size_of_val(&self.patches[..])

@@ -87,7 +87,8 @@ impl SceneDescription {
 }
 
 impl Mesh {
-    fn bytes(&self) -> usize {
+    /// Bytes held.
+    pub(crate) fn bytes(&self) -> usize {
         (self.positions.len() + self.normals.len()) * size_of::<DVec3>()
             + self.texture_coordinates.len() * size_of::<DVec2>()
             + self.triangles.len() * size_of::<[u32; 3]>()
